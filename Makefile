@@ -1,0 +1,105 @@
+# `make` alone lists the targets. Each one sets up what it needs in .venv first.
+
+ifeq ($(OS),Windows_NT)
+PYTHON ?= python
+PY := .venv/Scripts/python.exe
+else
+PYTHON ?= python3
+PY := .venv/bin/python
+endif
+
+PIP := $(PY) -m pip --quiet --disable-pip-version-check
+CORE := .venv/core-is-installed
+DEV := .venv/dev-is-installed
+WHERE ?= starter
+
+LOCK := $(PY) -m uv pip compile pyproject.toml --group build --quiet --upgrade --universal \
+	--python-version 3.11 --generate-hashes --no-header --no-emit-index-url
+
+define CHECK_PYTHON
+import sys
+if sys.version_info < (3, 11):
+    sys.exit("The kit needs Python 3.11 or newer, but $(PYTHON) is %d.%d. "
+             "Name a newer one: make PYTHON=python3.12" % sys.version_info[:2])
+try:
+    import ensurepip, venv
+except ImportError:
+    sys.exit("$(PYTHON) cannot make a virtual environment: its venv module is missing. "
+             "On Debian and Ubuntu, install the package python3-venv.")
+endef
+export CHECK_PYTHON
+
+.PHONY: help setup grade run verify sync test soak lint format bench lock clean venv
+
+##@ Grading
+
+help: ## List the targets
+	@awk 'BEGIN { FS = ":.*## " } \
+		/^##@ / { printf "\n%s\n", substr($$0, 5) } \
+		/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+
+setup: $(CORE) ## Set up .venv for grading
+
+grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
+	@$(PY) -m grader grade $(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
+
+run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solution
+	@cd $(WHERE) && ../$(PY) -m mini_engine
+
+##@ Looking after the kit
+
+verify: $(CORE) ## Prove the marks: starter 0, solution all, each wrong submission its own
+	@$(PY) -m grader verify
+
+sync: $(CORE) ## Carry the solution's given code over into the starter
+	@$(PY) -m grader sync
+
+test: $(DEV) ## Run the test suite
+	@$(PY) -m pytest tests -n 2
+
+soak: $(DEV) ## Run the long tests that `make test` leaves out
+	@$(PY) -m pytest tests -m soak
+
+lint: $(DEV) ## Check style and types
+	$(PY) -m ruff check
+	$(PY) -m ruff format --check
+	$(PY) -m mypy
+
+format: $(DEV) ## Mend what ruff can mend
+	$(PY) -m ruff check --fix
+	$(PY) -m ruff format
+
+bench: $(CORE) ## Measure how fast the grader is
+	@$(PY) -m grader bench
+
+lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
+	$(LOCK) -o requirements.txt
+	$(LOCK) -o requirements-dev.txt --extra dev -c requirements.txt
+
+clean: ## Remove .venv and everything else that can be made again
+	rm -rf .venv build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -prune -exec rm -rf {} +
+
+# ---------------------------------------------------------------- setting up
+
+# A .venv that was not finished, or whose Python is gone, is made anew.
+$(CORE): $(shell test -x $(PY) -a -e $(CORE) || echo venv)
+
+venv:
+	@command -v $(firstword $(PYTHON)) >/dev/null || { \
+		echo "There is no $(PYTHON) here. Install Python 3.11 or newer, or name yours:" \
+			"make PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c "$$CHECK_PYTHON"
+	@echo "Making .venv with $(PYTHON) ..."
+	@$(PYTHON) -m venv --clear .venv
+
+$(CORE): requirements.txt pyproject.toml
+	@echo "Installing what grading needs into .venv (less than a minute) ..."
+	@$(PIP) install --require-hashes -r requirements.txt
+	@$(PIP) install --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(DEV): $(CORE) requirements-dev.txt
+	@echo "Installing what tests and style checks need into .venv (less than a minute) ..."
+	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@touch $@

@@ -1,0 +1,257 @@
+"""Starting, asking and ending the worker's children, from the judge's side of the wall."""
+
+import os
+import socket
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import Protocol
+
+import msgspec
+import psutil
+
+import grader
+from grader.protocol import (
+    Answered,
+    Asked,
+    Channel,
+    ChannelClosed,
+    ChannelTimeout,
+    ChildSetup,
+    End,
+    Ended,
+    Open,
+    ProtocolError,
+    Ready,
+    Request,
+)
+
+START_SECONDS = 60.0  # to start a child on the slowest machine
+WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
+
+ready_decoder = msgspec.msgpack.Decoder(Ready)
+answer_decoder = msgspec.msgpack.Decoder(Answered)
+
+BOOT = """
+import runpy, sys
+sys.path.insert(0, {root!r})
+sys.argv[1:] = {args!r}
+runpy.run_module({module!r}, run_name="__main__")
+"""
+
+
+class ChildEnded(Exception):
+    """The child gave no answer; the message says what became of it."""
+
+
+class Child:
+    """One child and the private channel to it."""
+
+    def __init__(self, channel: Channel, worker: "Worker", cpu_seconds: int) -> None:
+        self.channel, self.worker = channel, worker
+        self.wall_seconds = cpu_seconds * WALL_FACTOR + WALL_EXTRA
+        self.cpu_seconds = cpu_seconds
+        self.asked = 0
+        self.over = ""
+        try:
+            self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
+        except (ChannelClosed, ChannelTimeout, ProtocolError, msgspec.DecodeError) as error:
+            raise ChildEnded(f"the worker could not start a child: {error}") from error
+
+    def ask(self, request: Request) -> Answered:
+        """The one answer to this request, or ChildEnded: anything else ends the child for good."""
+        if self.over:
+            raise ChildEnded(self.over)
+        try:
+            if self.channel.has_unread():
+                raise ProtocolError("an answer came before its question")
+            self.asked += 1
+            self.channel.send(Asked(self.asked, request))
+            answered = answer_decoder.decode(self.channel.receive(self.wall_seconds))
+            if answered.number != self.asked:
+                raise ProtocolError("an answer to another question")
+        except ChannelTimeout:
+            self._give_up("it did not answer in time; it may be waiting for something", gone=False)
+        except ChannelClosed:
+            self._give_up("", gone=True)
+        except (ProtocolError, msgspec.DecodeError) as error:
+            self._give_up(f"what it sent is not an answer ({error})", gone=False)
+        else:
+            return answered
+        raise ChildEnded(self.over)
+
+    def _give_up(self, why: str, gone: bool) -> None:
+        status = self.worker.end(self, gone)
+        self.over = why or status
+
+    def end(self) -> None:
+        if not self.over:
+            self._give_up("the child was ended", gone=False)
+
+
+class Worker(Protocol):
+    """Where children come from."""
+
+    def open(self, setup: ChildSetup) -> Child: ...
+
+    def end(self, child: Child, gone: bool) -> str: ...
+
+    def close(self) -> None: ...
+
+
+def command(module: str, *args: str) -> list[str]:
+    """Python in isolated mode: no folder of a submission, no variable of a student is looked at."""
+    root = str(Path(grader.__file__).parents[1])
+    return [sys.executable, "-I", "-c", BOOT.format(root=root, args=list(args), module=module)]
+
+
+def explain(cpu_seconds: int, code: int) -> str:
+    """Why a child is gone, from its exit status (a negative one is a signal, as in subprocess)."""
+    if code in (-24, -9):  # SIGXCPU, and SIGKILL a second later
+        return f"it used up its {cpu_seconds} s of processor time: a loop that never ends?"
+    if code == -11:
+        return "it crashed (segmentation fault)"
+    if code < 0:
+        return f"it was ended by signal {-code}"
+    return f"it ended the program (exit status {code}) instead of answering"
+
+
+class WarmWorker:
+    """A process with everything loaded that forks a child per check."""
+
+    def __init__(self) -> None:
+        self._start()
+
+    def _start(self) -> None:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self.process = subprocess.Popen(
+                command("grader.worker.warm", str(theirs.fileno())),
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                start_new_session=True,
+                env=clean_environment(),
+            )
+        self.control = Channel(ours)
+        self.layers: list[str] = msgspec.msgpack.decode(
+            self.control.receive(START_SECONDS), type=list[str]
+        )
+
+    def open(self, setup: ChildSetup) -> Child:
+        try:
+            return self._open(Open(setup), setup)
+        except ChannelClosed:  # something killed the warm process: a new one serves as well
+            self.close()
+            self._start()
+            return self._open(Open(setup), setup)
+
+    def _open(self, message: object, setup: ChildSetup) -> Child:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self.control.send(message)
+            try:
+                socket.send_fds(self.control.sock, [b"!"], [theirs.fileno()])
+            except OSError as error:
+                raise ChannelClosed(str(error)) from error
+        return Child(Channel(ours), self, setup.limits.cpu_seconds)
+
+    def end(self, child: Child, gone: bool) -> str:
+        child.channel.close()
+        try:
+            self.control.send(End(child.ready.pid, gone))
+            ended = msgspec.msgpack.decode(self.control.receive(START_SECONDS), type=Ended)
+        except (ChannelClosed, ChannelTimeout):
+            return "it took the worker down with it"
+        code = -ended.code if ended.how == "signal" else ended.code
+        return explain(child.cpu_seconds, code)
+
+    def close(self) -> None:
+        self.control.close()  # it ends what is left of its children, and then itself
+        try:
+            self.process.wait(5)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+
+class SpawnWorker:
+    """Starts a new process for every child: for platforms without fork."""
+
+    def __init__(self) -> None:
+        self.layers: list[str] = []
+        self.processes: dict[int, subprocess.Popen[bytes]] = {}
+
+    def open(self, setup: ChildSetup) -> Child:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            process = self._start(theirs)
+        channel = Channel(ours)
+        channel.send(setup)
+        child = Child(channel, self, setup.limits.cpu_seconds)
+        self.processes[id(child)] = process
+        return child
+
+    def _start(self, theirs: socket.socket) -> "subprocess.Popen[bytes]":
+        if sys.platform == "win32":
+            process = subprocess.Popen(
+                command("grader.worker.spawned"),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                env=clean_environment(),
+            )
+            assert process.stdin is not None
+            process.stdin.write(theirs.share(process.pid))
+            process.stdin.close()
+            return process
+        return subprocess.Popen(
+            command("grader.worker.spawned", str(theirs.fileno())),
+            pass_fds=[theirs.fileno()],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+            env=clean_environment(),
+        )
+
+    def end(self, child: Child, gone: bool) -> str:
+        child.channel.close()
+        process = self.processes.pop(id(child))
+        if gone:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(0.5)
+        left = []
+        with suppress(psutil.NoSuchProcess):
+            left = psutil.Process(process.pid).children(recursive=True)
+        if hasattr(os, "killpg"):
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(process.pid, 9)
+        for each in left:
+            with suppress(psutil.NoSuchProcess):
+                each.kill()
+        process.kill()
+        return explain(child.cpu_seconds, process.wait())
+
+    def close(self) -> None:
+        for process in self.processes.values():
+            process.kill()
+
+
+def clean_environment() -> dict[str, str]:
+    """Nothing of the instructor's environment travels: no token, no path, no Python setting."""
+    kept = ("PATH", "SYSTEMROOT", "LD_LIBRARY_PATH")
+    names = {name: os.environ[name] for name in kept if name in os.environ}
+    return names | {
+        "SDL_VIDEODRIVER": "dummy",
+        "SDL_AUDIODRIVER": "dummy",
+        "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+        "PYTHONHASHSEED": "0",
+        "LANG": "C.UTF-8",
+        "TZ": "UTC",
+    }
+
+
+def start_worker(spawn: bool = False) -> WarmWorker | SpawnWorker:
+    """The fastest kind this platform has; `spawn` forces the portable one."""
+    return SpawnWorker() if spawn or not hasattr(os, "fork") else WarmWorker()

@@ -1,0 +1,211 @@
+"""Grading one submission, from a path to a Result."""
+
+import os
+import shutil
+import stat
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import hypothesis
+import msgspec
+import pytest
+
+from grader.judge import misconceptions
+from grader.judge.children import Child, ChildEnded, SpawnWorker, WarmWorker, start_worker
+from grader.judge.lab import Broke, Lab, NotYet
+from grader.judge.plugin import GradingPlugin
+from grader.judge.reference import Reference
+from grader.judge.result import CheckResult, Result, TodoResult, state_of
+from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.judge.submission import CannotGrade, Submission, take_in
+from grader.protocol import ChildSetup, Limits
+from grader.todo_regions import shape_of
+
+Isolation = Literal["auto", "strict", "none"]
+KIT = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to grade; the defaults are what `make grade` uses."""
+
+    reference: Path | None = None
+    isolation: Isolation = "auto"
+    only: frozenset[str] = frozenset()  # TODO ids; empty for all
+    seed: int | None = None  # an instructor's secret, instead of the fixed examples
+    spawn: bool = False  # start each child anew, as on platforms without fork
+    progress: Callable[[CheckResult], None] = lambda check: None
+
+
+def shipped_reference() -> Path | None:
+    """The solution beside the grader, where the whole kit is checked out."""
+    folder = KIT / "solution"
+    return folder if (folder / "mini_engine").is_dir() else None
+
+
+def grade(path: Path, options: Options) -> Result:
+    """Grade the submission at `path`; raises CannotGrade when there is nothing to grade."""
+    rubric = load_rubric()
+    reference = Reference(options.reference, rubric)
+    with work_folder() as work:
+        submission = take_in(path, work / "submission", rubric, load_stubs())
+        worker = start_worker(options.spawn)
+        try:
+            grading = Grading(options, rubric, reference, submission, worker, work)
+            return grading.run()
+        finally:
+            worker.close()
+
+
+def load_stubs() -> dict[str, str]:
+    """The shapes of the starter's stubs: of each region, and of the function around it."""
+    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
+    return {name: shape_of(source) for name, source in stubs.items()}
+
+
+@contextmanager
+def work_folder() -> Iterator[Path]:
+    """A folder of our own, removed afterwards even where a submission made parts read-only."""
+    work = Path(tempfile.mkdtemp(prefix="grader-")).resolve()
+    try:
+        yield work
+    finally:
+        for folder, _, _ in os.walk(work):
+            os.chmod(folder, stat.S_IRWXU)
+        shutil.rmtree(work, ignore_errors=True)
+
+
+@dataclass
+class Grading:
+    """One run of the checks against one submission."""
+
+    options: Options
+    rubric: Rubric
+    reference: Reference
+    submission: Submission
+    worker: WarmWorker | SpawnWorker
+    work: Path
+
+    def run(self) -> Result:
+        layers = self.layers()
+        plugin = GradingPlugin(
+            self.submission,
+            self.rubric,
+            self.reference,
+            self.open_child,
+            self.find_unusable(),
+            self.options.only,
+            self.options.seed,
+            self.options.progress,
+        )
+        run_pytest(plugin, self.rubric)
+        return self.result(plugin, layers)
+
+    # ------------------------------------------------------------ children
+
+    def open_child(self, cpu_seconds: int) -> Child:
+        scratch = Path(tempfile.mkdtemp(dir=self.work))
+        return self.worker.open(
+            ChildSetup(
+                submission=str(self.submission.folder),
+                scratch=str(scratch),
+                limits=Limits(cpu_seconds=cpu_seconds),
+                confine=self.options.isolation != "none",
+                hidden=[str(KIT / "grader"), str(self.options.reference or KIT / "solution")],
+            )
+        )
+
+    def layers(self) -> list[str]:
+        """What shuts a child in on this machine, found out with an empty one."""
+        child = self.open_child(10)
+        child.end()
+        layers = ["processes", *child.ready.layers, *self.worker.layers]
+        if self.options.isolation == "none":
+            return ["processes"]
+        files = "landlock-files" in layers
+        network = "network-namespace" in layers or "landlock-tcp" in layers
+        if self.options.isolation == "strict" and not (files and network):
+            missing = [n for n, held in (("files", files), ("network", network)) if not held]
+            raise CannotGrade(
+                f"--isolation=strict: this machine cannot confine {' and '.join(missing)} "
+                f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
+            )
+        return layers
+
+    def find_unusable(self) -> dict[str, Broke | NotYet]:
+        """The modules that cannot be imported, each tried once instead of in every check."""
+        modules = dict.fromkeys(
+            check.module or todo.module for todo in self.rubric.todos for check in todo.checks
+        )
+        unusable: dict[str, Broke | NotYet] = {}
+        for module in modules:
+            lab = Lab(module, lambda: self.open_child(10), [])
+            lab.ran(f"import {module}")
+            with lab.opened():
+                try:
+                    lab.probe()
+                except (Broke, NotYet) as failure:
+                    unusable[module] = failure
+        return unusable
+
+    # ------------------------------------------------------------ the result
+
+    def result(self, plugin: GradingPlugin, layers: list[str]) -> Result:
+        todos = []
+        for todo in self.rubric.todos:
+            if self.options.only and todo.id not in self.options.only:
+                continue
+            checks = [plugin.results[todo.id, check.id] for check in todo.checks]
+            mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
+            failed = any(check.state == "not yet" for check in checks)
+            if mistake is not None and failed:
+                checks = [with_meaning(check, mistake.meaning) for check in checks]
+            todos.append(
+                TodoResult(
+                    todo.id,
+                    todo.title,
+                    state_of(checks),
+                    sum(check.points for check in checks),
+                    todo.max_points,
+                    mistake.id if mistake is not None and failed else None,
+                    checks,
+                )
+            )
+        return Result(
+            schema=1,
+            submission=self.submission.name,
+            points=sum(todo.points for todo in todos),
+            max_points=sum(todo.max_points for todo in todos),
+            bonus=0,
+            isolation=layers,
+            todos=todos,
+        )
+
+
+def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
+    return msgspec.structs.replace(check, meaning=meaning) if check.state == "not yet" else check
+
+
+def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
+    """Run the checks in this process. The submission's folder is no part of it."""
+    files = dict.fromkeys(str(CHECKS / f"{todo.file}.py") for todo in rubric.todos)
+    before = hypothesis.settings.get_current_profile_name()
+    hypothesis.settings.load_profile("judge")
+    try:
+        status = pytest.main(
+            [
+                *("-c", str(CHECKS / "pytest.ini"), "--rootdir", str(CHECKS)),
+                *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:faulthandler"),
+                *("-p", "no:hypothesispytest"),
+                *("--import-mode", "importlib", "--noconftest", "--assert=plain", *files),
+            ],
+            plugins=[plugin],
+        )
+    finally:
+        hypothesis.settings.load_profile(before)
+    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+        raise CannotGrade(f"the checks themselves could not be run (pytest said {status!r})")

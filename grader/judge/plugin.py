@@ -1,0 +1,172 @@
+"""The pytest plugin: collects what the rubric names, runs it against one submission, keeps score."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import hypothesis
+import pytest
+
+from grader.judge.children import Child
+from grader.judge.lab import Broke, Lab, NotYet, Observation
+from grader.judge.reference import Reference
+from grader.judge.result import CheckResult, State, Where
+from grader.judge.rubric import Check, Rubric, Todo
+from grader.judge.submission import Submission
+
+EXAMPLES = 40  # per property
+
+hypothesis.settings.register_profile(
+    "judge",
+    derandomize=True,
+    deadline=None,
+    database=None,
+    max_examples=EXAMPLES,
+    report_multiple_bugs=False,
+    print_blob=False,
+    phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
+    suppress_health_check=list(hypothesis.HealthCheck),
+)
+
+
+@dataclass
+class GradingPlugin:
+    """One grading run: what the checks are given, and what came of each."""
+
+    submission: Submission
+    rubric: Rubric
+    reference: Reference
+    open_child: Callable[[int], Child]  # takes the budget in CPU seconds
+    unusable: dict[str, Broke | NotYet]  # module -> why it cannot be imported
+    only: frozenset[str] = frozenset()  # TODO ids; empty for all
+    seed: int | None = None
+    progress: Callable[[CheckResult], None] = lambda check: None
+    results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
+    observations: dict[str, list[Observation]] = field(default_factory=dict)
+    isolation: list[str] = field(default_factory=list)
+
+    # ------------------------------------------------------------ collecting
+
+    def pytest_pycollect_makeitem(self, collector: Any, name: str, obj: Any) -> list[Any]:
+        """Only functions that the rubric names are checks, whatever they are called."""
+        todos = [t for t in self.rubric.todos if t.file == collector.path.stem]
+        found = [(t, check) for t in todos for check in t.checks if check.id == name]
+        items = []
+        for todo, check in found:
+            if self.only and todo.id not in self.only:
+                continue
+            item = pytest.Function.from_parent(collector, name=f"{name}[{todo.id}]", callobj=obj)
+            item.stash[TODO], item.stash[CHECK] = todo, check
+            items.append(item)
+        return items
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """In the order of the rubric, so that every report reads like the lab sheet."""
+        order = {
+            (todo.id, check.id): number
+            for number, (todo, check) in enumerate(
+                (todo, check) for todo in self.rubric.todos for check in todo.checks
+            )
+        }
+        items.sort(key=lambda item: order[item.stash[TODO].id, item.stash[CHECK].id])
+
+    @pytest.fixture
+    def lab(self) -> None:
+        """Filled in by `pytest_pyfunc_call`, once per attempt."""
+
+    # ------------------------------------------------------------ running
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_pyfunc_call(self, pyfuncitem: pytest.Function) -> bool:
+        todo, check = pyfuncitem.stash[TODO], pyfuncitem.stash[CHECK]
+        title = (pyfuncitem.obj.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
+        result = self._blocked(todo, check, title)
+        if result is None:
+            result = self._run(todo, check, title, pyfuncitem.obj)
+        self.results[todo.id, check.id] = result
+        self.progress(result)
+        return True
+
+    def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
+        """The result of a check that need not run."""
+        begun = self.submission.begun
+        waiting = [each for each in check.needs if not begun.get(each, True)]
+        none_begun = not any(begun.get(each.id, True) for each in self.rubric.todos if each.function)
+        if todo.function and not begun.get(todo.id, True):
+            return self._result(todo, check, title, "not started")
+        if not todo.function and none_begun:
+            return self._result(todo, check, title, "not started")
+        why = self.unusable.get(check.module or todo.module)
+        if why is not None:
+            return self._failure(todo, check, title, why)
+        if waiting:
+            text = f"waiting for TODO {', '.join(waiting)}"
+            return self._result(todo, check, title, "waiting", got=text)
+        return None
+
+    def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
+        """With the reference in the other TODOs' places; failing that, the program as it is."""
+        lab = self._attempt(todo, check, function, isolated=True)
+        if lab.failure is not None and lab.swapped:
+            as_it_is = self._attempt(todo, check, function, isolated=False)
+            lab = as_it_is if as_it_is.failure is None else lab
+        self.observations.setdefault(todo.id, []).extend(lab.observations)
+        if lab.failure is not None:
+            return self._failure(todo, check, title, lab.failure)
+        return self._result(todo, check, title, "passed")
+
+    def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
+        pieces = self.reference.for_the_others(todo, self.rubric) if isolated else []
+        lab = Lab(
+            check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces
+        )
+        with lab.opened():
+            try:
+                function = hypothesis.seed(self.seed)(function) if self.seed else function
+                function(lab=lab)
+            except (NotYet, Broke) as failure:
+                lab.failure = failure
+            except hypothesis.errors.Flaky:
+                pass  # the lab kept the first failure
+            except Exception as error:  # an answer that our own arithmetic cannot stand
+                name = type(error).__name__
+                lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
+        self.isolation = self.isolation or lab.isolation
+        return lab
+
+    # ------------------------------------------------------------ results
+
+    def _failure(
+        self, todo: Todo, check: Check, title: str, failure: NotYet | Broke
+    ) -> CheckResult:
+        where = self.submission.where.get(todo.id)
+        if isinstance(failure, NotYet):
+            return self._result(
+                todo,
+                check,
+                title,
+                "not yet",
+                ran=failure.ran,
+                expected=failure.expected,
+                got=failure.got,
+                meaning=failure.meaning,
+                where=where,
+            )
+        got = failure.got
+        if failure.raised is not None and failure.raised.frames:
+            last = failure.raised.frames[-1]
+            where = Where(last.file, last.line)
+            got += f" (in {last.file}, line {last.line}: {last.text})"
+        return self._result(
+            todo, check, title, "error", ran=failure.ran, expected="an answer", got=got, where=where
+        )
+
+    def _result(
+        self, todo: Todo, check: Check, title: str, state: State, **words: Any
+    ) -> CheckResult:
+        points = check.points if state == "passed" else 0
+        return CheckResult(check.id, title, check.kind, state, points, check.points, **words)
+
+
+TODO = pytest.StashKey[Todo]()
+CHECK = pytest.StashKey[Check]()

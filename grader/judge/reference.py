@@ -1,0 +1,56 @@
+"""The reference's functions, cut out one by one, to stand in for a submission's unfinished ones."""
+
+import ast
+import textwrap
+from pathlib import Path
+
+from grader.judge.rubric import Rubric, Todo
+from grader.judge.submission import CannotGrade, function_named
+from grader.protocol import Piece
+from grader.todo_regions import python_files, read_source
+
+
+class Reference:
+    """A complete tree, read as text; without one, no TODO can be isolated."""
+
+    def __init__(self, folder: Path | None, rubric: Rubric) -> None:
+        self.pieces: dict[str, Piece] = {}
+        if folder is None:
+            return
+        if not folder.is_dir():
+            raise CannotGrade(f"there is no reference at {folder}: name the solution's folder")
+        for todo in rubric.todos:
+            if todo.function:
+                self.pieces[todo.id] = cut_out(folder, todo)
+
+    def for_the_others(self, todo: Todo, rubric: Rubric) -> list[Piece]:
+        """The pieces of every other TODO of the same program."""
+        return [
+            self.pieces[other.id]
+            for other in rubric.todos
+            if other.id in self.pieces and other.id != todo.id and other.module == todo.module
+        ]
+
+
+def cut_out(folder: Path, todo: Todo) -> Piece:
+    path = todo.function.partition(":")[2]
+    for file in python_files(folder):
+        if file.relative_to(folder).parts[0].removesuffix(".py") != todo.module:
+            continue
+        text = read_source(file)
+        found = function_named(text, path)
+        if found is not None:
+            lines = text.splitlines()[found.lineno - 1 : found.end_lineno]
+            return Piece(todo.function, textwrap.dedent("\n".join(lines)), plain_imports(text))
+    raise CannotGrade(f"the reference at {folder} has no {path}, which TODO {todo.id} is about")
+
+
+def plain_imports(text: str) -> str:
+    """The imports of libraries; the program's own names are found in the submission."""
+    return "\n".join(
+        ast.unparse(node)
+        for node in ast.parse(text).body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        and not getattr(node, "level", 0)
+        and "lab_runtime" not in ast.unparse(node)
+    )

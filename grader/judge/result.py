@@ -1,0 +1,59 @@
+"""What a grade is: the one result that every report and export is made from."""
+
+from typing import Literal
+
+from msgspec import Struct
+
+State = Literal["passed", "not yet", "not started", "waiting", "error"]
+Kind = Literal["unit", "property", "scene"]
+
+
+class Where(Struct, frozen=True):
+    file: str
+    line: int
+
+
+class CheckResult(Struct, frozen=True):
+    """One check: what ran, what should have come out, and what did."""
+
+    id: str
+    title: str
+    kind: Kind
+    state: State
+    points: int
+    max_points: int
+    ran: str = ""
+    expected: str = ""
+    got: str = ""
+    meaning: str = ""
+    where: Where | None = None
+    replay: str | None = None
+
+
+class TodoResult(Struct, frozen=True):
+    id: str
+    title: str
+    state: State
+    points: int
+    max_points: int
+    misconception: str | None
+    checks: list[CheckResult]
+
+
+class Result(Struct, frozen=True):
+    """Schema 1 of the JSON that `--json` writes."""
+
+    schema: int
+    submission: str
+    points: int
+    max_points: int
+    bonus: int
+    isolation: list[str]
+    todos: list[TodoResult]
+
+
+def state_of(checks: list[CheckResult]) -> State:
+    """A TODO is passed when all its checks are; otherwise the most telling of their states."""
+    states = {check.state for check in checks}
+    order: list[State] = ["error", "not yet", "waiting", "not started"]
+    return next((state for state in order if state in states), "passed")

@@ -1,0 +1,51 @@
+"""The rubric: which TODOs there are, which checks each has, and what they are worth."""
+
+from functools import cache
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+from grader.judge.result import Kind
+
+CHECKS = Path(__file__).parents[1] / "checks"
+
+
+class Check(Struct, frozen=True, forbid_unknown_fields=True):
+    id: str  # the name of a function in the TODO's file of checks
+    points: int
+    kind: Kind
+    module: str = ""  # what it imports, where that is not the TODO's module
+    needs: list[str] = []  # TODOs this check cannot do without
+    cpu_seconds: int = 10  # budget of one child; the reference needs about a twentieth
+
+
+class Todo(Struct, frozen=True, forbid_unknown_fields=True):
+    id: str
+    title: str
+    module: str  # what a check of this TODO imports
+    function: str  # the function the TODO lives in, as module:name; empty for the whole
+    file: str  # the file of checks
+    checks: list[Check]
+
+    @property
+    def mistakes(self) -> str:
+        """The module of the known mistakes in this TODO."""
+        return self.file.replace("todo", "mistakes")
+
+    @property
+    def max_points(self) -> int:
+        return sum(check.points for check in self.checks)
+
+
+class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
+    todos: list[Todo]
+
+    @property
+    def max_points(self) -> int:
+        return sum(todo.max_points for todo in self.todos)
+
+
+@cache
+def load_rubric() -> Rubric:
+    return msgspec.toml.decode((CHECKS / "rubric.toml").read_bytes(), type=Rubric)

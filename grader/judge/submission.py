@@ -1,0 +1,123 @@
+"""Taking in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
+
+import ast
+import os
+import shutil
+import stat
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from grader.judge.result import Where
+from grader.judge.rubric import Rubric, Todo
+from grader.todo_regions import RegionError, python_files, read_source, regions_in, shape_of
+
+MAX_FILES = 500
+MAX_BYTES = 20 * 1024 * 1024
+IGNORED = {".git", ".venv", "venv", "__pycache__", "__MACOSX", "node_modules", "build", ".ipynb_checkpoints"}
+
+
+class CannotGrade(Exception):
+    """Nothing here that could be graded; the message says why and what to do."""
+
+
+@dataclass
+class Submission:
+    """The copy of a submission and where its TODOs stand."""
+
+    name: str
+    folder: Path
+    begun: dict[str, bool] = field(default_factory=dict)
+    where: dict[str, Where] = field(default_factory=dict)
+    left_out: list[str] = field(default_factory=list)
+
+
+def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
+    """Copy what may be copied, make it read-only, and find the TODOs in it."""
+    if not path.exists():
+        raise CannotGrade(f"there is no submission at {path}: name a folder or a Python file")
+    submission = Submission(path.resolve().name, copy)
+    copy.mkdir(parents=True)
+    if path.is_file():
+        shutil.copyfile(path, copy / path.name)
+    else:
+        copy_tree(path, submission)
+    find_todos(submission, rubric, stubs)
+    for each in [copy, *copy.rglob("*")]:
+        mode = stat.S_IRUSR | stat.S_IRGRP | stat.S_IROTH
+        each.chmod(mode | (stat.S_IXUSR if each.is_dir() else 0))
+    return submission
+
+
+def copy_tree(path: Path, submission: Submission) -> None:
+    """Plain files only: no links, nothing hidden, and no more than the bounds."""
+    files = size = 0
+    for folder, folders, names in os.walk(path):
+        here = Path(folder)
+        folders[:] = sorted(
+            name
+            for name in folders
+            if name not in IGNORED and not name.startswith(".") and not (here / name).is_symlink()
+        )
+        for name in sorted(names):
+            source = here / name
+            inside = source.relative_to(path)
+            if source.is_symlink() or not source.is_file():
+                submission.left_out.append(f"{inside.as_posix()}: a link or no plain file")
+                continue
+            files, size = files + 1, size + source.stat().st_size
+            if files > MAX_FILES or size > MAX_BYTES:
+                submission.left_out.append(f"{inside.as_posix()} and what follows: too much")
+                return
+            target = submission.folder / inside
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+
+
+def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
+    """Where each TODO stands, and whether anything but the stub stands there."""
+    sources = {path: read_source(path) for path in python_files(submission.folder)}
+    for path, text in sources.items():
+        file = path.relative_to(submission.folder).as_posix()
+        try:
+            regions = regions_in(text)
+        except RegionError:
+            continue
+        for region in regions:
+            submission.where.setdefault(region.id, Where(file, region.start + 1))
+            submission.begun[region.id] = region.shape != stubs.get(region.id)
+    for todo in rubric.todos:
+        if todo.function and todo.id not in submission.begun:
+            look_for_function(submission, todo, stubs, sources)
+
+
+def look_for_function(
+    submission: Submission, todo: Todo, stubs: dict[str, str], sources: dict[Path, str]
+) -> None:
+    """For a submission without our markers: the function that the TODO is about."""
+    submission.begun[todo.id] = True
+    for path, text in sources.items():
+        found = function_named(text, todo.function.partition(":")[2])
+        file = path.relative_to(submission.folder).as_posix()
+        if found is not None and file.split("/")[0].removesuffix(".py") == todo.module:
+            submission.where[todo.id] = Where(file, found.lineno)
+            source = ast.get_source_segment(text, found) or ""
+            submission.begun[todo.id] = shape_of(source) != stubs.get(f"def {todo.id}")
+            return
+
+
+def function_named(text: str, path: str) -> ast.FunctionDef | None:
+    """The definition of `name` or `Class.name` in a source text."""
+    try:
+        body: list[ast.stmt] = ast.parse(text).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+    owner, _, name = path.rpartition(".")
+    if owner:
+        body = [
+            each
+            for node in body
+            if isinstance(node, ast.ClassDef) and node.name == owner
+            for each in node.body
+        ]
+    found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
+    return found[-1] if found else None

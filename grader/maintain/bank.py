@@ -1,0 +1,175 @@
+"""The bank: submissions that are wrong, right or hostile, and the marks each must get.
+
+- `tests/bank/wrong/4-clamps-the-increment.py`: the solution with this one region put in; TODO 4
+  must lose points and no other TODO may. Graded as a package and as a single file.
+- `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
+- `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
+"""
+
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+from msgspec import Struct
+
+from grader.judge.result import Result
+from grader.todo_regions import python_files, read_source, regions_in, replaced
+
+Kind = Literal["wrong", "right", "hostile"]
+Form = Literal["package", "single file"]
+Base = Literal["solution", "starter", "empty"]
+
+
+class Entry(Struct, frozen=True, forbid_unknown_fields=True):
+    """What bank.toml says of a member that is more than a patch of the solution."""
+
+    why: str = ""
+    base: Base = "solution"
+    points: int | None = None  # exactly; None: all of them
+    transform: str = ""
+    seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
+
+
+class Book(Struct, frozen=True, forbid_unknown_fields=True):
+    right: dict[str, Entry] = {}
+    hostile: dict[str, Entry] = {}
+
+
+@dataclass(frozen=True)
+class Member:
+    """One submission of the bank in one form."""
+
+    kind: Kind
+    name: str
+    form: Form
+    entry: Entry
+    source: Path | None  # a patch, a folder to lay over the base, or nothing but a transform
+
+    @property
+    def todos(self) -> frozenset[str]:
+        """The TODOs whose regions a patch replaces."""
+        if self.source is None or self.source.suffix != ".py":
+            return frozenset()
+        return frozenset(region.id for region in regions_in(read_source(self.source)))
+
+    def build(self, kit: Path, folder: Path) -> None:
+        """Write the submission into `folder`, which must not exist."""
+        base = self.entry.base
+        if base == "empty":
+            folder.mkdir(parents=True)
+        else:
+            ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
+            shutil.copytree(kit / base, folder, ignore=ignored)
+        if self.form == "single file":
+            use_single_file(kit, folder)
+        if self.source is not None and self.source.is_dir():
+            lay_over(self.source, folder)
+        elif self.source is not None:
+            patch(self.source, folder)
+        if self.entry.transform:
+            TRANSFORMS[self.entry.transform](folder)
+
+    def complaint(self, result: Result, seconds: float) -> str:
+        """What is wrong with the marks this member got; empty when they are what they must be."""
+        lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
+        if self.kind == "wrong":
+            unharmed = sorted(self.todos - set(lost))
+            others = sorted(set(lost) - self.todos - {"whole"})
+            if unharmed:
+                return f"TODO {', '.join(unharmed)} loses nothing"
+            return f"TODO {', '.join(others)} must not lose anything" if others else ""
+        points = result.max_points if self.entry.points is None else self.entry.points
+        if result.points != points:
+            return f"{result.points} points instead of {points}; lost: {lost}"
+        if seconds > self.entry.seconds:
+            return f"took {seconds:.0f} s, more than {self.entry.seconds} s"
+        return ""
+
+    def misnamed(self, result: Result) -> Literal["right", "wrong", "none"]:
+        """How the mistake of a wrong member was named."""
+        names = {todo.misconception for todo in result.todos} - {None}
+        if not names:
+            return "none"
+        return "right" if names == {self.name.partition("-")[2]} else "wrong"
+
+
+def members(kit: Path) -> Iterator[Member]:
+    """Every member of the bank, wrong ones in each form they can take."""
+    bank = kit / "tests" / "bank"
+    book = msgspec.toml.decode((bank / "bank.toml").read_bytes(), type=Book)
+    for path in sorted((bank / "wrong").glob("*.py")):
+        member = Member("wrong", path.stem, "package", Entry(), path)
+        yield member
+        if member.todos <= set("123456"):
+            yield Member("wrong", path.stem, "single file", Entry(), path)
+    kinds: list[tuple[Kind, dict[str, Entry]]] = [("right", book.right), ("hostile", book.hostile)]
+    for kind, entries in kinds:
+        files = {path.stem: path for path in sorted((bank / kind).glob("*"))}
+        for name in sorted(files | entries):
+            yield Member(kind, name, "package", entries.get(name, Entry()), files.get(name))
+    yield Member("right", "single-file", "single file", Entry(), None)
+
+
+def use_single_file(kit: Path, folder: Path) -> None:
+    shutil.rmtree(folder / "mini_engine")
+    shutil.copyfile(
+        kit / "tests" / "bank" / "single_file" / "mini_engine.py", folder / "mini_engine.py"
+    )
+
+
+def lay_over(source: Path, folder: Path) -> None:
+    """A single mini_engine.py takes the place of the package."""
+    if (source / "mini_engine.py").exists():
+        shutil.rmtree(folder / "mini_engine", ignore_errors=True)
+    shutil.copytree(source, folder, dirs_exist_ok=True)
+
+
+def patch(source: Path, folder: Path) -> None:
+    """Put the regions of `source` in the place of those in the files of `folder`."""
+    wanted = {region.id: region.lines for region in regions_in(read_source(source))}
+    for path in python_files(folder):
+        text = read_source(path)
+        here = {
+            region.id: tuple(
+                indent_of(text.splitlines()[region.start]) + line if line else line
+                for line in wanted[region.id]
+            )
+            for region in regions_in(text)
+            if region.id in wanted
+        }
+        if here:
+            path.write_text(replaced(text, here), encoding="utf-8")
+            wanted = {name: lines for name, lines in wanted.items() if name not in here}
+    if wanted:
+        raise ValueError(f"{source.name} patches TODO {', '.join(wanted)}, which is nowhere")
+
+
+def indent_of(line: str) -> str:
+    return line[: len(line) - len(line.lstrip())]
+
+
+# ---------------------------------------------------------------- transforms
+
+
+def rewrite(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
+    def transform(folder: Path) -> None:
+        for path in python_files(folder):
+            path.write_bytes(change(path.read_bytes()))
+
+    return transform
+
+
+def link_out(folder: Path) -> None:
+    (folder / "link").symlink_to(folder.parent, target_is_directory=True)
+    (folder / "passwords.txt").symlink_to("/etc/passwd")
+
+
+TRANSFORMS: dict[str, Callable[[Path], None]] = {
+    "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
+    "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),
+    "tabs": rewrite(lambda data: data.replace(b"    ", b"\t")),
+    "symlink": link_out,
+}

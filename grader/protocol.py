@@ -1,0 +1,383 @@
+"""The messages between the judge and the worker's children: all that both sides share.
+
+Everything that crosses is plain data in MessagePack, decoded into the strict types below: a number
+stays a number, a bool is never one, and an unknown shape is a `ProtocolError`. A message is framed
+by its length (4 bytes, big-endian).
+"""
+
+import select
+import socket
+import struct
+import time
+from typing import Literal
+
+import msgspec
+from msgspec import Struct
+
+MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
+HEADER = struct.Struct(">I")
+
+# ---------------------------------------------------------------- values
+
+
+class Vec(Struct, frozen=True, tag="vec"):
+    """A pair of numbers, in px or px/s; also any returned pair, such as (x, v)."""
+
+    x: float
+    y: float
+
+    def __iter__(self):  # type: ignore[no-untyped-def]
+        return iter((self.x, self.y))
+
+
+class Ref(Struct, frozen=True, tag="ref"):
+    """An object that lives in the child; `kind` is its type's name."""
+
+    id: int
+    kind: str = ""
+
+
+class Items(Struct, frozen=True, tag="items"):
+    items: "list[Value]"
+
+
+class BodyValue(Struct, frozen=True, tag="body"):
+    """A lesson body as the child shows it: px, px/s, rad, rad/s."""
+
+    ref: int
+    pos: Vec
+    vel: Vec
+    angle: float
+    omega: float
+    inv_mass: float
+    inv_inertia: float
+    radius: float  # px, 0 for a box
+
+
+class ContactValue(Struct, frozen=True, tag="contact"):
+    ref: int
+    a: int  # the ref of body A
+    b: int
+    normal: Vec
+    depth: float
+    point: Vec
+    jn: float
+    jt: float
+
+
+class ShapeValue(Struct, frozen=True):
+    kind: str  # Circle, Segment or Poly
+    radius: float
+    box: tuple[float, float, float, float]  # left, bottom, right, top in px
+    friction: float
+    elasticity: float
+
+
+class SpaceBody(Struct, frozen=True, tag="space_body"):
+    """A pymunk body, or the space's static body with the shapes on it."""
+
+    ref: int
+    kind: Literal["dynamic", "kinematic", "static"]
+    pos: Vec
+    vel: Vec
+    angle: float
+    omega: float
+    mass: float
+    moment: float | None  # None where pymunk says infinity
+    shapes: list[ShapeValue]
+
+
+class SpaceJoint(Struct, frozen=True):
+    kind: str
+    a: int
+    b: int
+    anchor_a: Vec | None  # in world coordinates
+    anchor_b: Vec | None
+    distance: float | None
+
+
+class SpaceValue(Struct, frozen=True, tag="space"):
+    ref: int
+    gravity: Vec
+    damping: float
+    bodies: list[SpaceBody]
+    joints: list[SpaceJoint]
+
+
+Value = (
+    None
+    | bool
+    | int
+    | float
+    | str
+    | Vec
+    | Ref
+    | Items
+    | BodyValue
+    | ContactValue
+    | SpaceBody
+    | SpaceValue
+)
+
+
+class Rng(Struct, frozen=True, tag="rng"):
+    """Becomes `random.Random(seed)` in the child."""
+
+    seed: int
+
+
+class Force(Struct, frozen=True, tag="force"):
+    """Becomes `accel(x)`: a polynomial in x, lowest power first; the child counts its calls."""
+
+    coefficients: list[float]
+
+
+Argument = None | bool | int | float | str | Vec | Ref | Rng | Force
+
+# ---------------------------------------------------------------- judge to child
+
+
+class Piece(Struct, frozen=True):
+    """One function of the reference, to stand in for the submission's own."""
+
+    target: str  # module:name or module:Class.method
+    source: str
+    imports: str
+
+
+class Import(Struct, frozen=True, tag="import"):
+    module: str
+    pieces: list[Piece] = []
+
+
+class Call(Struct, frozen=True, tag="call"):
+    """`target` is module:name, or #id.method for an object of the child."""
+
+    target: str
+    args: list[Argument] = []
+    kwargs: dict[str, Argument] = {}
+
+
+class Get(Struct, frozen=True, tag="get"):
+    ref: int
+    name: str = ""  # empty: the object itself
+
+
+class Set(Struct, frozen=True, tag="set"):
+    ref: int
+    fields: dict[str, Argument]
+
+
+class Append(Struct, frozen=True, tag="append"):
+    """Append an object to a list attribute, such as `world.joints`."""
+
+    ref: int
+    name: str
+    item: int
+
+
+class Simulate(Struct, frozen=True, tag="simulate"):
+    """Call `step(dt)` on an object `steps` times and record the watched bodies after each `every`."""
+
+    ref: int
+    dt: float
+    steps: int
+    watch: list[int]
+    every: int = 1
+    contacts: bool = False
+
+
+class Event(Struct, frozen=True):
+    frame: int
+    kind: Literal["click", "key"]
+    pos: tuple[int, int] = (0, 0)
+    key: str = ""
+
+
+class Play(Struct, frozen=True, tag="play"):
+    """Run a program's main() headless: one entry of `frames` per frame, its length in whole ms."""
+
+    module: str
+    frames: list[int]
+    events: list[Event] = []
+    physics: bool = True  # False: steps are counted and not run
+    trail_every: int = 0  # record every moving body after each so many steps; 0 = never
+    picture: bool = False
+
+
+Request = Import | Call | Get | Set | Append | Simulate | Play
+
+# ---------------------------------------------------------------- child to judge
+
+
+class Returned(Struct, frozen=True, tag="returned"):
+    value: Value
+    force_calls: int = 0
+
+
+class CodeLine(Struct, frozen=True):
+    file: str
+    line: int
+    function: str
+    text: str
+
+
+class Raised(Struct, frozen=True, tag="raised"):
+    error: str
+    message: str
+    frames: list[CodeLine]  # the student's own frames, outermost first
+
+
+class Missing(Struct, frozen=True, tag="missing"):
+    """A name or file that the contract asks for is not there."""
+
+    what: str
+
+
+class ContactRow(Struct, frozen=True, array_like=True):
+    a: int
+    b: int
+    nx: float
+    ny: float
+    depth: float
+    jn: float
+    jt: float
+    limit: float  # sqrt(mu_a mu_b) * jn as the bodies' friction gives it
+
+
+class Simulated(Struct, frozen=True, tag="simulated"):
+    frames: list[list[float]]  # x, y, vx, vy, angle, omega of each watched body
+    contacts: list[list[ContactRow]] = []
+
+
+class Played(Struct, frozen=True, tag="played"):
+    """What a program did, frame by frame."""
+
+    steps: list[int]  # fixed steps that ran in each frame
+    clock: list[float]  # the scripted time at the end of each frame, ms
+    dts: list[float]  # the different step sizes seen, at most 16 of them
+    ended: Literal["returned", "stopped"]
+    lines: list[str]
+    bodies: list[BodyValue | SpaceBody]
+    rods: list[tuple[float, float]]  # distance now, length meant; px
+    trail: list[list[float]] = []
+    picture: bytes = b""  # PNG
+
+
+Reply = Returned | Raised | Missing | Simulated | Played
+
+
+class Asked(Struct, frozen=True):
+    number: int
+    request: Request
+
+
+class Answered(Struct, frozen=True):
+    number: int
+    reply: Reply
+    output: str = ""  # what the submission printed since the last answer, cut to a bound
+
+
+# ---------------------------------------------------------------- starting a child
+
+
+class Limits(Struct, frozen=True):
+    cpu_seconds: int = 10
+    memory_mb: int = 1024
+    file_mb: int = 16
+    open_files: int = 128
+    processes: int = 64
+
+
+class ChildSetup(Struct, frozen=True):
+    submission: str  # the read-only copy
+    scratch: str  # an empty folder, the child's working directory
+    limits: Limits
+    confine: bool
+    hidden: list[str]  # folders that must be out of reach
+
+
+class Ready(Struct, frozen=True):
+    pid: int
+    layers: list[str]
+
+
+class Open(Struct, frozen=True, tag="open"):
+    """Fork a child; its end of the channel follows as a file descriptor."""
+
+    setup: ChildSetup
+
+
+class End(Struct, frozen=True, tag="end"):
+    pid: int
+    gone: bool  # the channel broke: let it finish dying, so that its own exit status is seen
+
+
+class Ended(Struct, frozen=True):
+    how: Literal["exit", "signal"]
+    code: int
+    strays: int  # processes that had to be ended besides the child
+
+
+# ---------------------------------------------------------------- the wire
+
+
+class ProtocolError(Exception):
+    """The other side sent something that is not a message of ours."""
+
+
+class ChannelClosed(Exception):
+    """The other side is gone."""
+
+
+class ChannelTimeout(Exception):
+    """No answer in time."""
+
+
+class Channel:
+    """Framed messages over a connected socket."""
+
+    def __init__(self, sock: socket.socket) -> None:
+        self.sock = sock
+
+    def send(self, message: object) -> None:
+        body = msgspec.msgpack.encode(message)
+        if len(body) > MAX_MESSAGE:
+            raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
+        try:
+            self.sock.settimeout(None)
+            self.sock.sendall(HEADER.pack(len(body)) + body)
+        except OSError as error:
+            raise ChannelClosed(str(error)) from error
+
+    def receive(self, timeout: float | None = None) -> bytes:
+        """The body of the next message; `timeout` in seconds is for the whole of it."""
+        deadline = None if timeout is None else time.monotonic() + timeout
+        (length,) = HEADER.unpack(self._read(HEADER.size, deadline))
+        if length > MAX_MESSAGE:
+            raise ProtocolError(f"a message of {length} bytes is longer than {MAX_MESSAGE}")
+        return self._read(length, deadline)
+
+    def has_unread(self) -> bool:
+        return bool(select.select([self.sock], [], [], 0)[0])
+
+    def close(self) -> None:
+        self.sock.close()
+
+    def _read(self, count: int, deadline: float | None) -> bytes:
+        data = bytearray()
+        while len(data) < count:
+            left = None if deadline is None else deadline - time.monotonic()
+            if left is not None and left <= 0:
+                raise ChannelTimeout
+            try:
+                self.sock.settimeout(left)
+                chunk = self.sock.recv(min(count - len(data), 1 << 16))
+            except TimeoutError as error:
+                raise ChannelTimeout from error
+            except OSError as error:
+                raise ChannelClosed(str(error)) from error
+            if not chunk:
+                raise ChannelClosed("end of stream")
+            data += chunk
+        return bytes(data)

@@ -1,0 +1,56 @@
+"""The result in a terminal: one line per TODO, and a few for each check that is not there yet."""
+
+from rich.console import Console
+from rich.text import Text
+
+from grader.judge.result import CheckResult, Result, TodoResult
+
+LABELS = {
+    "passed": ("PASSED", "green"),
+    "not yet": ("NOT YET", "yellow"),
+    "not started": ("NOT STARTED", "bright_black"),
+    "waiting": ("WAITING", "bright_black"),
+    "error": ("ERROR", "red"),
+}
+WIDTH = 12  # of the column of states
+
+
+def show(result: Result, console: Console) -> None:
+    """Print the whole result."""
+    for todo in result.todos:
+        show_todo(todo, console)
+    line = Text(f"{clean(result.submission)}: {result.points} / {result.max_points}", style="bold")
+    if result.bonus:
+        line.append(f"  and {result.bonus} bonus")
+    console.print(line)
+    console.print(Text(f"isolation: {', '.join(result.isolation)}", style="bright_black"))
+
+
+def show_todo(todo: TodoResult, console: Console) -> None:
+    label, style = LABELS[todo.state]
+    line = Text(label.ljust(WIDTH), style=style)
+    line.append(f"{todo.id:<6}{todo.title:<48}", style="default")
+    line.append(f"{todo.points:>3} / {todo.max_points}", style="default")
+    console.print(line)
+    for check in todo.checks:
+        if check.state in ("not yet", "error"):
+            show_check(check, console)
+
+
+def show_check(check: CheckResult, console: Console) -> None:
+    console.print(Text(f"  {check.title}  ({check.points} / {check.max_points})", style="bold"))
+    lines = [
+        ("We ran", check.ran),
+        ("Expected", check.expected),
+        ("Got", check.got),
+        ("Meaning", check.meaning),
+        ("Look at", f"{check.where.file}:{check.where.line}" if check.where else ""),
+    ]
+    for name, words in lines:
+        if words:
+            console.print(Text(f"    {name:<9} {clean(words)}"), soft_wrap=True)
+
+
+def clean(words: str) -> str:
+    """A submission's words on one line, with nothing that a terminal would obey."""
+    return "".join(c if c.isprintable() else " " for c in words)[:400]

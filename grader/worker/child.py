@@ -1,0 +1,104 @@
+"""One child: meets the submission, answers the judge's requests one by one, until it is ended."""
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+
+import msgspec
+
+from grader.protocol import (
+    Answered,
+    Append,
+    Asked,
+    Call,
+    Channel,
+    ChannelClosed,
+    ChildSetup,
+    Get,
+    Import,
+    Missing,
+    Play,
+    ProtocolError,
+    Ready,
+    Reply,
+    Request,
+    Returned,
+    Set,
+    Simulate,
+)
+from grader.worker.confinement import confine
+from grader.worker.output import Output
+from grader.worker.play import play, simulate
+from grader.worker.scripted import ScriptedClock
+from grader.worker.subject import NotThere, Subject
+
+decoder = msgspec.msgpack.Decoder(Asked)
+
+
+def serve(channel: Channel, setup: ChildSetup) -> None:
+    """Answer until the judge closes the channel. Whatever the submission raises is an answer."""
+    tidy_environment(setup.scratch)
+    channel.send(Ready(os.getpid(), confine(setup)))
+    output, clock = Output(), ScriptedClock()
+    output.install()
+    clock.install()
+    subject = Subject(Path(setup.submission))
+    while True:
+        try:
+            asked = decoder.decode(channel.receive())
+        except ChannelClosed:
+            return
+        try:
+            reply = answer(subject, clock, output, asked.request)
+        except NotThere as error:
+            reply = Missing(str(error))
+        except BaseException as error:
+            reply = subject.raised(error)
+        send(channel, Answered(asked.number, reply, output.take()))
+
+
+def send(channel: Channel, answered: Answered) -> None:
+    try:
+        channel.send(answered)
+    except (ProtocolError, OverflowError, ValueError) as error:
+        channel.send(Answered(answered.number, Missing(f"the answer cannot be sent: {error}")))
+
+
+def answer(subject: Subject, clock: ScriptedClock, output: Output, request: Request) -> Reply:
+    match request:
+        case Import(module, pieces):
+            return Returned(",".join(subject.load(module, pieces)))
+        case Call(target, args, kwargs):
+            subject.force_calls = 0
+            result = subject.find(target)(
+                *(subject.decode(each) for each in args),
+                **{name: subject.decode(each) for name, each in kwargs.items()},
+            )
+            return Returned(subject.encode(result), subject.force_calls)
+        case Get(ref, name):
+            return Returned(subject.encode(subject.find(f"#{ref}.{name}") if name else
+                                           subject.objects[ref]))
+        case Set(ref, fields):
+            for name, each in fields.items():
+                setattr(subject.objects[ref], name, subject.decode(each))
+            return Returned(None)
+        case Append(ref, name, item):
+            subject.find(f"#{ref}.{name}").append(subject.objects[item])
+            return Returned(None)
+        case Simulate():
+            return simulate(subject, request)
+        case Play():
+            return play(subject, clock, output, request)
+
+
+def tidy_environment(scratch: str) -> None:
+    """An environment that says nothing about the machine, and an empty folder to work in."""
+    keep = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
+    os.environ.clear()
+    os.environ.update(keep, HOME=scratch, TMPDIR=scratch, TEMP=scratch, TMP=scratch)
+    os.environ.update(SDL_VIDEODRIVER="dummy", SDL_AUDIODRIVER="dummy", PYTHONHASHSEED="0")
+    os.environ.update(PYGAME_HIDE_SUPPORT_PROMPT="1", LANG="C.UTF-8", TZ="UTC")
+    tempfile.tempdir = scratch
+    with contextlib.suppress(OSError):
+        os.chdir(scratch)

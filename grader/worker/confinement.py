@@ -1,0 +1,145 @@
+"""What a child may not do, in layers; each is used where the machine has it, and is named.
+
+Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(7).
+"""
+
+import ctypes
+import os
+import sys
+import sysconfig
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from grader.protocol import ChildSetup, Limits
+
+LANDLOCK_CREATE_RULESET, LANDLOCK_ADD_RULE, LANDLOCK_RESTRICT_SELF = 444, 445, 446
+LANDLOCK_CREATE_RULESET_VERSION = 1
+LANDLOCK_RULE_PATH_BENEATH = 1
+PR_SET_NO_NEW_PRIVS = 38
+PR_SET_CHILD_SUBREAPER = 36
+CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000
+
+EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
+READ_ONLY = EXECUTE | READ_FILE | READ_DIR
+# How many file rights each version of the interface knows.
+FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
+ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule on a plain file takes
+TCP_BIND_AND_CONNECT = 0b11
+SCOPE_SOCKETS_AND_SIGNALS = 0b11
+
+
+class RulesetAttr(ctypes.Structure):
+    _fields_ = [
+        ("handled_access_fs", ctypes.c_uint64),
+        ("handled_access_net", ctypes.c_uint64),
+        ("scoped", ctypes.c_uint64),
+    ]
+
+
+class PathBeneathAttr(ctypes.Structure):
+    _pack_ = 1
+    _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
+
+
+def prepare_server() -> list[str]:
+    """Once for the warm process: adopt stray grandchildren, and leave the network behind."""
+    if not sys.platform.startswith("linux"):
+        return []
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    if libc.unshare(CLONE_NEWNET) == 0 or libc.unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0:
+        return ["network-namespace"]
+    return []
+
+
+def confine(setup: ChildSetup) -> list[str]:
+    """Shut this process in for good; returns the names of the layers that hold."""
+    if not setup.confine:
+        return []
+    layers = []
+    if hasattr(os, "setsid"):
+        with suppress(PermissionError):  # a spawned child leads its session already
+            os.setsid()
+        layers.append("process-group")
+    layers += limit(setup.limits)
+    if sys.platform.startswith("linux"):
+        layers += landlock(Path(setup.submission), Path(setup.scratch), setup.hidden)
+    return layers
+
+
+def limit(limits: Limits) -> list[str]:
+    try:
+        import resource
+    except ImportError:
+        return []
+    megabyte = 1024 * 1024
+    seconds = limits.cpu_seconds
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+    for name, value in (
+        (resource.RLIMIT_AS, limits.memory_mb * megabyte),
+        (resource.RLIMIT_FSIZE, limits.file_mb * megabyte),
+        (resource.RLIMIT_NOFILE, limits.open_files),
+        (resource.RLIMIT_NPROC, limits.processes),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        with suppress(ValueError, OSError):  # macOS knows no limit on memory
+            resource.setrlimit(name, (value, value))
+    return ["rlimits"]
+
+
+@cache
+def readable(hidden: tuple[str, ...]) -> list[Path]:
+    """What Python and its packages need, and nothing that is hidden."""
+    paths = sysconfig.get_paths()
+    roots = {Path(sys.base_prefix, "lib"), Path(paths["stdlib"]), Path(paths["platstdlib"])}
+    for name in ("purelib", "platlib"):
+        roots.update(Path(paths[name]).iterdir())
+    roots.update(map(Path, ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache")))
+    roots.update(map(Path, ("/usr/local/lib", "/usr/share/zoneinfo", "/dev/urandom")))
+    kept = {root.resolve() for root in roots if root.exists()}
+    out = [Path(each).resolve() for each in hidden]
+    return [root for root in kept if not any(root.is_relative_to(each) for each in out)]
+
+
+def landlock(submission: Path, scratch: Path, hidden: list[str]) -> list[str]:
+    """Files: read Python and the submission, write the scratch folder; no TCP, no signals out."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    version = libc.syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
+    if version < 1:
+        return []
+    every_right = (1 << FILE_RIGHTS.get(version, 16)) - 1
+    attr = RulesetAttr(
+        every_right,
+        TCP_BIND_AND_CONNECT if version >= 4 else 0,
+        SCOPE_SOCKETS_AND_SIGNALS if version >= 6 else 0,
+    )
+    size = 8 if version < 4 else 16 if version < 6 else 24
+    ruleset = libc.syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
+    if ruleset < 0:
+        return []
+    allowed = [(path, READ_ONLY) for path in (submission, *readable(tuple(hidden)))]
+    allowed += [(scratch, every_right), (Path(os.devnull), READ_FILE | WRITE_FILE)]
+    for path, rights in allowed:
+        allow(libc, ruleset, path, rights & every_right)
+    libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    held = libc.syscall(LANDLOCK_RESTRICT_SELF, ruleset, 0) == 0
+    os.close(ruleset)
+    if not held:
+        return []
+    return ["landlock-files"] + ["landlock-tcp"] * (version >= 4) + ["landlock-scope"] * (
+        version >= 6
+    )
+
+
+def allow(libc: ctypes.CDLL, ruleset: int, path: Path, rights: int) -> None:
+    descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
+    try:
+        if not path.is_dir():
+            rights &= ON_FILES
+        rule = PathBeneathAttr(rights, descriptor)
+        libc.syscall(
+            LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0
+        )
+    finally:
+        os.close(descriptor)

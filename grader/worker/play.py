@@ -1,0 +1,203 @@
+"""Running a program's real main() for a number of frames, and stepping a world by hand."""
+
+import importlib
+import io
+import math
+import os
+from collections.abc import Callable
+from typing import Any
+
+import pygame
+import pymunk
+
+from grader.protocol import ContactRow, Play, Played, Simulate, Simulated, SpaceBody
+from grader.worker.output import Output
+from grader.worker.scripted import PlayOver, ScriptedClock
+from grader.worker.subject import NotThere, Subject, as_pair, field, field_number, field_pair
+
+MAX_LINES = 200
+MAX_STEP_SIZES = 16
+
+
+class StepCounter:
+    """Stands in for `World.step` or `Space.step`: counts, and runs the real one if asked to."""
+
+    def __init__(self, owner: type, physics: bool, trail_every: int, look: Callable[..., Any]):
+        self.owner, self.real = owner, owner.step  # type: ignore[attr-defined]
+        self.physics, self.trail_every, self.look = physics, trail_every, look
+        self.in_frame = self.total = 0
+        self.dts: list[float] = []
+        self.trail: list[list[float]] = []
+        self.last: Any = None
+        counter = self
+
+        def step(world: Any, dt: float, *rest: Any) -> Any:
+            return counter.count(world, dt, rest)
+
+        owner.step = step  # type: ignore[attr-defined]
+
+    def count(self, world: Any, dt: float, rest: tuple[Any, ...]) -> Any:
+        self.last = world
+        self.in_frame += 1
+        self.total += 1
+        if len(self.dts) < MAX_STEP_SIZES and dt not in self.dts:
+            self.dts.append(float(dt))
+        result = self.real(world, dt, *rest) if self.physics else None
+        if self.trail_every and self.total % self.trail_every == 0:
+            self.trail.append(self.look(world))
+        return result
+
+    def restore(self) -> None:
+        self.owner.step = self.real  # type: ignore[attr-defined]
+
+
+def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) -> Played:
+    module = importlib.import_module(request.module)
+    main = subject.find(f"{request.module}:main")
+    owner = module.World if hasattr(module, "World") else pymunk.Space
+    counter = StepCounter(owner, request.physics, request.trail_every, moving_state)
+    steps: list[int] = []
+    times: list[float] = []
+
+    def frame_over() -> None:
+        steps.append(counter.in_frame)
+        times.append(clock.now)
+        counter.in_frame = 0
+
+    os.environ["LAB_FRAMES"] = str(len(request.frames))
+    output.take()
+    clock.start(request.frames, request.events, frame_over)
+    picture = Picture(request.picture)
+    try:
+        main()
+        ended = "returned"
+    except PlayOver:
+        ended = "stopped"
+    finally:
+        counter.restore()
+        picture.restore()
+    if counter.in_frame:
+        frame_over()
+    return Played(
+        steps=steps,
+        clock=times,
+        dts=counter.dts,
+        ended=ended,  # type: ignore[arg-type]
+        lines=output.so_far().splitlines()[-MAX_LINES:],
+        bodies=all_bodies(subject, counter.last),
+        rods=rods(counter.last),
+        trail=counter.trail,
+        picture=picture.png,
+    )
+
+
+class Picture:
+    """Keeps the last picture shown: the program may close its window before it returns."""
+
+    def __init__(self, wanted: bool) -> None:
+        self.png = b""
+        self.real = pygame.quit
+        if wanted:
+            pygame.quit = self._quit
+
+    def _quit(self) -> None:
+        surface = pygame.display.get_surface()
+        if surface is not None:
+            file = io.BytesIO()
+            pygame.image.save(surface, file, "picture.png")
+            self.png = file.getvalue()
+        self.real()
+
+    def restore(self) -> None:
+        pygame.quit = self.real
+        if not self.png and pygame.display.get_init():
+            pygame.quit()
+
+
+def all_bodies(subject: Subject, world: Any) -> list[Any]:
+    if isinstance(world, pymunk.Space):
+        value = subject.space(world)
+        return list(value.bodies)
+    return [subject.body(body) for body in getattr(world, "bodies", [])]
+
+
+def moving_state(world: Any) -> list[float]:
+    """x, y, vx, vy, angle, omega of every body that can move."""
+    row: list[float] = []
+    for body in world.bodies:
+        if isinstance(body, pymunk.Body):
+            row += [*body.position, *body.velocity, body.angle, body.angular_velocity]
+        elif body.inv_mass:
+            row += lesson_state(body)
+    return row
+
+
+def lesson_state(body: Any) -> list[float]:
+    pos, vel = field_pair(body, "pos"), field_pair(body, "vel")
+    return [
+        pos.x,
+        pos.y,
+        vel.x,
+        vel.y,
+        field_number(body, "angle"),
+        field_number(body, "omega"),
+    ]
+
+
+def rods(world: Any) -> list[tuple[float, float]]:
+    """Distance now and length meant of every distance joint, px."""
+    if isinstance(world, pymunk.Space):
+        found = []
+        for joint in world.constraints:
+            if isinstance(joint, pymunk.PinJoint):
+                a = joint.a.local_to_world(joint.anchor_a)
+                b = joint.b.local_to_world(joint.anchor_b)
+                found.append(((b - a).length, joint.distance))
+        return found
+    found = []
+    for joint in getattr(world, "joints", []):
+        if hasattr(joint, "length"):
+            a, b = field_pair(joint.a, "pos"), field_pair(joint.b, "pos")
+            found.append((math.hypot(b.x - a.x, b.y - a.y), field_number(joint, "length")))
+    return found
+
+
+def simulate(subject: Subject, request: Simulate) -> Simulated:
+    world = subject.objects[request.ref]
+    watched = [subject.objects[ref] for ref in request.watch]
+    frames: list[list[float]] = []
+    contacts: list[list[ContactRow]] = []
+    for number in range(1, request.steps + 1):
+        world.step(request.dt)
+        if number % request.every:
+            continue
+        row: list[float] = []
+        for body in watched:
+            if isinstance(body, pymunk.Body):
+                state: SpaceBody = subject.space_body(body)
+                row += [*state.pos, *state.vel, state.angle, state.omega]
+            else:
+                row += lesson_state(body)
+        frames.append(row)
+        if request.contacts:
+            contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
+    return Simulated(frames, contacts)
+
+
+def contact_row(subject: Subject, contact: Any) -> ContactRow:
+    a, b = field(contact, "a"), field(contact, "b")
+    friction = field_number(a, "friction") * field_number(b, "friction")
+    normal = as_pair(field(contact, "normal"))
+    if normal is None:
+        raise NotThere("Contact.normal is not a pair of numbers")
+    jn = field_number(contact, "jn")
+    return ContactRow(
+        subject.ref(a),
+        subject.ref(b),
+        normal.x,
+        normal.y,
+        field_number(contact, "depth"),
+        jn,
+        field_number(contact, "jt"),
+        math.sqrt(max(friction, 0.0)) * jn,
+    )

@@ -1,0 +1,21 @@
+"""A child started as a process of its own, where there is no fork: the same answers, only slower."""
+
+import socket
+import sys
+
+import msgspec
+
+from grader.protocol import Channel, ChildSetup
+from grader.worker.child import serve
+
+
+def connect() -> Channel:
+    """The channel the judge handed over: a descriptor, or on Windows a share on standard input."""
+    if sys.platform == "win32":
+        return Channel(socket.fromshare(sys.stdin.buffer.read()))
+    return Channel(socket.socket(fileno=int(sys.argv[1])))
+
+
+if __name__ == "__main__":
+    channel = connect()
+    serve(channel, msgspec.msgpack.decode(channel.receive(), type=ChildSetup))

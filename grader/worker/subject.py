@@ -1,0 +1,345 @@
+"""The submission inside a child: its modules, its objects, and how both look as plain values."""
+
+import builtins
+import dis
+import importlib
+import inspect
+import math
+import numbers
+import random
+import sys
+import traceback
+import types
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pygame
+import pymunk
+
+from grader.protocol import (
+    Argument,
+    BodyValue,
+    CodeLine,
+    ContactValue,
+    Force,
+    Items,
+    Piece,
+    Raised,
+    Ref,
+    Rng,
+    ShapeValue,
+    SpaceBody,
+    SpaceJoint,
+    SpaceValue,
+    Value,
+    Vec,
+)
+
+MAX_TEXT = 2000  # characters of an exception's message or a returned string
+MAX_ITEMS = 1000  # entries of a returned list
+LARGEST_INT = 2**53
+
+
+class NotThere(Exception):
+    """The submission lacks something that the contract asks for, or has it in another type."""
+
+
+class Subject:
+    """Imports the submission and hands out numbered references to its objects."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.objects: dict[int, Any] = {}
+        self.refs: dict[int, int] = {}
+        self.force_calls = 0
+        sys.path.insert(0, str(folder))
+
+    # ------------------------------------------------------------ names
+
+    def load(self, module: str, pieces: list[Piece]) -> list[str]:
+        """Import `module`; returns the targets of the pieces that could be swapped in."""
+        importlib.import_module(module)
+        return [piece.target for piece in pieces if self.swap(piece)]
+
+    def find(self, target: str) -> Any:
+        if target.startswith("#"):
+            ref, _, path = target[1:].partition(".")
+            thing, label = self.objects[int(ref)], f"{type(self.objects[int(ref)]).__name__}.{path}"
+        else:
+            module, _, path = target.partition(":")
+            thing, label = importlib.import_module(module), f"{path} in {module}"
+        for name in path.split("."):
+            try:
+                thing = getattr(thing, name)
+            except AttributeError:
+                raise NotThere(f"there is no {label}") from None
+        return thing
+
+    def swap(self, piece: Piece) -> bool:
+        """Put the reference's function in the place of the submission's, wherever it is known.
+
+        Left alone when the submission has no such function, or one with other parameters.
+        """
+        try:
+            original = self.find(piece.target)
+            wanted = self._build(piece, original)
+        except (NotThere, KeyError, ImportError):
+            return False
+        if wanted is None:
+            return False
+        module, _, path = piece.target.partition(":")
+        owner, _, name = path.rpartition(".")
+        if owner:
+            setattr(self.find(f"{module}:{owner}"), name, wanted)
+        for namespace in self._namespaces():
+            for key, value in list(namespace.items()):
+                if value is original:
+                    namespace[key] = wanted
+        return True
+
+    def _build(self, piece: Piece, original: Any) -> Callable[..., Any] | None:
+        if not isinstance(original, types.FunctionType):
+            return None
+        namespace: dict[str, Any] = {"__name__": "reference"}
+        exec(compile(piece.imports, "<reference>", "exec"), namespace)
+        exec(compile(piece.source, "<reference>", "exec"), namespace)
+        wanted = namespace[piece.target.rpartition(":")[2].rpartition(".")[2]]
+        if list(inspect.signature(wanted).parameters) != list(
+            inspect.signature(original).parameters
+        ):
+            return None
+        package = importlib.import_module(piece.target.partition(":")[0])
+        for name in global_names(wanted.__code__) - set(namespace) - set(vars(builtins)):
+            place = original.__globals__ if name in original.__globals__ else vars(package)
+            namespace[name] = place[name]
+        return wanted  # type: ignore[no-any-return]
+
+    def _namespaces(self) -> list[dict[str, Any]]:
+        """The globals of the submission's modules and of the functions swapped in."""
+        found = []
+        modules = [m for m in list(sys.modules.values()) if issubclass(type(m), types.ModuleType)]
+        for module in modules:
+            names = object.__getattribute__(module, "__dict__")  # wakes no lazy module
+            if str(names.get("__file__")).startswith(str(self.folder)):
+                found.append(names)
+                for value in list(names.values()):
+                    members = vars(value).values() if isinstance(value, type) else [value]
+                    found += [
+                        member.__globals__
+                        for member in members
+                        if isinstance(member, types.FunctionType)
+                        and member.__globals__.get("__name__") == "reference"
+                    ]
+        return found
+
+    # ------------------------------------------------------------ values in
+
+    def decode(self, argument: Argument) -> Any:
+        match argument:
+            case Vec(x, y):
+                return pygame.Vector2(x, y)
+            case Ref(id=ref):
+                return self.objects[ref]
+            case Rng(seed):
+                return random.Random(seed)
+            case Force(coefficients):
+                return self._force(coefficients)
+        return argument
+
+    def _force(self, coefficients: list[float]) -> Callable[..., float]:
+        def accel(x: float, *_: Any) -> float:
+            self.force_calls += 1
+            total = 0.0
+            for coefficient in reversed(coefficients):
+                total = total * x + coefficient
+            return total
+
+        return accel
+
+    # ------------------------------------------------------------ values out
+
+    def ref(self, thing: Any) -> int:
+        number = self.refs.get(id(thing))
+        if number is None:
+            number = self.refs[id(thing)] = len(self.objects) + 1
+            self.objects[number] = thing
+        return number
+
+    def encode(self, thing: Any) -> Value:
+        if thing is None or isinstance(thing, bool):
+            return thing
+        if isinstance(thing, str):
+            return str(thing)[:MAX_TEXT]
+        if isinstance(thing, numbers.Real):
+            return as_number(thing, "the returned value")
+        if isinstance(thing, pymunk.Space):
+            return self.space(thing)
+        if isinstance(thing, pymunk.Body):
+            return self.space_body(thing)
+        if hasattr(thing, "normal") and hasattr(thing, "depth"):
+            return self.contact(thing)
+        if hasattr(thing, "inv_mass") and hasattr(thing, "pos"):
+            return self.body(thing)
+        pair = as_pair(thing)
+        if pair is not None:
+            return pair
+        if isinstance(thing, list | tuple):
+            return Items([self.encode(item) for item in thing[:MAX_ITEMS]])
+        return Ref(self.ref(thing), type(thing).__name__)
+
+    def body(self, body: Any) -> BodyValue:
+        radius = getattr(getattr(body, "shape", None), "radius", 0.0)
+        return BodyValue(
+            self.ref(body),
+            field_pair(body, "pos"),
+            field_pair(body, "vel"),
+            field_number(body, "angle"),
+            field_number(body, "omega"),
+            field_number(body, "inv_mass"),
+            field_number(body, "inv_inertia"),
+            as_number(radius, "the radius"),
+        )
+
+    def contact(self, contact: Any) -> ContactValue:
+        return ContactValue(
+            self.ref(contact),
+            self.ref(field(contact, "a")),
+            self.ref(field(contact, "b")),
+            field_pair(contact, "normal"),
+            field_number(contact, "depth"),
+            field_pair(contact, "point"),
+            field_number(contact, "jn"),
+            field_number(contact, "jt"),
+        )
+
+    def space(self, space: pymunk.Space) -> SpaceValue:
+        return SpaceValue(
+            self.ref(space),
+            Vec(*space.gravity),
+            space.damping,
+            [self.space_body(body) for body in [space.static_body, *space.bodies]],
+            [self._joint(joint) for joint in space.constraints],
+        )
+
+    def space_body(self, body: pymunk.Body) -> SpaceBody:
+        kinds = {pymunk.Body.DYNAMIC: "dynamic", pymunk.Body.KINEMATIC: "kinematic"}
+        kind: Any = kinds.get(body.body_type, "static")
+        return SpaceBody(
+            self.ref(body),
+            kind,
+            Vec(*body.position),
+            Vec(*body.velocity),
+            body.angle,
+            body.angular_velocity,
+            body.mass if kind == "dynamic" else 0.0,
+            body.moment if kind == "dynamic" and math.isfinite(body.moment) else None,
+            [self._shape(shape) for shape in sorted(body.shapes, key=shape_order)],
+        )
+
+    def _shape(self, shape: pymunk.Shape) -> ShapeValue:
+        box = shape.cache_bb()
+        return ShapeValue(
+            type(shape).__name__,
+            float(getattr(shape, "radius", 0.0)),
+            (box.left, box.bottom, box.right, box.top),
+            shape.friction,
+            shape.elasticity,
+        )
+
+    def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
+        anchors = [
+            Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
+            for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))
+        ]
+        return SpaceJoint(
+            type(joint).__name__,
+            self.ref(joint.a),
+            self.ref(joint.b),
+            *anchors,
+            getattr(joint, "distance", None),
+        )
+
+    # ------------------------------------------------------------ what went wrong
+
+    def raised(self, error: BaseException) -> Raised:
+        """The exception with the submission's own frames only; the reference's stay hidden."""
+        root = str(self.folder)
+        frames = [
+            CodeLine(
+                Path(frame.filename).relative_to(root).as_posix(),
+                frame.lineno or 0,
+                frame.name,
+                (frame.line or "")[:200],
+            )
+            for frame in traceback.extract_tb(error.__traceback__)
+            if frame.filename.startswith(root)
+        ]
+        if isinstance(error, SyntaxError) and str(error.filename or "").startswith(root):
+            file = Path(str(error.filename)).relative_to(root).as_posix()
+            frames.append(CodeLine(file, error.lineno or 0, "", (error.text or "").strip()[:200]))
+        try:
+            message = str(error)[:MAX_TEXT]
+        except Exception:
+            message = ""
+        return Raised(type(error).__name__[:100], message, frames[-12:])
+
+
+def global_names(code: types.CodeType) -> set[str]:
+    """The global names that a function reads, its inner functions' included."""
+    names = {each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"}
+    return names.union(
+        *(global_names(each) for each in code.co_consts if isinstance(each, types.CodeType))
+    )
+
+
+def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
+    box = shape.cache_bb()
+    return box.left, box.bottom
+
+
+def field(thing: Any, name: str) -> Any:
+    try:
+        return getattr(thing, name)
+    except AttributeError:
+        raise NotThere(f"{type(thing).__name__} has no {name}") from None
+
+
+def field_number(thing: Any, name: str) -> float:
+    return as_number(field(thing, name), f"{type(thing).__name__}.{name}")
+
+
+def field_pair(thing: Any, name: str) -> Vec:
+    value = field(thing, name)
+    pair = as_pair(value)
+    if pair is None:
+        raise NotThere(
+            f"{type(thing).__name__}.{name} is {describe(value)}; expected a Vector2 or a pair"
+        )
+    return pair
+
+
+def as_number(value: Any, what: str) -> float:
+    """A true int or float, whatever number-like thing the submission made of it."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise NotThere(f"{what} is {describe(value)}; expected a number")
+    if isinstance(value, int) and abs(value) <= LARGEST_INT:
+        return int.__int__(value)
+    try:
+        return float.__float__(value) if isinstance(value, float) else float(value)
+    except OverflowError:
+        return math.inf
+
+
+def as_pair(value: Any) -> Vec | None:
+    try:
+        if isinstance(value, str | bytes) or len(value) != 2:
+            return None
+        x, y = value
+        return Vec(as_number(x, "x"), as_number(y, "y"))
+    except Exception:
+        return None
+
+
+def describe(value: Any) -> str:
+    return "None" if value is None else f"of type {type(value).__name__}"
