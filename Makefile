@@ -31,17 +31,18 @@ export CHECK_PYTHON
 
 .PHONY: help setup grade run verify sync test soak lint format bench lock clean venv
 
-##@ Grading
-
-help: ## List the targets
+help:
 	@awk 'BEGIN { FS = ":.*## " } \
 		/^##@ / { printf "\n%s\n", substr($$0, 5) } \
 		/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
 
+##@ Grading
+
 setup: $(CORE) ## Set up .venv for grading
 
 grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
-	@$(PY) -m grader grade $(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
+	@$(PY) -m grader grade \
+		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
 
 run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solution
 	@cd $(WHERE) && ../$(PY) -m mini_engine
@@ -83,7 +84,7 @@ clean: ## Remove .venv and everything else that can be made again
 # ---------------------------------------------------------------- setting up
 
 # A .venv that was not finished, or whose Python is gone, is made anew.
-$(CORE): $(shell test -x $(PY) -a -e $(CORE) || echo venv)
+$(CORE): $(shell test -x $(PY) && test -e $(CORE) || echo venv)
 
 venv:
 	@command -v $(firstword $(PYTHON)) >/dev/null || { \

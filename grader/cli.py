@@ -33,9 +33,10 @@ def grade_command(
     ] = None,
     isolation: Annotated[Isolation, typer.Option(help="How much confinement to insist on.")] = "auto",
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+    todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
 ) -> None:
     """Grade a submission. Exit status 0: full marks, 1: less, 2: could not be graded."""
-    options = Options(reference or shipped_reference(), isolation, seed=seed)
+    options = Options(reference or shipped_reference(), isolation, frozenset(todo or ()), seed)
     if path is None:
         demonstrate(options)
         return
@@ -92,6 +93,16 @@ def verify_command(
     from grader.maintain.verify import verify
 
     raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+
+
+@app.command("bench")
+def bench_command(
+    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
+) -> None:
+    """Measure what a grade costs, and what the isolation adds to it."""
+    from grader.maintain.bench import bench
+
+    bench(rounds, console)
 
 
 def main() -> None:

@@ -15,6 +15,7 @@ import msgspec
 from msgspec import Struct
 
 MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
+RUNAWAY = 1000  # steps in one frame at which a program is stopped
 HEADER = struct.Struct(">I")
 
 # ---------------------------------------------------------------- values
@@ -168,12 +169,27 @@ class Set(Struct, frozen=True, tag="set"):
     fields: dict[str, Argument]
 
 
-class Append(Struct, frozen=True, tag="append"):
-    """Append an object to a list attribute, such as `world.joints`."""
+class MakeBody(Struct, frozen=True, tag="make_body"):
+    """A lesson body in one go: its shape, the Body around it, then further fields."""
 
-    ref: int
-    name: str
-    item: int
+    module: str
+    shape: Literal["Circle", "Box"]
+    size: float | Vec  # radius or half extents
+    pos: Vec
+    mass: float
+    kwargs: dict[str, float] = {}
+    fields: dict[str, Argument] = {}
+
+
+class MakeWorld(Struct, frozen=True, tag="make_world"):
+    """A lesson world with bodies added and joints appended."""
+
+    module: str
+    gravity: Vec
+    linear_damping: float
+    angular_damping: float
+    bodies: list[int] = []
+    joints: list[int] = []
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):
@@ -188,6 +204,8 @@ class Simulate(Struct, frozen=True, tag="simulate"):
 
 
 class Event(Struct, frozen=True):
+    """What the person does when so many frames, one or more, are over."""
+
     frame: int
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
@@ -205,7 +223,7 @@ class Play(Struct, frozen=True, tag="play"):
     picture: bool = False
 
 
-Request = Import | Call | Get | Set | Append | Simulate | Play
+Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Play
 
 # ---------------------------------------------------------------- child to judge
 
@@ -251,13 +269,13 @@ class Simulated(Struct, frozen=True, tag="simulated"):
 
 
 class Played(Struct, frozen=True, tag="played"):
-    """What a program did, frame by frame."""
+    """What a program did, frame by frame; the last entry is for what came after the last frame."""
 
     steps: list[int]  # fixed steps that ran in each frame
-    clock: list[float]  # the scripted time at the end of each frame, ms
+    clock: list[float]  # the scripted time at the end of each frame, ms since the start
     dts: list[float]  # the different step sizes seen, at most 16 of them
-    ended: Literal["returned", "stopped"]
-    lines: list[str]
+    ended: Literal["returned", "stopped", "runaway"]  # stopped: it ran on after QUIT
+    lines: list[str]  # what it printed, the last 200 of them
     bodies: list[BodyValue | SpaceBody]
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []

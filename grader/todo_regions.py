@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+MAX_SOURCE = 1024 * 1024  # bytes; no lesson file comes near it
 START = re.compile(r"^(?P<indent>[ \t]*)# TODO (?P<id>[0-9]+[a-d]?|B[0-9]): (?P<task>.+?)\s*$")
 END = re.compile(r"^[ \t]*# END TODO (?P<id>[0-9]+[a-d]?|B[0-9])\s*$")
 
@@ -81,10 +82,12 @@ def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
 
 
 def python_files(tree: Path) -> Iterator[Path]:
-    """Every Python file of a tree, in a fixed order, links and hidden folders left out."""
+    """A tree's Python files in a fixed order; links, hidden folders and giants are left out."""
     for path in sorted(tree.rglob("*.py")):
         parts = path.relative_to(tree).parts
-        if path.is_file() and not path.is_symlink() and not any(p.startswith(".") for p in parts):
+        if path.is_symlink() or not path.is_file() or any(p.startswith(".") for p in parts):
+            continue
+        if path.stat().st_size <= MAX_SOURCE:
             yield path
 
 

@@ -1,6 +1,7 @@
 """The right answers, in closed form: plain numbers in, plain numbers out."""
 
 import math
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 
@@ -50,3 +51,132 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
 def damped(rate: float, seconds: float) -> float:
     """The share of a speed that is left after so many seconds at a rate per second."""
     return math.exp(-rate * seconds)
+
+
+# ---------------------------------------------------------------- impulses: TODO 2, 3 and 4
+
+BETA = 0.2  # share of an error put right in one step
+Pair = tuple[float, float]
+
+
+def inverse(mass: float) -> float:
+    """In 1/kg; a mass of 0 is a static body's, which no impulse moves."""
+    return 1 / mass if mass else 0.0
+
+
+class Lever(NamedTuple):
+    """A disc, and the arm from its centre to the point where it is pushed."""
+
+    mass: float  # kg, 0 = static
+    radius: float  # px
+    rx: float
+    ry: float
+
+    @property
+    def inertia(self) -> float:
+        return 0.5 * self.mass * self.radius**2  # kg px²
+
+
+def cross(first: Pair, second: Pair) -> float:
+    return first[0] * second[1] - first[1] * second[0]
+
+
+def effective_mass(a: Lever, b: Lever, axis: Pair) -> float:
+    """The sum that effective_mass returns, in 1/kg."""
+    turning = (cross((each.rx, each.ry), axis) ** 2 * inverse(each.inertia) for each in (a, b))
+    return inverse(a.mass) + inverse(b.mass) + sum(turning)
+
+
+class Rod(NamedTuple):
+    """A rod at the start of a step."""
+
+    mass_a: float  # kg, 0 = static
+    mass_b: float
+    length: float  # px, meant
+    offset: Pair  # px, from A to B now
+    vel_a: Pair
+    vel_b: Pair
+    dt: float  # s
+
+    @property
+    def k(self) -> float:
+        return inverse(self.mass_a) + inverse(self.mass_b)
+
+    @property
+    def axis(self) -> Pair:
+        distance = math.hypot(*self.offset)
+        return self.offset[0] / distance, self.offset[1] / distance
+
+    @property
+    def speed(self) -> float:
+        """The speed of B away from A, px/s."""
+        (ax, ay), (bx, by), (x, y) = self.vel_a, self.vel_b, self.axis
+        return (bx - ax) * x + (by - ay) * y
+
+    @property
+    def bias(self) -> float:
+        """The speed of B away from A that takes the share BETA of the error away, px/s."""
+        return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
+
+    def pushed(self, impulse: float) -> tuple[Pair, Pair]:
+        """The velocities of A and B after an impulse along the axis; positive pushes them apart."""
+        (ax, ay), (bx, by), (x, y) = self.vel_a, self.vel_b, self.axis
+        a, b = impulse * inverse(self.mass_a), impulse * inverse(self.mass_b)
+        return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
+
+
+def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
+    """The velocities of A and B after a pass over the rod."""
+    return rod.pushed((rod.bias - rod.speed) / rod.k)
+
+
+class Rubbing(NamedTuple):
+    """One pass over a contact: how hard it is pressed, and how fast B slips before the pass."""
+
+    jn: float  # kg px/s
+    slip: float  # px/s
+
+
+def clamped(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))
+
+
+def friction_totals(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
+    """The friction impulse on B in total after each pass, along the slip; k in 1/kg."""
+    totals = [0.0]
+    for jn, slip in passes:
+        totals.append(clamped(totals[-1] - slip / k, math.sqrt(mu[0] * mu[1]) * jn))
+    return tuple(totals[1:])
+
+
+# ---------------------------------------------------------------- integrators
+
+State = tuple[float, float]  # x in px, v in px/s
+Accel = Callable[[float], float]
+
+
+def polynomial(coefficients: Sequence[float]) -> Accel:
+    """The acceleration c0 + c1 x + c2 x² + ..."""
+    return lambda x: math.fsum(c * x**power for power, c in enumerate(coefficients))
+
+
+def semi_implicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
+    v += dt * accel(x)
+    return x + dt * v, v
+
+
+def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
+    """Half a kick, the whole way, half a kick."""
+    half_way = v + dt / 2 * accel(x)
+    x += dt * half_way
+    return x, half_way + dt / 2 * accel(x)
+
+
+def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
+    """The classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
+    total_dx = total_dv = 0.0
+    dx, dv = v, accel(x)
+    for weight, reach in ((1, dt / 2), (2, dt / 2), (2, dt), (1, 0.0)):
+        total_dx, total_dv = total_dx + weight * dx, total_dv + weight * dv
+        dx, dv = v + reach * dv, accel(x + reach * dx)
+    return x + dt / 6 * total_dx, v + dt / 6 * total_dv

@@ -2,7 +2,7 @@
 
 from hypothesis import strategies as st
 
-from grader.checks.exact import Disc, Rect
+from grader.checks.exact import Disc, Lever, Rect, Rod, Rubbing
 
 coordinates = st.integers(-1600, 1600).map(lambda n: n / 8)  # px
 radii = st.integers(8, 320).map(lambda n: n / 8)  # px
@@ -10,12 +10,26 @@ half_extents = st.integers(8, 1600).map(lambda n: n / 8)  # px
 speeds = st.integers(-4000, 4000).map(lambda n: n / 8)  # px/s
 spins = st.integers(-160, 160).map(lambda n: n / 8)  # rad/s
 masses = st.integers(1, 400).map(lambda n: n / 8)  # kg
+impulses = st.integers(0, 800).map(lambda n: n / 8)  # kg px/s
+frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s
 step_sizes = st.sampled_from([1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480])  # s
+
+states = st.tuples(*[st.integers(-32, 32).map(lambda n: n / 8)] * 2)  # x in px, v in px/s
+forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
+long_steps = st.sampled_from([1 / 2, 1 / 4, 1 / 8, 1 / 16])  # s, to tell integrators apart
 
 pairs = st.tuples(coordinates, coordinates)
 discs = st.builds(Disc, coordinates, coordinates, radii)
 rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
+units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.28, -0.96)])
+velocities = st.tuples(speeds, speeds)
+
+arms = st.integers(-320, 320).map(lambda n: n / 8)  # px
+levers = st.builds(Lever, masses, radii, arms, arms)
+static_levers = st.builds(Lever, st.just(0.0), radii, arms, arms)
+rods = st.builds(Rod, masses, masses, radii, pairs.filter(any), velocities, velocities, step_sizes)
+rubbings = st.lists(st.builds(Rubbing, impulses, speeds), min_size=1, max_size=3)
 
 
 @st.composite

@@ -157,7 +157,7 @@ class Grading:
     def result(self, plugin: GradingPlugin, layers: list[str]) -> Result:
         todos = []
         for todo in self.rubric.todos:
-            if self.options.only and todo.id not in self.options.only:
+            if not plugin.wanted(todo):
                 continue
             checks = [plugin.results[todo.id, check.id] for check in todo.checks]
             mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
@@ -192,7 +192,9 @@ def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
 
 def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
     """Run the checks in this process. The submission's folder is no part of it."""
-    files = dict.fromkeys(str(CHECKS / f"{todo.file}.py") for todo in rubric.todos)
+    files = dict.fromkeys(
+        str(CHECKS / f"{todo.file}.py") for todo in rubric.todos if plugin.wanted(todo)
+    )
     before = hypothesis.settings.get_current_profile_name()
     hypothesis.settings.load_profile("judge")
     try:
@@ -208,4 +210,4 @@ def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
     finally:
         hypothesis.settings.load_profile(before)
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
-        raise CannotGrade(f"the checks themselves could not be run (pytest said {status!r})")
+        raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")

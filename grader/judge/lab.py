@@ -8,11 +8,10 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 from grader.judge.children import Child, ChildEnded
 from grader.protocol import (
-    Append,
     Argument,
     BodyValue,
     Call,
@@ -22,6 +21,8 @@ from grader.protocol import (
     Get,
     Import,
     Items,
+    MakeBody,
+    MakeWorld,
     Missing,
     Piece,
     Play,
@@ -88,7 +89,6 @@ class Lab:
     pieces: list[Piece]
     observations: list[Observation] = field(default_factory=list)
     swapped: list[str] = field(default_factory=list)
-    isolation: list[str] = field(default_factory=list)
     output: str = ""
     running: str = ""
     failure: NotYet | Broke | None = None  # the first one, or the one the check ended with
@@ -181,20 +181,26 @@ class Lab:
 
     def circle(self, pos: Pair, radius: float = 10.0, mass: float = 1.0, **fields: Any) -> Thing:
         """A disc; mass 0 makes it static. `fields` may be vel, omega, angle, friction, restitution."""
-        return self._body(self.call("Circle", radius), pos, mass, fields)
+        return self._body("Circle", float(radius), pos, mass, fields)
 
     def box(self, pos: Pair, half: Pair, **fields: Any) -> Thing:
         """A static box with half extents `half`."""
-        return self._body(self.call("Box", half), pos, 0.0, fields)
+        return self._body("Box", Vec(*half), pos, 0.0, fields)
 
-    def _body(self, shape: Value, pos: Pair, mass: float, fields: dict[str, Any]) -> Thing:
-        kwargs = {
-            name: fields.pop(name) for name in ("restitution", "friction") if name in fields
+    def _body(
+        self,
+        shape: Literal["Circle", "Box"],
+        size: float | Vec,
+        pos: Pair,
+        mass: float,
+        fields: dict[str, Any],
+    ) -> Thing:
+        surface = {
+            name: float(fields.pop(name)) for name in ("restitution", "friction") if name in fields
         }
-        body = self.thing(self.call("Body", self.thing(shape), pos, mass, **kwargs), "a Body")
-        if fields:
-            self.put(body, **fields)
-        return body
+        rest = {name: plain(value) for name, value in fields.items()}
+        request = MakeBody(self.module, shape, size, Vec(*pos), float(mass), surface, rest)
+        return self.thing(self._value(request), "a Body")
 
     def thing(self, value: Value, what: str = "an object") -> Thing:
         """The value as an object that lives in the child."""
@@ -233,20 +239,15 @@ class Lab:
         joints: Sequence[Thing] = (),
     ) -> Thing:
         """A World with these bodies; without gravity and damping unless asked for."""
-        world = self.thing(
-            self.call(
-                "World",
-                gravity=gravity,
-                linear_damping=linear_damping,
-                angular_damping=angular_damping,
-            ),
-            "a World",
+        request = MakeWorld(
+            self.module,
+            Vec(*gravity),
+            linear_damping,
+            angular_damping,
+            [body.ref for body in bodies],
+            [joint.ref for joint in joints],
         )
-        for body in bodies:
-            self.tell(world, "add", body)
-        for joint in joints:
-            self._value(Append(world.ref, "joints", joint.ref))
-        return world
+        return self.thing(self._value(request), "a World")
 
     def simulate(
         self,
@@ -319,7 +320,6 @@ class Lab:
             self._child = self.open_child()
         except ChildEnded as error:
             self._stop(str(error))
-        self.isolation = self._child.ready.layers
         try:
             reply = self._ask(Import(self.module, self.pieces))
         except (Broke, NotYet) as failure:

@@ -43,9 +43,16 @@ class GradingPlugin:
     progress: Callable[[CheckResult], None] = lambda check: None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
-    isolation: list[str] = field(default_factory=list)
+    trouble: str = ""  # why a file of checks could not be read
+
+    def wanted(self, todo: Todo) -> bool:
+        return not self.only or todo.id in self.only
 
     # ------------------------------------------------------------ collecting
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        if report.failed:
+            self.trouble = str(report.longrepr)
 
     def pytest_pycollect_makeitem(self, collector: Any, name: str, obj: Any) -> list[Any]:
         """Only functions that the rubric names are checks, whatever they are called."""
@@ -53,7 +60,7 @@ class GradingPlugin:
         found = [(t, check) for t in todos for check in t.checks if check.id == name]
         items = []
         for todo, check in found:
-            if self.only and todo.id not in self.only:
+            if not self.wanted(todo):
                 continue
             item = pytest.Function.from_parent(collector, name=f"{name}[{todo.id}]", callobj=obj)
             item.stash[TODO], item.stash[CHECK] = todo, check
@@ -131,7 +138,6 @@ class GradingPlugin:
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
-        self.isolation = self.isolation or lab.isolation
         return lab
 
     # ------------------------------------------------------------ results

@@ -2,8 +2,10 @@
 
 import ast
 import os
+import py_compile
 import shutil
 import stat
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -42,10 +44,23 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
     else:
         copy_tree(path, submission)
     find_todos(submission, rubric, stubs)
+    compile_files(copy)
     for each in [copy, *copy.rglob("*")]:
         mode = stat.S_IRUSR | stat.S_IRGRP | stat.S_IROTH
         each.chmod(mode | (stat.S_IXUSR if each.is_dir() else 0))
     return submission
+
+
+def compile_files(folder: Path) -> None:
+    """Compile once what every child will import; a file that does not compile says so there."""
+    for path in python_files(folder):
+        with suppress(Exception):
+            py_compile.compile(
+                str(path),
+                doraise=True,
+                quiet=2,
+                invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH,
+            )
 
 
 def copy_tree(path: Path, submission: Submission) -> None:

@@ -9,7 +9,6 @@ import msgspec
 
 from grader.protocol import (
     Answered,
-    Append,
     Asked,
     Call,
     Channel,
@@ -17,6 +16,8 @@ from grader.protocol import (
     ChildSetup,
     Get,
     Import,
+    MakeBody,
+    MakeWorld,
     Missing,
     Play,
     ProtocolError,
@@ -77,15 +78,16 @@ def answer(subject: Subject, clock: ScriptedClock, output: Output, request: Requ
             )
             return Returned(subject.encode(result), subject.force_calls)
         case Get(ref, name):
-            return Returned(subject.encode(subject.find(f"#{ref}.{name}") if name else
-                                           subject.objects[ref]))
+            thing = subject.find(f"#{ref}.{name}") if name else subject.objects[ref]
+            return Returned(subject.encode(thing))
         case Set(ref, fields):
             for name, each in fields.items():
                 setattr(subject.objects[ref], name, subject.decode(each))
             return Returned(None)
-        case Append(ref, name, item):
-            subject.find(f"#{ref}.{name}").append(subject.objects[item])
-            return Returned(None)
+        case MakeBody():
+            return Returned(subject.encode(subject.make_body(request)))
+        case MakeWorld():
+            return Returned(subject.encode(subject.make_world(request)))
         case Simulate():
             return simulate(subject, request)
         case Play():

@@ -92,14 +92,18 @@ def limit(limits: Limits) -> list[str]:
 def readable(hidden: tuple[str, ...]) -> list[Path]:
     """What Python and its packages need, and nothing that is hidden."""
     paths = sysconfig.get_paths()
-    roots = {Path(sys.base_prefix, "lib"), Path(paths["stdlib"]), Path(paths["platstdlib"])}
-    for name in ("purelib", "platlib"):
-        roots.update(Path(paths[name]).iterdir())
-    roots.update(map(Path, ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache")))
-    roots.update(map(Path, ("/usr/local/lib", "/usr/share/zoneinfo", "/dev/urandom")))
-    kept = {root.resolve() for root in roots if root.exists()}
-    out = [Path(each).resolve() for each in hidden]
-    return [root for root in kept if not any(root.is_relative_to(each) for each in out)]
+    roots = [Path(sys.base_prefix, "lib")]
+    roots += [Path(paths[name]) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
+    roots += map(Path, ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache"))
+    roots += map(Path, ("/usr/local/lib", "/usr/share/zoneinfo", "/dev/urandom"))
+    out = {Path(each).resolve() for each in hidden}
+    kept: set[Path] = set()
+    for root in {each.resolve() for each in roots if each.exists()}:
+        if any(each.is_relative_to(root) for each in out):  # installed among the packages
+            kept.update(each for each in root.iterdir() if each.resolve() not in out)
+        else:
+            kept.add(root)
+    return sorted(kept)
 
 
 def landlock(submission: Path, scratch: Path, hidden: list[str]) -> list[str]:

@@ -4,13 +4,12 @@ import importlib
 import io
 import math
 import os
-from collections.abc import Callable
-from typing import Any
+from typing import Any, Literal
 
 import pygame
 import pymunk
 
-from grader.protocol import ContactRow, Play, Played, Simulate, Simulated, SpaceBody
+from grader.protocol import RUNAWAY, ContactRow, Play, Played, Simulate, Simulated, SpaceBody
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.subject import NotThere, Subject, as_pair, field, field_number, field_pair
@@ -19,12 +18,16 @@ MAX_LINES = 200
 MAX_STEP_SIZES = 16
 
 
+class Runaway(BaseException):
+    """Ends a program whose frame never stops stepping."""
+
+
 class StepCounter:
     """Stands in for `World.step` or `Space.step`: counts, and runs the real one if asked to."""
 
-    def __init__(self, owner: type, physics: bool, trail_every: int, look: Callable[..., Any]):
+    def __init__(self, owner: type, physics: bool, trail_every: int):
         self.owner, self.real = owner, owner.step  # type: ignore[attr-defined]
-        self.physics, self.trail_every, self.look = physics, trail_every, look
+        self.physics, self.trail_every = physics, trail_every
         self.in_frame = self.total = 0
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
@@ -44,7 +47,9 @@ class StepCounter:
             self.dts.append(float(dt))
         result = self.real(world, dt, *rest) if self.physics else None
         if self.trail_every and self.total % self.trail_every == 0:
-            self.trail.append(self.look(world))
+            self.trail.append(moving_state(world))
+        if self.in_frame >= RUNAWAY:
+            raise Runaway
         return result
 
     def restore(self) -> None:
@@ -55,34 +60,37 @@ def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) 
     module = importlib.import_module(request.module)
     main = subject.find(f"{request.module}:main")
     owner = module.World if hasattr(module, "World") else pymunk.Space
-    counter = StepCounter(owner, request.physics, request.trail_every, moving_state)
+    counter = StepCounter(owner, request.physics, request.trail_every)
     steps: list[int] = []
     times: list[float] = []
 
     def frame_over() -> None:
         steps.append(counter.in_frame)
-        times.append(clock.now)
+        times.append(clock.elapsed)
         counter.in_frame = 0
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
     picture = Picture(request.picture)
+    ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
         main()
-        ended = "returned"
+    except SystemExit:
+        pass  # as good an end as any
     except PlayOver:
         ended = "stopped"
+    except Runaway:
+        ended = "runaway"
     finally:
         counter.restore()
         picture.restore()
-    if counter.in_frame:
-        frame_over()
+    frame_over()
     return Played(
         steps=steps,
         clock=times,
         dts=counter.dts,
-        ended=ended,  # type: ignore[arg-type]
+        ended=ended,
         lines=output.so_far().splitlines()[-MAX_LINES:],
         bodies=all_bodies(subject, counter.last),
         rods=rods(counter.last),
@@ -96,13 +104,13 @@ class Picture:
 
     def __init__(self, wanted: bool) -> None:
         self.png = b""
+        self.wanted = wanted
         self.real = pygame.quit
-        if wanted:
-            pygame.quit = self._quit
+        pygame.quit = self._quit
 
     def _quit(self) -> None:
-        surface = pygame.display.get_surface()
-        if surface is not None:
+        surface = pygame.display.get_surface() if pygame.display.get_init() else None
+        if self.wanted and surface is not None:
             file = io.BytesIO()
             pygame.image.save(surface, file, "picture.png")
             self.png = file.getvalue()
@@ -110,8 +118,8 @@ class Picture:
 
     def restore(self) -> None:
         pygame.quit = self.real
-        if not self.png and pygame.display.get_init():
-            pygame.quit()
+        if pygame.display.get_init():
+            self._quit()
 
 
 def all_bodies(subject: Subject, world: Any) -> list[Any]:

@@ -1,18 +1,19 @@
 """A clock and a pair of hands for a program that runs without a person.
 
 Every way of reading time agrees: `Clock.tick`, `get_ticks`, `time.*`. Time stands still unless the
-program ends a frame (`Clock.tick`, or showing the picture where it has no Clock), sleeps, or reads
-the time over and over, as a busy wait does. Time is counted in whole milliseconds, as pygame's is.
+program ends a frame (`Clock.tick`, or showing the picture where no Clock ticks), sleeps, or reads
+the time over and over, as a busy wait does. A frame takes whole milliseconds, as pygame's do.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import pygame
 
 from grader.protocol import Event
 
+BEGIN = 1000.0  # ms: no program starts at time 0
 PATIENCE = 5  # frames a program may run on after it was told to quit
 BUSY_READS = 500  # readings of the time without a frame in between, before time moves by itself
 
@@ -25,28 +26,25 @@ class ScriptedClock:
     """Stands in for pygame's and Python's clocks; installed before the submission is imported."""
 
     def __init__(self) -> None:
-        self.now = 0.0  # ms
-        self.reads = 0
+        self.now = BEGIN  # ms
+        self.reads = 0  # of the time, since the last frame or sleep
+        self.clocks = 0  # that the program made, when it was imported or later
         self.start([], [], lambda: None)
 
-    def start(self, frames: list[int], events: list[Event], after: Callable[[], None]) -> None:
+    def start(
+        self, frames: Sequence[int], events: Sequence[Event], after: Callable[[], None]
+    ) -> None:
         """Script a run: `frames` in ms each; `after` is called at the end of every frame."""
-        self.ends: list[float] = []
-        end = self.now
-        for length in frames:
-            end += length
-            self.ends.append(end)
-        self.events, self.after = events, after
+        self.frames, self.events, self.after = frames, events, after
         self.frame = 0
-        self.has_clock = False
-        self.ticked = True  # since the picture was last shown
-        if frames:
-            self._post(0)
+        self.frame_began = self.began = self.now
+        self.ticks = self.shows = 0
 
     def install(self) -> None:
         replacements: dict[Any, dict[str, Any]] = {
+            pygame: {"Clock": self._clock_type()},
             pygame.time: {
-                "Clock": self._make_clock,
+                "Clock": self._clock_type(),
                 "get_ticks": lambda: int(self.read()),
                 "wait": self._wait,
                 "delay": self._wait,
@@ -66,6 +64,11 @@ class ScriptedClock:
 
     # ------------------------------------------------------------ time
 
+    @property
+    def elapsed(self) -> float:
+        """How long the program has been running, in ms."""
+        return self.now - self.began
+
     def read(self) -> float:
         self.reads += 1
         if self.reads > BUSY_READS:
@@ -77,29 +80,42 @@ class ScriptedClock:
         self.reads = 0
 
     def end_frame(self) -> None:
+        """Let the frame take its time, or longer where the program slept longer."""
+        if self.frame < len(self.frames):
+            self.now = max(self.now, self.frame_began + self.frames[self.frame])
+        self.frame_began = self.now
         self.reads = 0
-        if self.frame < len(self.ends):
-            self.now = max(self.now, self.ends[self.frame])
         self.frame += 1
         self.after()
-        if self.frame >= len(self.ends) + PATIENCE:
-            raise PlayOver
+        if self.frame >= len(self.frames) + PATIENCE:
+            raise PlayOver("the program runs on after its window was closed")
         self._post(self.frame)
+
+    def tick(self) -> None:
+        self.ticks += 1
+        self.end_frame()
 
     def _wait(self, milliseconds: float) -> int:
         self.sleep(milliseconds)
         return int(milliseconds)
 
-    def _make_clock(self) -> "FrameClock":
-        self.has_clock = True
-        return FrameClock(self)
+    def _clock_type(self) -> type:
+        script = self
+
+        class Clock(FrameClock):
+            def __init__(self) -> None:
+                super().__init__(script)
+
+        return Clock
 
     def _showing(self, show: Callable[..., Any]) -> Callable[..., Any]:
+        """Showing the picture ends a frame, unless a Clock does or may be about to."""
+
         def shown(*args: Any) -> Any:
             result = show(*args)
-            if not self.ticked or not self.has_clock:
+            self.shows += 1
+            if not self.ticks and (not self.clocks or self.shows > 1):
                 self.end_frame()
-            self.ticked = False
             return result
 
         return shown
@@ -107,14 +123,16 @@ class ScriptedClock:
     # ------------------------------------------------------------ hands
 
     def _post(self, frame: int) -> None:
+        """What the person does at the end of a frame."""
         if not pygame.display.get_init():
             return
-        if frame >= len(self.ends):
+        if frame >= len(self.frames):
             pygame.event.post(pygame.event.Event(pygame.QUIT))
         for event in self.events:
             if event.frame != frame:
                 continue
             if event.kind == "click":
+                pygame.mouse.set_pos(event.pos)
                 for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
                     pygame.event.post(pygame.event.Event(kind, pos=event.pos, button=1))
             else:
@@ -128,16 +146,16 @@ class ScriptedClock:
 class FrameClock:
     """What `pygame.time.Clock()` gives a program here."""
 
-    def __init__(self, clock: ScriptedClock) -> None:
-        self.clock = clock
-        self.last = clock.now
+    def __init__(self, script: ScriptedClock) -> None:
+        self.script = script
+        self.last = script.now
         self.length = 0
+        script.clocks += 1
 
     def tick(self, framerate: float = 0) -> int:
-        self.clock.ticked = True
-        self.clock.end_frame()
-        self.length = int(self.clock.now) - int(self.last)
-        self.last = self.clock.now
+        self.script.tick()
+        self.length = int(self.script.now) - int(self.last)
+        self.last = self.script.now
         return self.length
 
     tick_busy_loop = tick

@@ -24,6 +24,8 @@ from grader.protocol import (
     ContactValue,
     Force,
     Items,
+    MakeBody,
+    MakeWorld,
     Piece,
     Raised,
     Ref,
@@ -156,6 +158,28 @@ class Subject:
             return total
 
         return accel
+
+    def make_body(self, request: MakeBody) -> Any:
+        module = request.module
+        shape = self.find(f"{module}:{request.shape}")(self.decode(request.size))
+        body = self.find(f"{module}:Body")(
+            shape, self.decode(request.pos), request.mass, **request.kwargs
+        )
+        for name, value in request.fields.items():
+            setattr(body, name, self.decode(value))
+        return body
+
+    def make_world(self, request: MakeWorld) -> Any:
+        world = self.find(f"{request.module}:World")(
+            gravity=self.decode(request.gravity),
+            linear_damping=request.linear_damping,
+            angular_damping=request.angular_damping,
+        )
+        for ref in request.bodies:
+            world.add(self.objects[ref])
+        for ref in request.joints:
+            field(world, "joints").append(self.objects[ref])
+        return world
 
     # ------------------------------------------------------------ values out
 

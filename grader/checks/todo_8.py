@@ -1,0 +1,136 @@
+"""TODO 8a to 8c: three integrators, one step under any force and ten seconds on the spring."""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from hypothesis import given
+
+from grader.checks import exact
+from grader.checks.exact import Accel, State
+from grader.checks.strategies import forces, long_steps, states
+from grader.judge.lab import Lab
+from grader.protocol import Force
+
+OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
+SPRING = (0.0, -(OMEGA**2))
+X0 = 100.0  # px
+
+Polynomial = tuple[float, ...]  # lowest power first
+
+
+class Method(NamedTuple):
+    """An integrator, and what the lesson's table says of it after 10 s."""
+
+    name: str
+    step: Callable[[float, float, float, Accel], State]
+    order: int
+    error: float  # px
+    energy_change: float  # %
+
+
+SEMI_IMPLICIT_EULER = Method("semi_implicit_euler", exact.semi_implicit_euler, 1, 1.878, -2.38)
+VELOCITY_VERLET = Method("velocity_verlet", exact.velocity_verlet, 2, 0.665, -0.01)
+RK4 = Method("rk4", exact.rk4, 4, 0.018, -0.03)
+
+
+def want_step(lab: Lab, method: Method, state: State, dt: float, force: Polynomial) -> None:
+    x, v = state
+    lab.ran(
+        f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
+        f"with accel(x) = {formula(force)}"
+    )
+    answer = lab.integrate(method.name, x, v, dt, Force(list(force)))
+    lab.saw(method.name, (x, v, dt, force), answer)
+    right = method.step(x, v, dt, exact.polynomial(force))
+    # Every order of adding up is right: rounding is a share of the terms, whatever their signs.
+    sizes = method.step(abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
+    lab.want(
+        all(abs(a - b) <= 1e-12 * size for a, b, size in zip(answer, right, sizes, strict=True)),
+        say(right),
+        say(answer),
+    )
+
+
+def formula(force: Polynomial) -> str:
+    terms = [f"{c:+g}{power}" for c, power in zip(force, ("", "·x", "·x²", "·x³"), strict=True) if c]
+    return " ".join(terms) or "0"
+
+
+def say(state: State) -> str:
+    return f"x = {state[0]:.8g} px, v = {state[1]:.8g} px/s"
+
+
+def swing(lab: Lab, method: Method, steps: int, seconds: float) -> State:
+    """Where the spring's body is after so many steps; it is let go at X0."""
+    x, v = X0, 0.0
+    for _ in range(steps):
+        x, v = lab.integrate(method.name, x, v, seconds / steps, Force(list(SPRING)))
+    return x, v
+
+
+def want_order(lab: Lab, method: Method) -> None:
+    """Half the step must divide the error by 2^order, at a time when x and v both err."""
+    lab.ran(f"{method.name} on the spring for 0.65 s, with dt = 1/40 s and with dt = 1/80 s")
+    exact_x = X0 * math.cos(OMEGA * 0.65)
+    coarse, fine = (abs(swing(lab, method, steps, 0.65)[0] - exact_x) for steps in (26, 52))
+    ratio = 2**method.order
+    # The next term of the error changes the ratio by a share of omega * dt / 2, which is 8%.
+    lab.want(
+        0.9 * ratio * fine <= coarse <= 1.1 * ratio * fine,
+        f"half the step, 1/{ratio} of the error (order {method.order})",
+        f"{coarse:.3g} px off with 1/40 s, {fine:.3g} px off with 1/80 s",
+    )
+
+
+def want_figures(lab: Lab, method: Method) -> None:
+    """The printed figures of the lesson's table, to half a unit of their last digit."""
+    lab.ran(f"{method.name} on the spring for 10 s, dt = 1/30 s, from x = 100 px at rest")
+    x, v = swing(lab, method, 300, 10.0)
+    error = abs(x - X0)
+    change = 100 * ((v**2 + OMEGA**2 * x**2) / (OMEGA**2 * X0**2) - 1)
+    lab.want(
+        abs(error - method.error) <= 0.0005 and abs(change - method.energy_change) <= 0.005,
+        f"{method.error:.3f} px off, energy changed by {method.energy_change:+.2f}%",
+        f"{error:.3f} px off, energy changed by {change:+.2f}%",
+    )
+
+
+@given(state=states, dt=long_steps, force=forces)
+def semi_implicit_euler_moves_with_the_new_velocity(
+    lab: Lab, state: State, dt: float, force: Polynomial
+) -> None:
+    """A step changes the velocity first, then moves with the new one"""
+    want_step(lab, SEMI_IMPLICIT_EULER, state, dt, force)
+
+
+def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
+    """The spring gives the lesson's figures, with an error of order 1"""
+    want_order(lab, SEMI_IMPLICIT_EULER)
+    want_figures(lab, SEMI_IMPLICIT_EULER)
+
+
+@given(state=states, dt=long_steps, force=forces)
+def velocity_verlet_uses_the_accelerations_at_both_ends(
+    lab: Lab, state: State, dt: float, force: Polynomial
+) -> None:
+    """A step uses the accelerations at both of its ends"""
+    want_step(lab, VELOCITY_VERLET, state, dt, force)
+
+
+def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
+    """The spring gives the lesson's figures, with an error of order 2"""
+    want_order(lab, VELOCITY_VERLET)
+    want_figures(lab, VELOCITY_VERLET)
+
+
+@given(state=states, dt=long_steps, force=forces)
+def rk4_weighs_four_samples(lab: Lab, state: State, dt: float, force: Polynomial) -> None:
+    """A step weighs four samples of velocity and acceleration"""
+    want_step(lab, RK4, state, dt, force)
+
+
+def rk4_keeps_the_spring_swinging(lab: Lab) -> None:
+    """The spring gives the lesson's figures, with an error of order 4"""
+    want_order(lab, RK4)
+    want_figures(lab, RK4)

@@ -1,0 +1,134 @@
+"""What the grader costs: a full grade, the wall around it, and the simulation inside it.
+
+All three come from one run, taken in turns; the least of the rounds counts, and the ratio is what
+to look at. Only the shipped solution is run without the wall: nothing else ever is.
+"""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter  # kept: the scripted clock replaces the one in the module
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from grader.judge.children import Child, start_worker
+from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
+from grader.judge.reference import Reference
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import take_in
+from grader.protocol import Answered, ChildSetup, Play, Ready, Request, Simulate
+from grader.worker.child import answer
+from grader.worker.output import Output
+from grader.worker.scripted import ScriptedClock
+from grader.worker.subject import Subject
+
+
+@dataclass
+class Times:
+    total: float = 0.0  # s
+    simulating: float = 0.0  # s of it inside World.step, Space.step and main()
+
+
+class OpenChild(Child):
+    """A child that is no process at all: the same answers from this very one."""
+
+    def __init__(self, setup: ChildSetup, clock: ScriptedClock, times: Times) -> None:
+        self.ready, self.times, self.over = Ready(0, []), times, ""
+        forget_modules(setup.submission)
+        self.folder = setup.submission
+        self.clock, self.output = clock, Output()
+        self.subject = Subject(Path(setup.submission))
+
+    def ask(self, request: Request) -> Answered:
+        start = perf_counter()
+        reply = answer(self.subject, self.clock, self.output, request)
+        if isinstance(request, Simulate | Play):
+            self.times.simulating += perf_counter() - start
+        return Answered(0, reply)
+
+    def end(self) -> None:
+        sys.path.remove(self.folder)
+
+
+class OpenWorker:
+    """Stands in for the warm worker, without processes, pipe and limits."""
+
+    def __init__(self, times: Times) -> None:
+        self.layers: list[str] = []
+        self.times = times
+        self.clock = ScriptedClock()
+
+    def open(self, setup: ChildSetup) -> Child:
+        return OpenChild(setup, self.clock, self.times)
+
+    def end(self, child: Child, gone: bool) -> str:
+        return ""
+
+    def close(self) -> None:
+        pass
+
+
+def forget_modules(folder: str) -> None:
+    for name, module in list(sys.modules.items()):
+        if str(getattr(module, "__file__", None)).startswith(folder):
+            del sys.modules[name]
+
+
+@contextmanager
+def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
+    """The scripted clock for as long as the submission's code runs."""
+    import time
+
+    import pygame
+
+    before: list[tuple[Any, dict[str, Any]]] = [
+        (module, dict(vars(module))) for module in (time, pygame.time, pygame.display)
+    ]
+    clock.install()
+    try:
+        yield
+    finally:
+        for module, names in before:
+            vars(module).update(names)
+
+
+def run_once(isolated: bool) -> Times:
+    """One full grade of the solution."""
+    times, rubric = Times(), load_rubric()
+    options = Options(shipped_reference())
+    start = perf_counter()
+    with work_folder() as work:
+        submission = take_in(KIT / "solution", work / "submission", rubric, load_stubs())
+        worker: Any = start_worker() if isolated else OpenWorker(times)
+        reference = Reference(options.reference, rubric)
+        grading = Grading(options, rubric, reference, submission, worker, work)
+        try:
+            with nullcontext() if isolated else replaced_clocks(worker.clock):
+                result = grading.run()
+        finally:
+            worker.close()
+    times.total = perf_counter() - start
+    if result.points != result.max_points:
+        raise RuntimeError(f"the solution got {result.points} of {result.max_points} points")
+    return times
+
+
+def bench(rounds: int, console: Console) -> None:
+    """Print the price of a grade."""
+    run_once(True), run_once(False)  # everything is imported and compiled after this
+    walled, plain = [], []
+    for _ in range(rounds):
+        walled.append(run_once(True))
+        plain.append(run_once(False))
+    best, open_best = (min(each, key=lambda times: times.total) for each in (walled, plain))
+    table = Table("one full grade of the solution", "s", "ratio", title=f"best of {rounds} rounds")
+    table.add_row("with processes, pipe and limits", f"{best.total:.2f}",
+                  f"{best.total / open_best.total:.2f}")
+    table.add_row("the same checks in one process", f"{open_best.total:.2f}", "1.00")
+    table.add_row("of that, the simulation alone", f"{open_best.simulating:.2f}",
+                  f"{open_best.simulating / open_best.total:.2f}")
+    console.print(table)

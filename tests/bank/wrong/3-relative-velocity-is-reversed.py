@@ -1,0 +1,10 @@
+"""Measures the speed of A as seen from B, against the axis."""
+
+# TODO 3: hold the rod's length
+if self.k == 0:
+    return
+speed = (self.a.vel - self.b.vel).dot(self.axis)
+impulse = self.axis * ((self.bias - speed) / self.k)
+self.a.vel -= impulse * self.a.inv_mass
+self.b.vel += impulse * self.b.inv_mass
+# END TODO 3
