@@ -1,6 +1,5 @@
 """The command line: `python -m grader COMMAND`."""
 
-import sys
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -8,10 +7,13 @@ import msgspec
 import typer
 from rich.console import Console
 
+from grader.classroom.batch import grade_class, show_class
 from grader.judge.grade import KIT, Isolation, Options, grade, shipped_reference
 from grader.judge.result import Result
+from grader.judge.rubric import CHECKS, load_rubric
 from grader.judge.submission import CannotGrade
-from grader.report.terminal import show
+from grader.report.files import write_json
+from grader.report.terminal import show, show_next
 
 app = typer.Typer(
     help="Grades submissions of the physics-engine assignment.",
@@ -27,24 +29,51 @@ def grade_command(
     path: Annotated[
         Path | None, typer.Argument(help="The submission; the shipped trees if left out.")
     ] = None,
-    json: Annotated[Path | None, typer.Option(help="Write the result here as JSON.")] = None,
+    class_: Annotated[
+        bool, typer.Option("--class", help="PATH is a folder of submissions, a folder each.")
+    ] = False,
+    out: Annotated[Path | None, typer.Option(help="Write NAME.json into this folder.")] = None,
+    json: Annotated[Path | None, typer.Option(help="Write the one result here as JSON.")] = None,
     reference: Annotated[
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
     ] = None,
+    jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
     isolation: Annotated[Isolation, typer.Option(help="How much confinement to insist on.")] = "auto",
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
 ) -> None:
-    """Grade a submission. Exit status 0: full marks, 1: less, 2: could not be graded."""
-    options = Options(reference or shipped_reference(), isolation, frozenset(todo or ()), seed)
+    """Grade a submission, or a class of them.
+
+    Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
+    """
+    options = Options(
+        reference or shipped_reference(), isolation, only=known_todos(todo), seed=seed
+    )
     if path is None:
         demonstrate(options)
-        return
+    elif class_:
+        grade_folder(path, out, options, jobs)
+    else:
+        grade_one(path, out, json, options)
+
+
+def grade_one(path: Path, out: Path | None, json: Path | None, options: Options) -> NoReturn:
     result = graded(path, options)
     show(result, console)
     if json is not None:
-        json.write_bytes(msgspec.json.format(msgspec.json.encode(result)) + b"\n")
+        write_json(result, json)
+    if out is not None:
+        write_json(result, out / f"{result.submission}.json")
     raise typer.Exit(0 if result.points == result.max_points else 1)
+
+
+def grade_folder(path: Path, out: Path | None, options: Options, jobs: int) -> NoReturn:
+    try:
+        outcomes = grade_class(path, out, options, jobs, console)
+    except CannotGrade as error:
+        stop(str(error))
+    show_class(outcomes, console)
+    raise typer.Exit(2 if any(outcome.result is None for outcome in outcomes) else 0)
 
 
 def demonstrate(options: Options) -> None:
@@ -59,6 +88,49 @@ def graded(path: Path, options: Options) -> Result:
         return grade(path, options)
     except CannotGrade as error:
         stop(str(error))
+
+
+def known_todos(todos: list[str] | None) -> frozenset[str]:
+    known = [todo.id for todo in load_rubric().todos]
+    for todo in todos or ():
+        if todo not in known:
+            stop(f"there is no TODO {todo}; there are {', '.join(known)}")
+    return frozenset(todos or ())
+
+
+@app.command("check")
+def check_command(
+    todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+    path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+) -> None:
+    """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
+    folder = own_tree(path)
+    result = graded(folder, Options(reference=None, only=known_todos(todo)))
+    show(result, console)
+    show_next(result, console)
+    raise typer.Exit(0 if result.points == result.max_points else 1)
+
+
+def own_tree(path: Path) -> Path:
+    """The student's tree around `path`: the folder that holds the mini engine."""
+    for folder in [path.resolve(), *path.resolve().parents]:
+        if (folder / "mini_engine").is_dir() or (folder / "mini_engine.py").is_file():
+            return folder
+    stop(f"there is no mini_engine in {path.resolve()} or above it: go to the folder handed out")
+
+
+@app.command("hint")
+def hint_command(
+    todo: Annotated[str, typer.Option(help="The TODO you are at.")],
+    level: Annotated[int, typer.Option(min=1, max=3, help="1 asks, 2 explains, 3 nearly tells.")] = 1,
+) -> None:
+    """Give a hint: first a question, then the idea, then nearly the code."""
+    known_todos([todo])
+    hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
+    for number, words in enumerate(hints.get(todo, [])[:level], 1):
+        console.print(f"{number}  {words}")
+    if level < len(hints.get(todo, [])):
+        console.print(f"More: python -m grader hint --todo {todo} --level {level + 1}")
 
 
 def stop(message: str) -> NoReturn:
@@ -109,5 +181,3 @@ def main() -> None:
     app(prog_name="grader")
 
 
-if __name__ == "__main__":
-    sys.exit(main())

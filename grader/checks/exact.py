@@ -38,14 +38,21 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
         return [None]
     if distance > 0:
         return [Touch(dx / distance, dy / distance, disc.r - distance, x, y)]
-    faces = [
-        (disc.x - (rect.x - rect.hx), Touch(1, 0, 0, rect.x - rect.hx, disc.y)),
-        ((rect.x + rect.hx) - disc.x, Touch(-1, 0, 0, rect.x + rect.hx, disc.y)),
-        (disc.y - (rect.y - rect.hy), Touch(0, 1, 0, disc.x, rect.y - rect.hy)),
-        ((rect.y + rect.hy) - disc.y, Touch(0, -1, 0, disc.x, rect.y + rect.hy)),
+    ways = ways_out(disc, rect)
+    shortest = min(touch.depth for touch in ways)
+    return [touch for touch in ways if touch.depth <= shortest + 1e-9]
+
+
+def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
+    """The contacts by which a disc with its centre inside could leave: left, right, top, bottom."""
+    left, right = rect.x - rect.hx, rect.x + rect.hx
+    top, bottom = rect.y - rect.hy, rect.y + rect.hy
+    return [
+        Touch(1, 0, disc.r + (disc.x - left), left, disc.y),
+        Touch(-1, 0, disc.r + (right - disc.x), right, disc.y),
+        Touch(0, 1, disc.r + (disc.y - top), disc.x, top),
+        Touch(0, -1, disc.r + (bottom - disc.y), disc.x, bottom),
     ]
-    nearest = min(gap for gap, _ in faces)
-    return [touch._replace(depth=disc.r + gap) for gap, touch in faces if gap <= nearest + 1e-9]
 
 
 def damped(rate: float, seconds: float) -> float:
@@ -114,6 +121,11 @@ class Rod(NamedTuple):
         return (bx - ax) * x + (by - ay) * y
 
     @property
+    def momentum(self) -> Pair:
+        (ax, ay), (bx, by) = self.vel_a, self.vel_b
+        return self.mass_a * ax + self.mass_b * bx, self.mass_a * ay + self.mass_b * by
+
+    @property
     def bias(self) -> float:
         """The speed of B away from A that takes the share BETA of the error away, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
@@ -131,10 +143,15 @@ def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
 
 
 class Rubbing(NamedTuple):
-    """One pass over a contact: how hard it is pressed, and how fast B slips before the pass."""
+    """A contact just before a pass: how hard it is pressed, and how B moves as seen from A."""
 
     jn: float  # kg px/s
     slip: float  # px/s
+    closing: float = 0.0  # px/s
+
+    def pressed(self, k: float) -> float:
+        """The normal impulse that limits the friction: jn after the pass, with target 0."""
+        return max(self.jn + self.closing / k, 0.0)
 
 
 def clamped(value: float, limit: float) -> float:
@@ -144,8 +161,9 @@ def clamped(value: float, limit: float) -> float:
 def friction_totals(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
     """The friction impulse on B in total after each pass, along the slip; k in 1/kg."""
     totals = [0.0]
-    for jn, slip in passes:
-        totals.append(clamped(totals[-1] - slip / k, math.sqrt(mu[0] * mu[1]) * jn))
+    for each in passes:
+        limit = math.sqrt(mu[0] * mu[1]) * each.pressed(k)
+        totals.append(clamped(totals[-1] - each.slip / k, limit))
     return tuple(totals[1:])
 
 

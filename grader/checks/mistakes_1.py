@@ -1,12 +1,23 @@
 """Known mistakes in TODO 1, as models of what circle_box then returns."""
 
 import math
+from collections.abc import Callable
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.judge.misconceptions import Undecided, mistake, truth
 
 Answer = Touch | None
+Model = Callable[[Disc, Rect], Answer]
+Change = Callable[[Touch, Disc, Rect], Touch]
+
+FAR = 4096.0  # px, beyond every distance that a check asks about
+
+
+@truth("order")
+def circle_first() -> tuple[bool, bool]:
+    """Whether the contact's A is the circle, and its B the box."""
+    return True, True
 
 
 @truth("circle_box")
@@ -17,60 +28,177 @@ def right(disc: Disc, rect: Rect) -> Answer:
     return answers[0]
 
 
+def known(name: str, meaning: str) -> Callable[[Model], Model]:
+    return mistake("1", name, meaning, about="circle_box")
+
+
 def is_inside(disc: Disc, rect: Rect) -> bool:
     return abs(disc.x - rect.x) <= rect.hx and abs(disc.y - rect.y) <= rect.hy
 
 
-@mistake(
+def inside(change: Change) -> Model:
+    """The right answer, changed for a centre inside the box."""
+
+    def model(disc: Disc, rect: Rect) -> Answer:
+        answer = right(disc, rect)
+        return change(answer, disc, rect) if answer and is_inside(disc, rect) else answer
+
+    return model
+
+
+def outside(change: Change) -> Model:
+    """The right answer, changed for a centre outside the box."""
+
+    def model(disc: Disc, rect: Rect) -> Answer:
+        answer = right(disc, rect)
+        return answer if answer is None or is_inside(disc, rect) else change(answer, disc, rect)
+
+    return model
+
+
+def turned(touch: Touch) -> Touch:
+    return touch._replace(nx=-touch.nx, ny=-touch.ny)
+
+
+def with_normal(touch: Touch, nx: float, ny: float) -> Touch:
+    return touch._replace(nx=nx, ny=ny)
+
+
+def any_distance(disc: Disc, rect: Rect) -> Touch:
+    """The contact even where the two are apart: the depth is then negative."""
+    answer = right(disc._replace(r=disc.r + FAR), rect)
+    assert answer is not None
+    return answer._replace(depth=answer.depth - FAR)
+
+
+mistake(
     "1",
+    "the-box-comes-first",
+    "The box is body A of the contact; the circle must be A and the box B.",
+    about="order",
+)(lambda: (False, False))
+
+
+@known(
     "normal-points-out-of-the-box",
     "The normal points from the box to the circle; it must point from A, the circle, into B.",
-    about="circle_box",
 )
 def normal_points_out(disc: Disc, rect: Rect) -> Answer:
     answer = right(disc, rect)
-    return answer and answer._replace(nx=-answer.nx, ny=-answer.ny)
+    return answer and turned(answer)
 
 
-@mistake(
-    "1",
+@known(
     "inside-is-forgotten",
     "There is no answer for a centre inside the box: a fast ball that got in never comes out.",
-    about="circle_box",
 )
 def inside_forgotten(disc: Disc, rect: Rect) -> Answer:
     return None if is_inside(disc, rect) else right(disc, rect)
 
 
-@mistake(
-    "1",
+known(
     "inside-normal-points-out",
     "For a centre inside, the normal is the way out; it must point the opposite way, into the box.",
-    about="circle_box",
-)
-def inside_normal_out(disc: Disc, rect: Rect) -> Answer:
-    return normal_points_out(disc, rect) if is_inside(disc, rect) else right(disc, rect)
+)(inside(lambda touch, disc, rect: turned(touch)))
 
-
-@mistake(
-    "1",
+known(
     "inside-depth-forgets-the-gap",
     "For a centre inside, the depth is radius + gap: the circle has the gap to leave as well.",
-    about="circle_box",
+)(inside(lambda touch, disc, rect: touch._replace(depth=disc.r)))
+
+known(
+    "inside-depth-is-the-gap",
+    "For a centre inside, the depth is the gap; the circle has its radius to leave as well.",
+)(inside(lambda touch, disc, rect: touch._replace(depth=touch.depth - disc.r)))
+
+known(
+    "inside-point-is-the-centre",
+    "For a centre inside, the point is the centre; it must lie on the face it leaves through.",
+)(inside(lambda touch, disc, rect: touch._replace(px=disc.x, py=disc.y)))
+
+
+@known(
+    "inside-leaves-by-the-farthest-face",
+    "A centre inside leaves by the face that is farthest away; it must take the nearest.",
 )
-def inside_depth_is_radius(disc: Disc, rect: Rect) -> Answer:
-    answer = right(disc, rect)
-    return answer._replace(depth=disc.r) if answer and is_inside(disc, rect) else answer
+def farthest_face(disc: Disc, rect: Rect) -> Answer:
+    if not is_inside(disc, rect):
+        return right(disc, rect)
+    deepest = sorted(exact.ways_out(disc, rect), key=lambda touch: -touch.depth)
+    if deepest[0].depth == deepest[1].depth:
+        raise Undecided
+    return deepest[0]
 
 
-@mistake(
-    "1",
+@known(
+    "inside-always-leaves-by-the-top",
+    "A centre inside always leaves by the top; it must take the nearest of the four faces.",
+)
+def top_face(disc: Disc, rect: Rect) -> Answer:
+    if not is_inside(disc, rect):
+        return right(disc, rect)
+    return exact.ways_out(disc, rect)[2]
+
+
+known(
     "depth-is-the-distance",
     "The depth is the distance to the closest point; it must be what is missing: radius - distance.",
-    about="circle_box",
+)(outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)))
+
+
+@known(
+    "normal-is-not-a-unit-vector",
+    "The normal is as long as the distance; divide by it, so that its length is 1.",
 )
-def depth_is_distance(disc: Disc, rect: Rect) -> Answer:
-    answer = right(disc, rect)
-    if answer is None or is_inside(disc, rect):
-        return answer
-    return answer._replace(depth=math.hypot(answer.px - disc.x, answer.py - disc.y))
+@outside
+def long_normal(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    return with_normal(touch, touch.px - disc.x, touch.py - disc.y)
+
+
+@known(
+    "normal-points-at-the-centre-of-the-box",
+    "The normal points at the centre of the box; it must point at the closest point.",
+)
+@outside
+def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    dx, dy = rect.x - disc.x, rect.y - disc.y
+    return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
+
+
+@known(
+    "point-lies-on-the-circle",
+    "The point lies on the circle's edge; it must be the closest point of the box.",
+)
+@outside
+def point_on_circle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    return touch._replace(px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r)
+
+
+@known("apart-is-not-noticed", "A circle apart from the box gets a contact; it must get None.")
+def never_none(disc: Disc, rect: Rect) -> Answer:
+    return any_distance(disc, rect)
+
+
+@known(
+    "touching-counts-as-overlap",
+    "A circle that only touches the box gets a contact; None is for distance = radius too.",
+)
+def touching(disc: Disc, rect: Rect) -> Answer:
+    touch = any_distance(disc, rect)
+    return touch if touch.depth >= 0 else None
+
+
+known(
+    "half-is-taken-for-the-full-size",
+    "The box is half as large as it should be: half holds half of the sides already.",
+)(lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2, hy=rect.hy / 2)))
+
+known(
+    "position-is-taken-for-a-corner",
+    "The box's position is taken for its top left corner; it is the centre.",
+)(lambda disc, rect: right(disc, rect._replace(x=rect.x + rect.hx, y=rect.y + rect.hy)))
+
+known(
+    "clamp-is-turned-round",
+    "The closest point is always the top left corner: min and max have changed places.",
+)(lambda disc, rect: right(disc, Rect(rect.x - rect.hx, rect.y - rect.hy, 0.0, 0.0)))

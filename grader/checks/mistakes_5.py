@@ -4,9 +4,11 @@ import math
 from collections.abc import Callable
 
 from grader.checks import exact
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import Undecided, mistake, truth
 
 Shares = tuple[float, float]
+Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the number of steps
+Factor = Callable[[float, float], float]  # what one step keeps, from a rate and dt
 
 
 @truth("damping")
@@ -14,54 +16,89 @@ def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
     return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
 
 
-def per_step(factor: Callable[[float, float], float]) -> Callable[..., Shares]:
+def known(name: str, meaning: str) -> Callable[[Model], Model]:
+    """Register a model; without any damping a world may leave out the TODO's lines altogether."""
+
+    def register(model: Model) -> Model:
+        def decided(linear: float, angular: float, dt: float, steps: int) -> Shares:
+            if linear == angular == 0:
+                raise Undecided
+            return model(linear, angular, dt, steps)
+
+        return mistake("5", name, meaning, about="damping")(decided)
+
+    return register
+
+
+def per_step(factor: Factor) -> Model:
     """Both shares from what one step keeps at a rate."""
+    return lambda linear, angular, dt, steps: (
+        factor(linear, dt) ** steps,
+        factor(angular, dt) ** steps,
+    )
 
-    def model(linear: float, angular: float, dt: float, steps: int) -> Shares:
-        return factor(linear, dt) ** steps, factor(angular, dt) ** steps
 
-    return model
-
-
-mistake(
-    "5",
+known(
     "the-same-share-every-step",
     "The loss grows with the number of steps: 0.99^60, 0.99^120, 0.99^240.",
-    about="damping",
-)(per_step(lambda rate, dt: 0.99 if rate else 1.0))
+)(per_step(lambda rate, dt: 0.99))
 
-mistake(
-    "5",
+known(
+    "one-percent-per-frame",
+    "1% is lost in every sixtieth of a second; the loss must follow the two rates.",
+)(per_step(lambda rate, dt: 0.99 ** (60 * dt)))
+
+known(
     "rate-without-the-step",
     "exp(-rate) is lost in every step; a step of dt seconds may lose only exp(-rate * dt).",
-    about="damping",
 )(per_step(lambda rate, dt: math.exp(-rate)))
 
-mistake(
-    "5",
+known(
+    "a-step-length-of-its-own",
+    "Every step loses as much as one of 1/120 s; it must lose what its own dt asks for.",
+)(per_step(lambda rate, dt: math.exp(-rate / 120)))
+
+known(
     "straight-line-instead-of-exp",
     "1 - rate * dt is close for short steps only; exp(-rate * dt) holds for every step.",
-    about="damping",
 )(per_step(lambda rate, dt: 1 - rate * dt))
 
-mistake(
-    "5",
+known(
+    "one-over-instead-of-exp",
+    "1 / (1 + rate * dt) is close for short steps only; exp(-rate * dt) holds for every step.",
+)(per_step(lambda rate, dt: 1 / (1 + rate * dt)))
+
+known(
+    "rate-taken-for-a-share",
+    "The rate is taken for the share lost per second; at a rate of 1 exp(-1) = 37% must be left.",
+)(per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt))
+
+known(
     "grows-instead-of-fading",
     "The sign is missing: exp(rate * dt) makes bodies faster.",
-    about="damping",
 )(per_step(lambda rate, dt: math.exp(rate * dt)))
 
+known(
+    "keeps-what-it-should-lose",
+    "The share to lose is kept: exp(-rate * dt) is what is left after a step, not what goes.",
+)(per_step(lambda rate, dt: 1 - math.exp(-rate * dt)))
 
-@mistake("5", "spin-is-not-damped", "The spin is not damped at all.", about="damping")
-def spin_forgotten(linear: float, angular: float, dt: float, steps: int) -> Shares:
-    return exact.damped(linear, dt * steps), 1.0
-
-
-@mistake(
-    "5",
-    "one-rate-for-both",
-    "Speed and spin use the same rate; the spin has angular_damping of its own.",
-    about="damping",
+known("spin-is-not-damped", "The spin is not damped at all.")(
+    lambda linear, angular, dt, steps: (exact.damped(linear, dt * steps), 1.0)
 )
-def linear_for_both(linear: float, angular: float, dt: float, steps: int) -> Shares:
-    return exact.damped(linear, dt * steps), exact.damped(linear, dt * steps)
+
+known("speed-is-not-damped", "The speed is not damped at all.")(
+    lambda linear, angular, dt, steps: (1.0, exact.damped(angular, dt * steps))
+)
+
+known("one-rate-for-both", "Speed and spin use the same rate; each has a rate of its own.")(
+    lambda linear, angular, dt, steps: right(linear, linear, dt, steps)
+)
+
+known("one-rate-for-both", "Speed and spin use the same rate; each has a rate of its own.")(
+    lambda linear, angular, dt, steps: right(angular, angular, dt, steps)
+)
+
+known(
+    "rates-are-swapped", "The speed fades with angular_damping and the spin with linear_damping."
+)(lambda linear, angular, dt, steps: right(angular, linear, dt, steps))

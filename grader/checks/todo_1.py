@@ -27,8 +27,10 @@ def touch(lab: Lab, disc: Disc, rect: Rect) -> Touch | None:
         answer = Touch(*contact.normal, contact.depth, *contact.point)
     lab.saw("circle_box", (disc, rect), answer)
     if contact is not None:
+        order = contact.a == circle.ref, contact.b == box.ref
+        lab.saw("order", (), order)
         lab.want(
-            (contact.a, contact.b) == (circle.ref, box.ref),
+            order == (True, True),
             "a contact with the circle as A and the box as B",
             "other bodies, or the two the other way round",
         )

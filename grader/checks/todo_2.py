@@ -69,13 +69,10 @@ def any_two_bodies_agree_with_the_formula(
     want_exact(lab, *((b, a) if swap else (a, b)), axis)
 
 
-def point_speed(a: BodyValue, b: BodyValue, levers: tuple[Lever, Lever], axis: Pair) -> float:
-    """The speed of B's point away from A's, along the axis."""
-    along = [
-        body.vel.x * axis[0] + body.vel.y * axis[1] + body.omega * cross((lever.rx, lever.ry), axis)
-        for body, lever in zip((a, b), levers, strict=True)
-    ]
-    return along[1] - along[0]
+def point_speed(body: BodyValue, lever: Lever, axis: Pair) -> float:
+    """The speed along the axis of the point at the end of the arm, px/s."""
+    turning = body.omega * cross((lever.rx, lever.ry), axis)
+    return body.vel.x * axis[0] + body.vel.y * axis[1] + turning
 
 
 def energy(body: BodyValue, lever: Lever) -> float:
@@ -91,20 +88,20 @@ def the_impulse_that_ends_a_speed_is_speed_over_k(
     k = effective_mass(lab, a, b, axis)
     lab.want(k > 0, "more than 0 per kg", f"{k:.6g}")
     lab.ran(f"an impulse of -speed / k along {axis}: A {say(a)}, {vel} px/s, {omega:g} rad/s")
-    discs = disc(lab, a), disc(lab, b)
-    lab.put(discs[0], vel=vel, omega=omega)
-    before = [lab.state(each) for each in discs]
-    speed = point_speed(*before, (a, b), axis)
+    first, second = disc(lab, a), disc(lab, b)
+    lab.put(first, vel=vel, omega=omega)
+    moving = lab.state(first)
+    speed = -point_speed(moving, a, axis)  # of B away from A, which moves alone
     impulse = -speed / k * axis[0], -speed / k * axis[1]
-    lab.call("apply_impulse", *discs, impulse, (a.rx, a.ry), (b.rx, b.ry))
-    after = [lab.state(each) for each in discs]
-    left = point_speed(*after, (a, b), axis)
+    lab.call("apply_impulse", first, second, impulse, (a.rx, a.ry), (b.rx, b.ry))
+    after_a, after_b = lab.state(first), lab.state(second)
+    left = point_speed(after_b, b, axis) - point_speed(after_a, a, axis)
     lab.want(
         abs(left) <= 1e-9 * max(1.0, abs(speed)),
-        f"the points no longer part or close along the axis (before: {speed:.4g} px/s)",
+        f"none of the {speed:.4g} px/s left with which the points part or close",
         f"{left:.4g} px/s left",
     )
-    had, has = (sum(map(energy, bodies, (a, b))) for bodies in (before, after))
+    had, has = energy(moving, a), energy(after_a, a) + energy(after_b, b)
     lab.want(has <= had * (1 + 1e-9), f"no more energy than before: {had:.6g}", f"{has:.6g}")
 
 

@@ -70,14 +70,13 @@ def swing(lab: Lab, method: Method, steps: int, seconds: float) -> State:
 
 
 def want_order(lab: Lab, method: Method) -> None:
-    """Half the step must divide the error by 2^order, at a time when x and v both err."""
+    """Half the step must divide the error by 2^order, or come nearer to that than to its neighbours."""
     lab.ran(f"{method.name} on the spring for 0.65 s, with dt = 1/40 s and with dt = 1/80 s")
     exact_x = X0 * math.cos(OMEGA * 0.65)
     coarse, fine = (abs(swing(lab, method, steps, 0.65)[0] - exact_x) for steps in (26, 52))
     ratio = 2**method.order
-    # The next term of the error changes the ratio by a share of omega * dt / 2, which is 8%.
     lab.want(
-        0.9 * ratio * fine <= coarse <= 1.1 * ratio * fine,
+        ratio / math.sqrt(2) * fine < coarse < ratio * math.sqrt(2) * fine,
         f"half the step, 1/{ratio} of the error (order {method.order})",
         f"{coarse:.3g} px off with 1/40 s, {fine:.3g} px off with 1/80 s",
     )

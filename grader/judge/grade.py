@@ -38,7 +38,7 @@ class Options:
     only: frozenset[str] = frozenset()  # TODO ids; empty for all
     seed: int | None = None  # an instructor's secret, instead of the fixed examples
     spawn: bool = False  # start each child anew, as on platforms without fork
-    progress: Callable[[CheckResult], None] = lambda check: None
+    progress: Callable[[CheckResult], None] | None = None  # told of each check as it ends
 
 
 def shipped_reference() -> Path | None:
@@ -211,3 +211,7 @@ def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
         hypothesis.settings.load_profile(before)
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
         raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
+    for todo in filter(plugin.wanted, rubric.todos):
+        for check in todo.checks:
+            if (todo.id, check.id) not in plugin.results:
+                raise CannotGrade(f"{todo.file}.py has no check named {check.id}, as in the rubric")

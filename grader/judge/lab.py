@@ -93,6 +93,7 @@ class Lab:
     running: str = ""
     failure: NotYet | Broke | None = None  # the first one, or the one the check ended with
     _child: Child | None = None
+    _played: bool = False  # whether the child has run a program
     _over: NotYet | Broke | None = None  # why nothing more can be asked
 
     # ------------------------------------------------------------ saying what a check does
@@ -293,7 +294,14 @@ class Lab:
         picture: bool = False,
         module: str = "",
     ) -> Played:
-        """Run the program's real main(), one entry of `frames` (ms) per frame."""
+        """Run the program's real main(), one entry of `frames` (ms) per frame.
+
+        A second run has a process of its own: main() may count on being run once.
+        """
+        if self._played and self._child is not None and self._over is None:
+            self._child.end()
+            self._child = None
+        self._played = True
         request = Play(
             module or self.module, frames, list(events), physics, trail_every, picture
         )

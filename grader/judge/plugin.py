@@ -40,7 +40,7 @@ class GradingPlugin:
     unusable: dict[str, Broke | NotYet]  # module -> why it cannot be imported
     only: frozenset[str] = frozenset()  # TODO ids; empty for all
     seed: int | None = None
-    progress: Callable[[CheckResult], None] = lambda check: None
+    progress: Callable[[CheckResult], None] | None = None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     trouble: str = ""  # why a file of checks could not be read
@@ -91,7 +91,8 @@ class GradingPlugin:
         if result is None:
             result = self._run(todo, check, title, pyfuncitem.obj)
         self.results[todo.id, check.id] = result
-        self.progress(result)
+        if self.progress is not None:
+            self.progress(result)
         return True
 
     def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
@@ -100,7 +101,8 @@ class GradingPlugin:
         waiting = [each for each in check.needs if not begun.get(each, True)]
         none_begun = not any(begun.get(each.id, True) for each in self.rubric.todos if each.function)
         if todo.function and not begun.get(todo.id, True):
-            return self._result(todo, check, title, "not started")
+            where = self.submission.where.get(todo.id)
+            return self._result(todo, check, title, "not started", where=where)
         if not todo.function and none_begun:
             return self._result(todo, check, title, "not started")
         why = self.unusable.get(check.module or todo.module)

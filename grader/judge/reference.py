@@ -24,7 +24,9 @@ class Reference:
                 self.pieces[todo.id] = cut_out(folder, todo)
 
     def for_the_others(self, todo: Todo, rubric: Rubric) -> list[Piece]:
-        """The pieces of every other TODO of the same program."""
+        """The pieces of every other TODO of the same program; none for the whole."""
+        if not todo.function:
+            return []
         return [
             self.pieces[other.id]
             for other in rubric.todos

@@ -34,21 +34,33 @@ def show_todo(todo: TodoResult, console: Console) -> None:
     console.print(line)
     for check in todo.checks:
         if check.state in ("not yet", "error"):
-            show_check(check, console)
+            show_check(todo, check, console)
 
 
-def show_check(check: CheckResult, console: Console) -> None:
+def show_check(todo: TodoResult, check: CheckResult, console: Console) -> None:
+    place = f"{check.where.file}:{check.where.line}, TODO {todo.id}" if check.where else ""
     console.print(Text(f"  {check.title}  ({check.points} / {check.max_points})", style="bold"))
     lines = [
         ("We ran", check.ran),
         ("Expected", check.expected),
         ("Got", check.got),
         ("Meaning", check.meaning),
-        ("Look at", f"{check.where.file}:{check.where.line}" if check.where else ""),
+        ("Look at", place),
     ]
     for name, words in lines:
         if words:
             console.print(Text(f"    {name:<9} {clean(words)}"), soft_wrap=True)
+
+
+def show_next(result: Result, console: Console) -> None:
+    """The one thing to do next: the first TODO that is not passed and waits for no other."""
+    for todo in result.todos:
+        if todo.state in ("not yet", "error", "not started") and todo.id != "whole":
+            file = next((f" ({c.where.file}:{c.where.line})" for c in todo.checks if c.where), "")
+            console.print(Text(f"Next: TODO {todo.id}, {todo.title}{file}", style="bold"))
+            console.print(f"  check it alone: python -m grader check --todo {todo.id}")
+            console.print(f"  a hint:         python -m grader hint --todo {todo.id}")
+            return
 
 
 def clean(words: str) -> str:

@@ -1,4 +1,4 @@
-"""What a submission prints: kept up to a bound, the rest counted and let go."""
+"""What a submission prints: the latest of it kept up to a bound, the rest counted and let go."""
 
 import io
 import sys
@@ -27,9 +27,10 @@ class Output(io.RawIOBase):
         return True
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
-        room = max(0, KEEP - len(self.kept))
-        self.kept += bytes(data[:room])
-        self.dropped += max(0, len(data) - room)
+        self.kept += bytes(data[-KEEP:])
+        excess = max(0, len(self.kept) - KEEP)
+        del self.kept[:excess]
+        self.dropped += excess + max(0, len(data) - KEEP)
         return len(data)
 
     def so_far(self) -> str:
@@ -38,7 +39,7 @@ class Output(io.RawIOBase):
     def take(self) -> str:
         text = self.so_far()
         if self.dropped:
-            text += f"\n… and {self.dropped} bytes more"
+            text = f"{self.dropped} bytes and then …\n{text}"
         self.kept.clear()
         self.dropped = 0
         return text

@@ -55,6 +55,7 @@ class Subject:
         self.objects: dict[int, Any] = {}
         self.refs: dict[int, int] = {}
         self.force_calls = 0
+        self.pair: Callable[[float, float], Any] = pygame.Vector2  # what the program's pairs are
         sys.path.insert(0, str(folder))
 
     # ------------------------------------------------------------ names
@@ -62,6 +63,8 @@ class Subject:
     def load(self, module: str, pieces: list[Piece]) -> list[str]:
         """Import `module`; returns the targets of the pieces that could be swapped in."""
         importlib.import_module(module)
+        if module == "pymunk_scene":
+            self.pair = pymunk.Vec2d
         return [piece.target for piece in pieces if self.swap(piece)]
 
     def find(self, target: str) -> Any:
@@ -140,7 +143,7 @@ class Subject:
     def decode(self, argument: Argument) -> Any:
         match argument:
             case Vec(x, y):
-                return pygame.Vector2(x, y)
+                return self.pair(x, y)
             case Ref(id=ref):
                 return self.objects[ref]
             case Rng(seed):

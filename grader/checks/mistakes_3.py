@@ -1,0 +1,98 @@
+"""Known mistakes in TODO 3, as models of the velocities of both ends after one solve."""
+
+import math
+from collections.abc import Callable
+
+from grader.checks import exact
+from grader.checks.exact import Pair, Rod
+from grader.judge.misconceptions import mistake, truth
+
+Ends = tuple[Pair, Pair]
+Model = Callable[[Rod], Ends]
+
+truth("rod")(exact.rod_solved)
+
+
+def known(name: str, meaning: str) -> Callable[[Model], Model]:
+    return mistake("3", name, meaning, about="rod")
+
+
+def right_impulse(rod: Rod) -> float:
+    return (rod.bias - rod.speed) / rod.k
+
+
+def moved(vel: Pair, axis: Pair, by: float) -> Pair:
+    return vel[0] + by * axis[0], vel[1] + by * axis[1]
+
+
+known("only-pulls", "The rod only pulls, like a rope; a rod also pushes when it is too short.")(
+    lambda rod: rod.pushed(min(0.0, right_impulse(rod)))
+)
+
+known(
+    "only-pushes", "The impulse is clamped like a contact's; a rod needs no clamp, it also pulls."
+)(lambda rod: rod.pushed(max(0.0, right_impulse(rod))))
+
+known("ignores-the-bias", "The bias is left out: the rod never wins back the length it has lost.")(
+    lambda rod: rod.pushed(-rod.speed / rod.k)
+)
+
+known(
+    "ignores-the-speed", "The speed along the rod is left out; the impulse is for what is missing."
+)(lambda rod: rod.pushed(rod.bias / rod.k))
+
+known(
+    "adds-the-speed", "Speed and bias are added; the impulse is for the difference, bias - speed."
+)(lambda rod: rod.pushed((rod.bias + rod.speed) / rod.k))
+
+known(
+    "pushes-the-wrong-way", "The impulse has the wrong sign: a stretched rod is stretched further."
+)(lambda rod: rod.pushed(-right_impulse(rod)))
+
+known(
+    "multiplies-by-k", "The impulse is multiplied by k; k is speed per impulse, so divide by it."
+)(lambda rod: rod.pushed((rod.bias - rod.speed) * rod.k))
+
+known(
+    "not-divided-by-k", "The impulse lacks the division by k, the speed that one unit of it gives."
+)(lambda rod: rod.pushed(rod.bias - rod.speed))
+
+
+@known("moves-only-b", "Only B gets the impulse; A must get the opposite one.")
+def only_b(rod: Rod) -> Ends:
+    return rod.vel_a, rod.pushed(right_impulse(rod))[1]
+
+
+@known("pushes-both-the-same-way", "Both ends get the same impulse; A must get the opposite one.")
+def same_way(rod: Rod) -> Ends:
+    by = right_impulse(rod) * exact.inverse(rod.mass_a)
+    return moved(rod.vel_a, rod.axis, by), rod.pushed(right_impulse(rod))[1]
+
+
+@known(
+    "forgets-the-masses", "The impulse is added to the velocities; each end takes it by inv_mass."
+)
+def without_masses(rod: Rod) -> Ends:
+    by = right_impulse(rod)
+    return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
+
+
+@known("shares-equally", "Both ends change speed alike; the lighter one must change more.")
+def halves(rod: Rod) -> Ends:
+    by = (rod.bias - rod.speed) / 2
+    return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
+
+
+@known(
+    "stops-the-sideways-speed",
+    "The whole velocity is taken away; only its part along the rod may be.",
+)
+def whole_velocity(rod: Rod) -> Ends:
+    (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
+    wanted = rod.bias * x - (bx - ax), rod.bias * y - (by - ay)
+    size = math.hypot(*wanted)
+    if size == 0:
+        return rod.vel_a, rod.vel_b
+    direction = wanted[0] / size, wanted[1] / size
+    a, b = (size / rod.k * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
+    return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)

@@ -1,0 +1,74 @@
+"""Fixed steps out of frames of any length: what TODO 6 and TODO 7d have in common.
+
+A program may read the time as it likes, and may simulate a frame's time in that frame or in the
+next one. Frames are whole milliseconds, as pygame's are.
+"""
+
+from dataclasses import dataclass
+from itertools import accumulate, pairwise
+
+from grader.judge.lab import STEP, Lab
+
+STEP_MS = 1000 * STEP
+MAX_STEPS = 8
+OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
+SETTLE = [1, 1]  # ms: time for a program that is a frame behind
+
+
+def frames_at(rate: int, seconds: float) -> list[int]:
+    """The frames of so many seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6 ms."""
+    ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
+    return [end - begin for begin, end in pairwise(ends)]
+
+
+@dataclass
+class Pace:
+    """What a program made of its frames, frame by frame."""
+
+    lengths: list[float]  # ms, as scripted, or longer where the program slept longer
+    steps: list[int]  # that ran between the end of this frame and the end of the next
+    sizes: list[float]  # s, the different step sizes
+
+    @property
+    def done(self) -> float:
+        """The simulated time, ms."""
+        return sum(self.steps) * STEP_MS
+
+    def out_of_step(self) -> int | None:
+        """The first frame with over a step more or less simulated than its time, or None."""
+        done = list(accumulate(self.steps))
+        ends = [0.0, *accumulate(self.lengths)]
+        for frame, (end_before, end) in enumerate(pairwise(ends)):
+            if not end_before - STEP_MS <= done[frame] * STEP_MS <= end + STEP_MS:
+                return frame
+        return None
+
+
+def pace(lab: Lab, frames: list[int]) -> Pace:
+    """Play the program with these frames and count its steps without running them."""
+    frames = [*OFF_BEAT, *frames, *SETTLE]
+    played = lab.play(frames, physics=False)
+    count = len(frames)
+    # What ran before the first frame had a length is nothing to judge a program by, nor is a
+    # last frame that the program may have left out.
+    answer = played.steps[1:count], [size for size in played.dts if size]
+    lab.saw("frames", (tuple(frames),), answer)
+    lab.want(
+        played.ended != "runaway",
+        "a few steps in each frame",
+        f"{max(played.steps)} steps in one frame, and more to come",
+        "The loop of steps does not end: each step must take STEP from the accumulator.",
+    )
+    lab.want(
+        played.ended == "returned",
+        "a program that ends when its window is closed",
+        "it ran on",
+    )
+    lab.want(
+        len(played.clock) > count,
+        f"{count} frames, until the window is closed",
+        f"it ended after {len(played.clock) - 1}",
+    )
+    ends = [0.0, *played.clock[:count]]
+    lengths = [end - begin for begin, end in pairwise(ends)]
+    return Pace(lengths, played.steps[1 : count + 1], played.dts)

@@ -1,0 +1,97 @@
+"""TODO 6: fixed steps, whatever the frames."""
+
+import math
+
+from hypothesis import given
+
+from grader.checks.pacing import MAX_STEPS, SETTLE, STEP_MS, Pace, frames_at, pace
+from grader.checks.strategies import few, frame_lists
+from grader.judge.lab import STEP, Lab
+
+HICCUP = 2000  # ms
+
+
+def paced_with_a_hiccup(lab: Lab) -> Pace:
+    lab.ran("the lab scene at 60 frames a second, with one frame of 2 seconds in the middle")
+    return pace(lab, [*frames_at(60, 0.1), HICCUP, *frames_at(60, 0.2)])
+
+
+def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
+    """As much is simulated at 30, 60 and 144 frames a second"""
+    rates = (30, 60, 144)
+    lab.ran("the lab scene for half a second at 30, 60 and 144 frames a second")
+    paces = {rate: pace(lab, frames_at(rate, 0.5)) for rate in rates}
+    # Up to one step, and up to what a program has not seen yet that is a frame behind.
+    lab.want(
+        all(
+            -STEP_MS <= sum(each.lengths) - each.done <= STEP_MS + sum(SETTLE)
+            for each in paces.values()
+        ),
+        "60 steps of 1/120 s each time (one less or more will do)",
+        ", ".join(f"{sum(each.steps)} at {rate}" for rate, each in paces.items()),
+    )
+
+
+def every_step_is_one_step_long(lab: Lab) -> None:
+    """Every step is STEP long, however long the frames are"""
+    lab.ran("the lab scene with frames of 5, 40, 21 and 160 ms")
+    sizes = pace(lab, [5, 40, 21, 160]).sizes
+    lab.want(
+        bool(sizes) and all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes),
+        f"steps of STEP = {STEP:.6f} s, and no others",
+        f"steps of {', '.join(f'{size:.6f}' for size in sizes[:4])} s" if sizes else "no step",
+    )
+
+
+def the_remainder_waits_for_the_next_frame(lab: Lab) -> None:
+    """Time too short for a step waits for the next frame"""
+    lab.ran("the lab scene at 144 frames a second: frames of 7 ms, shorter than a step")
+    paced = pace(lab, frames_at(144, 0.25))
+    frame = paced.out_of_step()
+    lab.want(
+        frame is None,
+        "as much simulated as has passed, up to one step, after every frame",
+        f"{sum(paced.steps[: (frame or 0) + 1])} steps "
+        f"after {sum(paced.lengths[: (frame or 0) + 1]):.0f} ms",
+    )
+
+
+def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
+    """A frame of 2 seconds is cut to MAX_STEPS steps"""
+    most = max(paced_with_a_hiccup(lab).steps)
+    # MAX_STEPS * STEP may hold a step less once it is rounded.
+    lab.want(
+        MAX_STEPS - 1 <= most <= MAX_STEPS,
+        f"{MAX_STEPS} steps for the slow frame, and fewer for all others",
+        f"{most} steps at most",
+    )
+
+
+def a_slow_frame_is_not_caught_up_later(lab: Lab) -> None:
+    """What a slow frame lost is not caught up later"""
+    paced = paced_with_a_hiccup(lab)
+    after = paced.lengths.index(max(paced.lengths)) + 2  # a program may be a frame behind
+    owed, steps = sum(paced.lengths[after:]) / STEP_MS, sum(paced.steps[after:])
+    # A step more or less at either end, and one more in the frame that is behind.
+    lab.want(
+        abs(steps - owed) <= 3,
+        f"{owed:.0f} steps in the {sum(paced.lengths[after:]):.0f} ms after it, as usual",
+        f"{steps} steps",
+    )
+
+
+@few
+@given(frames=frame_lists)
+def any_frames_lose_nothing_but_what_the_cap_cuts(lab: Lab, frames: list[int]) -> None:
+    """Any frames: nothing is lost but what the cap cuts off"""
+    lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
+    paced = pace(lab, frames)
+    most = MAX_STEPS * STEP_MS
+    cut = sum(min(length, most) for length in paced.lengths)
+    slow = sum(length > most - STEP_MS for length in paced.lengths)  # may lose a remainder as well
+    lab.want(
+        max(paced.steps) <= MAX_STEPS
+        and -STEP_MS <= cut - paced.done <= (1 + slow) * STEP_MS + sum(SETTLE),
+        f"{cut / STEP_MS:.0f} steps, {1 + slow} less at the most, and never over {MAX_STEPS} in one frame",
+        f"{sum(paced.steps)} steps, {max(paced.steps)} in one frame",
+    )

@@ -1,0 +1,151 @@
+"""TODO 7a to 7c: gravity, a ball's moment of inertia and the rod, in pymunk.
+
+7d is TODO 6 once more, in another program: its checks are those of todo_6.
+"""
+
+import math
+from typing import NamedTuple
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from grader.checks import exact
+from grader.judge.lab import STEP, Lab, Moment, Thing
+from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue
+
+GRAVITY = (0.0, 980.0)  # px/s²
+PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px
+LENGTH = 140.0  # px
+STRETCH = 3.0  # px; a rod of pymunk's gives way by 1.2 px in this scene
+
+
+# ---------------------------------------------------------------- 7a
+
+
+def scene(lab: Lab) -> SpaceValue:
+    """The space of the lab scene."""
+    return lab.space(lab.items(lab.call("make_space", Rng(12)), "what make_space returns")[0])
+
+
+def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
+    """The space has the mini engine's gravity"""
+    lab.ran("make_space(random.Random(12)), and looked at the space's gravity")
+    gravity = lab.pair(scene(lab).gravity, "the gravity")
+    lab.saw("gravity", (), gravity)
+    lab.want(
+        near(gravity, GRAVITY, 1e-9),
+        "gravity (0, 980) px/s², as in the mini engine",
+        f"gravity ({gravity[0]:g}, {gravity[1]:g})",
+    )
+
+
+def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
+    """A ball far from everything falls"""
+    lab.ran("the lab scene without damping, a ball added far above it, half a second")
+    space = lab.thing(scene(lab))
+    lab.put(space, damping=1.0)
+    ball = lab.thing(lab.call("pymunk:Body", 1.0, 100.0))
+    lab.put(ball, position=(450.0, -5000.0))
+    lab.tell(space, "add", ball)
+    last = lab.simulate(space, [ball], 60, every=60).body(0)[-1]
+    fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, 60)
+    lab.want(
+        near((last.x, last.y), (450.0, -5000.0 + fallen), 1e-6)
+        and near((last.vx, last.vy), (0.0, speed), 1e-6),
+        f"{fallen:.1f} px further down, at (0, {speed:.1f}) px/s",
+        f"{last.y + 5000:.1f} px further down, at ({last.vx:.1f}, {last.vy:.1f}) px/s",
+    )
+
+
+def near(first: tuple[float, float], second: tuple[float, float], distance: float) -> bool:
+    return math.dist(first, second) <= distance
+
+
+# ---------------------------------------------------------------- 7b
+
+
+class Ball(NamedTuple):
+    """What add_ball put into a space."""
+
+    body: Thing
+    radius: float  # px
+    mass: float
+    moment: float
+
+
+def drop(lab: Lab, space: Thing, seed: int, pos: tuple[float, float]) -> Ball:
+    """Add a ball to a space; add_ball may return what it likes."""
+    before = {body.ref for body in bodies_in(lab, space)}
+    lab.call("add_ball", space, Rng(seed), pos)
+    new = [body for body in bodies_in(lab, space) if body.ref not in before]
+    lab.want(len(new) == 1, "one more body in the space", f"{len(new)} more")
+    lab.want(bool(new[0].shapes), "a body with a circle around it", "a body without a shape")
+    moment = math.inf if new[0].moment is None else new[0].moment
+    ball = Ball(lab.thing(new[0]), new[0].shapes[0].radius, new[0].mass, moment)
+    lab.saw("moment", (ball.radius, ball.mass), moment)
+    return ball
+
+
+def bodies_in(lab: Lab, space: Thing) -> list[SpaceBody]:
+    return lab.space(lab.read(space)).bodies
+
+
+def want_full_disc(lab: Lab, ball: Ball) -> None:
+    right = exact.disc_moment(ball.mass, ball.radius)
+    lab.want(
+        math.isclose(ball.moment, right, rel_tol=1e-9),
+        f"a moment of {right:.2f} for radius {ball.radius:g} px and mass {ball.mass:g}",
+        f"{ball.moment:.2f}",
+    )
+
+
+def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
+    """A ball has the moment of inertia of a full disc"""
+    for seed in (1, 12, 15):
+        lab.ran(f"add_ball with random.Random({seed}) in an empty space")
+        space = lab.thing(lab.call("pymunk:Space"))
+        want_full_disc(lab, drop(lab, space, seed, (450.0, 300.0)))
+
+
+@given(seeds=st.lists(st.integers(0, 999), min_size=2, max_size=3))
+def every_ball_has_the_moment_of_its_own_size(lab: Lab, seeds: list[int]) -> None:
+    """Every ball has the moment of its own size"""
+    lab.ran(f"add_ball in one space with random.Random of {', '.join(map(str, seeds))}")
+    space = lab.thing(lab.call("pymunk:Space"))
+    for number, seed in enumerate(seeds):
+        want_full_disc(lab, drop(lab, space, seed, (150.0 + 200 * number, 300.0)))
+
+
+def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
+    """A ball that slides comes to roll at two thirds of its speed"""
+    lab.ran("a ball of add_ball set on a floor, sliding at 300 px/s, no damping, one second")
+    space = lab.thing(lab.call("pymunk:Space"))
+    lab.put(space, gravity=GRAVITY)
+    lab.call("add_static_box", space, (450.0, 580.0), (900.0, 40.0))
+    ball = drop(lab, space, 12, (200.0, 300.0))
+    lab.put(ball.body, position=(200.0, 560.0 - ball.radius), velocity=(300.0, 0.0))
+    last = lab.simulate(space, [ball.body], 120, every=120).body(0)[-1]
+    right = exact.rolling_speed(300.0)
+    lab.want(
+        math.isclose(last.vx, right, rel_tol=0.01)
+        and math.isclose(last.omega * ball.radius, right, rel_tol=0.01),
+        f"{right:.0f} px/s, and as much as spin x radius: it rolls",
+        f"{last.vx:.1f} px/s, spin x radius {last.omega * ball.radius:.1f} px/s",
+    )
+
+
+# ---------------------------------------------------------------- 7c
+
+
+class Pendulum(NamedTuple):
+    """The lab scene, its bob, and the joints between the bob and something fixed."""
+
+    space: Thing
+    bob: Thing
+    rods: list[tuple[SpaceJoint, tuple[float, float], tuple[float, float]]]
+
+
+def pendulum(lab: Lab) -> Pendulum:
+    """The bob of the lab scene and what holds it, without damping."""
+    space = scene(lab)
+    ...

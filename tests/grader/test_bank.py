@@ -1,0 +1,34 @@
+"""The bank: every wrong, right and hostile submission gets the marks it must."""
+
+from collections import Counter
+
+import pytest
+
+from grader.judge.grade import KIT
+from grader.judge.rubric import load_rubric
+from grader.maintain.bank import Member, members
+from grader.maintain.verify import grade_member, kit_complaints, trees
+
+MEMBERS = [*trees(), *members(KIT)]
+
+
+@pytest.mark.parametrize("member", MEMBERS, ids=lambda m: f"{m.kind}/{m.name} as {m.form}")
+def test_a_member_gets_the_marks_it_must(member: Member):
+    verdict = grade_member(member)
+    assert not verdict.complaint
+    if member.kind == "wrong" and verdict.result is not None:
+        assert member.misnamed(verdict.result) != "wrong"
+
+
+def test_the_bank_is_as_large_as_it_must_be():
+    names = Counter(kind for kind, _ in {(member.kind, member.name) for member in MEMBERS})
+    assert names["wrong"] >= 60 and names["right"] >= 20 and names["hostile"] >= 15
+
+
+def test_every_todo_has_wrong_submissions():
+    spoiled = {todo for member in MEMBERS if member.kind == "wrong" for todo in member.todos}
+    assert spoiled == {todo.id for todo in load_rubric().todos if todo.function}
+
+
+def test_trees_and_rubric_have_nothing_to_complain_of():
+    assert list(kit_complaints()) == []

@@ -1,0 +1,198 @@
+"""Grading one submission: the marks, the reasons, and that they are always the same."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import CannotGrade
+from grader.report.files import as_json
+
+WITH_REFERENCE = Options(shipped_reference())
+PACKAGE = ("mini_engine", "pymunk_scene.py", "integrators.py", "lab_runtime.py")
+
+
+@pytest.fixture(scope="session")
+def solution() -> Result:
+    return grade(KIT / "solution", WITH_REFERENCE)
+
+
+@pytest.fixture(scope="session")
+def starter() -> Result:
+    return grade(KIT / "starter", WITH_REFERENCE)
+
+
+def state(result: Result, todo: str) -> str:
+    return next(each.state for each in result.todos if each.id == todo)
+
+
+def points(result: Result, todo: str) -> int:
+    return next(each.points for each in result.todos if each.id == todo)
+
+
+# ---------------------------------------------------------------- marks
+
+
+def test_the_solution_earns_everything(solution: Result):
+    assert (solution.points, solution.max_points) == (100, 100)
+    assert {todo.state for todo in solution.todos} == {"passed"}
+
+
+def test_the_starter_earns_nothing(starter: Result):
+    assert starter.points == 0
+    assert {check.points for todo in starter.todos for check in todo.checks} == {0}
+    assert {todo.state for todo in starter.todos} == {"not started"}
+
+
+def test_the_solution_needs_no_reference(solution: Result):
+    alone = grade(KIT / "solution", Options(reference=None))
+    assert as_json(alone) == as_json(solution)
+
+
+def test_points_add_up_and_are_whole_numbers(solution: Result):
+    for todo in solution.todos:
+        assert todo.max_points == sum(check.max_points for check in todo.checks)
+        assert all(type(check.points) is int for check in todo.checks)
+    assert solution.max_points == sum(todo.max_points for todo in solution.todos)
+
+
+def test_every_todo_of_the_design_is_in_the_rubric():
+    ids = [todo.id for todo in load_rubric().todos]
+    assert ids == [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c", "whole"]
+
+
+def test_every_check_has_a_title_a_student_can_read(solution: Result):
+    titles = [check.title for todo in solution.todos for check in todo.checks]
+    assert all(10 < len(title) <= 75 and "_" not in title for title in titles), titles
+
+
+# ---------------------------------------------------------------- always the same
+
+
+def test_the_portable_worker_gives_the_same_json(solution: Result):
+    spawned = grade(KIT / "solution", Options(shipped_reference(), spawn=True))
+    same = msgspec.structs.replace(spawned, isolation=solution.isolation)
+    assert as_json(same) == as_json(solution)
+
+
+@pytest.mark.parametrize("seed", ["1", "2"])
+def test_the_hash_seed_and_the_locale_change_nothing(solution: Result, tmp_path: Path, seed: str):
+    target = tmp_path / "result.json"
+    environment = {**os.environ, "PYTHONHASHSEED": seed, "LC_ALL": "C", "TZ": "Asia/Kolkata"}
+    command = [sys.executable, "-m", "grader", "grade", "solution", "--json", str(target)]
+    done = subprocess.run(command, cwd=KIT, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert target.read_bytes() == as_json(solution)
+
+
+def test_a_secret_seed_gives_the_solution_its_points_as_well():
+    assert grade(KIT / "solution", Options(shipped_reference(), seed=20261121)).points == 100
+
+
+# ---------------------------------------------------------------- what is handed in
+
+
+def test_a_missing_file_costs_its_own_todos(hand_in, solution: Result):
+    result = grade(hand_in("solution", pymunk_scene_py=None), WITH_REFERENCE)
+    lost = {todo.id for todo in result.todos if todo.points < todo.max_points}
+    assert lost == {"7a", "7b", "7c", "7d", "whole"}
+    assert "pymunk_scene" in result.todos[6].checks[0].got
+
+
+def test_what_cannot_be_imported_is_graded_with_the_reason(hand_in):
+    result = grade(hand_in(mini_engine_py="def broken(:\n"), WITH_REFERENCE)
+    assert result.points == 0
+    check = result.todos[0].checks[0]
+    assert check.state == "error" and "SyntaxError" in check.got
+    assert check.where is not None and (check.where.file, check.where.line) == ("mini_engine.py", 1)
+
+
+def test_an_empty_folder_is_graded_with_nothing(hand_in):
+    assert grade(hand_in(), WITH_REFERENCE).points == 0
+
+
+def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
+    with pytest.raises(CannotGrade, match="nowhere"):
+        grade(tmp_path / "nowhere", WITH_REFERENCE)
+
+
+def test_one_finished_todo_earns_its_own_points(tmp_path: Path, hand_in):
+    """Each TODO of the solution, put alone into the starter, earns all of its points."""
+    from grader.todo_regions import python_files, regions_in, replaced
+
+    for todo in [each.id for each in load_rubric().todos if each.function]:
+        folder = tmp_path / f"only-{todo}"
+        import shutil
+
+        shutil.copytree(KIT / "starter", folder, ignore=shutil.ignore_patterns("__pycache__"))
+        for path in python_files(KIT / "solution"):
+            lines = {r.id: r.lines for r in regions_in(path.read_text(encoding="utf-8"))}
+            if todo in lines:
+                target = folder / path.relative_to(KIT / "solution")
+                text = target.read_text(encoding="utf-8")
+                target.write_text(replaced(text, {todo: lines[todo]}), encoding="utf-8")
+        for reference in (shipped_reference(), None):
+            result = grade(folder, Options(reference))
+            assert {each.id for each in result.todos if each.points} == {todo}, reference
+            assert state(result, todo) == "passed"
+
+
+def test_without_a_reference_the_whole_waits(hand_in):
+    region = "    # TODO 5: damp by a rate per second\n    pass\n    # END TODO 5\n"
+    result = grade(hand_in("starter", extra_py=region), Options(None))
+    assert state(result, "whole") in ("waiting", "not started")
+
+
+# ---------------------------------------------------------------- the words of a failed check
+
+
+def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_in):
+    source = (KIT / "solution" / "mini_engine" / "world.py").read_text(encoding="utf-8")
+    wrong = source.replace("math.exp(-self.linear_damping * dt)", "0.99")
+    wrong = wrong.replace("math.exp(-self.angular_damping * dt)", "0.99")
+    assert wrong.count("0.99") == 2
+    result = grade(hand_in("solution", mini_engine__world_py=wrong), WITH_REFERENCE)
+    (todo,) = [each for each in result.todos if each.id == "5"]
+    check = todo.checks[0]
+    assert check.ran == "one ball, no gravity, linear_damping = 0.5, for one second"
+    assert check.expected == "60.65% of its speed left at every step size (e^-0.5)"
+    assert check.got == "54.72% at 1/60 s, 29.94% at 1/120 s, 8.96% at 1/240 s"
+    assert todo.misconception == "the-same-share-every-step"
+    assert check.meaning.startswith("The loss grows with the number of steps")
+    assert check.where is not None and check.where.file == "mini_engine/world.py"
+
+
+def test_an_exception_names_the_students_own_line(hand_in):
+    source = (KIT / "solution" / "mini_engine" / "contacts.py").read_text(encoding="utf-8")
+    wrong = source.replace("offset = closest - centre", "offset = closest - center")
+    result = grade(hand_in("solution", mini_engine__contacts_py=wrong), WITH_REFERENCE)
+    check = result.todos[0].checks[0]
+    assert check.state == "error" and "NameError" in check.got
+    assert "offset = closest - center" in check.got
+    assert "reference" not in check.got
+
+
+# ---------------------------------------------------------------- the contract's JSON
+
+
+def test_the_json_has_the_form_of_the_contract(solution: Result):
+    document = json.loads(as_json(solution))
+    assert list(document) == [
+        *("schema", "submission", "points", "max_points", "bonus", "isolation", "todos")
+    ]
+    assert document["schema"] == 1 and document["submission"] == "solution"
+    todo = document["todos"][0]
+    assert list(todo) == [
+        *("id", "title", "state", "points", "max_points", "misconception", "checks")
+    ]
+    assert list(todo["checks"][0]) == [
+        *("id", "title", "kind", "state", "points", "max_points"),
+        *("ran", "expected", "got", "meaning", "where", "replay"),
+    ]

@@ -1,0 +1,110 @@
+"""What crosses the wall is plain, strictly typed data, or it is nothing."""
+
+import socket
+
+import msgspec
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grader.protocol import (
+    MAX_MESSAGE,
+    Answered,
+    BodyValue,
+    Channel,
+    ChannelClosed,
+    ChannelTimeout,
+    ProtocolError,
+    Returned,
+    Vec,
+)
+
+decoder = msgspec.msgpack.Decoder(Answered)
+
+
+@pytest.fixture
+def ends():
+    ours, theirs = socket.socketpair()
+    yield Channel(ours), Channel(theirs)
+    ours.close()
+    theirs.close()
+
+
+def test_a_message_arrives_as_it_was_sent(ends):
+    ours, theirs = ends
+    theirs.send(Answered(7, Returned(Vec(0.1, -2.5)), "printed"))
+    assert decoder.decode(ours.receive(1)) == Answered(7, Returned(Vec(0.1, -2.5)), "printed")
+
+
+def test_a_message_that_stops_half_way_is_a_closed_channel(ends):
+    ours, theirs = ends
+    theirs.sock.sendall(b"\x00\x00\x00\x10abc")
+    theirs.close()
+    with pytest.raises(ChannelClosed):
+        ours.receive(1)
+
+
+def test_a_message_that_never_comes_times_out(ends):
+    with pytest.raises(ChannelTimeout):
+        ends[0].receive(0.01)
+
+
+def test_a_message_too_long_is_refused_unread(ends):
+    ours, theirs = ends
+    theirs.sock.sendall((MAX_MESSAGE + 1).to_bytes(4, "big"))
+    with pytest.raises(ProtocolError):
+        ours.receive(1)
+
+
+def test_a_long_message_is_not_sent_either(ends):
+    with pytest.raises(ProtocolError):
+        ends[0].send("x" * (MAX_MESSAGE + 1))
+
+
+BODY = BodyValue(1, Vec(0, 0), Vec(0, 0), 0.0, 0.0, 1.0, 1.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("angle", True), ("angle", "0.5"), ("angle", None), ("angle", [1.0]), ("ref", 1.5)],
+)
+def test_no_bool_text_or_list_passes_for_a_number(field: str, value: object):
+    raw = msgspec.msgpack.decode(msgspec.msgpack.encode(Answered(1, Returned(BODY))))
+    raw["reply"]["value"][field] = value
+    with pytest.raises(msgspec.ValidationError):
+        decoder.decode(msgspec.msgpack.encode(raw))
+
+
+@pytest.mark.parametrize("missing", ["number", "reply"])
+def test_a_message_with_a_part_missing_is_refused(missing: str):
+    raw = msgspec.msgpack.decode(msgspec.msgpack.encode(Answered(1, Returned(None))))
+    del raw[missing]
+    with pytest.raises(msgspec.ValidationError):
+        decoder.decode(msgspec.msgpack.encode(raw))
+
+
+@settings(max_examples=2000, deadline=None)
+@given(st.binary(max_size=200))
+def test_noise_is_a_decode_error_and_nothing_else(data: bytes):
+    try:
+        decoder.decode(data)
+    except msgspec.DecodeError:
+        pass
+
+
+json_like = st.recursive(
+    st.none() | st.booleans() | st.integers(-(2**63), 2**64 - 1) | st.floats() | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@settings(max_examples=1000, deadline=None)
+@given(reply=json_like, number=json_like, kind=st.sampled_from(["returned", "played", "raised"]))
+def test_well_formed_nonsense_is_a_decode_error_too(reply: object, number: object, kind: str):
+    reply = {**reply, "type": kind} if isinstance(reply, dict) else reply
+    try:
+        answer = decoder.decode(msgspec.msgpack.encode({"number": number, "reply": reply}))
+    except msgspec.DecodeError:
+        return
+    assert isinstance(answer, Answered) and type(answer.number) is int
