@@ -15,7 +15,7 @@ import msgspec
 from msgspec import Struct
 
 MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
-RUNAWAY = 1000  # steps in one frame at which a program is stopped
+RUNAWAY = 2000  # steps in one frame at which a program is stopped
 HEADER = struct.Struct(">I")
 
 # ---------------------------------------------------------------- values

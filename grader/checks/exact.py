@@ -198,3 +198,20 @@ def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
         total_dx, total_dv = total_dx + weight * dx, total_dv + weight * dv
         dx, dv = v + reach * dv, accel(x + reach * dx)
     return x + dt / 6 * total_dx, v + dt / 6 * total_dv
+
+
+# ---------------------------------------------------------------- pymunk
+
+
+def pymunk_fall(gravity: float, dt: float, steps: int) -> tuple[float, float]:
+    """How far a body falls from rest, and its speed; pymunk moves it before it speeds it up."""
+    return gravity * dt**2 * steps * (steps - 1) / 2, gravity * dt * steps
+
+
+def disc_moment(mass: float, radius: float) -> float:
+    return mass * radius**2 / 2
+
+
+def rolling_speed(speed: float) -> float:
+    """What is left of a full disc's speed once it rolls; friction decides only how soon."""
+    return speed * 2 / 3

@@ -142,7 +142,7 @@ def top_face(disc: Disc, rect: Rect) -> Answer:
 
 known(
     "depth-is-the-distance",
-    "The depth is the distance to the closest point; it must be what is missing: radius - distance.",
+    "The depth is the distance to the closest point; it must be radius - distance.",
 )(outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)))
 
 

@@ -1,4 +1,7 @@
-"""Known mistakes in TODO 3, as models of the velocities of both ends after one solve."""
+"""Known mistakes in TODO 3, as models of what one solve does to a rod.
+
+A model gives the velocities of both ends; a pass leaves the places as they are.
+"""
 
 import math
 from collections.abc import Callable
@@ -9,12 +12,21 @@ from grader.judge.misconceptions import mistake, truth
 
 Ends = tuple[Pair, Pair]
 Model = Callable[[Rod], Ends]
+Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from A, px
 
-truth("rod")(exact.rod_solved)
+
+@truth("rod")
+def right(rod: Rod) -> Answer:
+    return (*exact.rod_solved(rod), rod.offset)
 
 
-def known(name: str, meaning: str) -> Callable[[Model], Model]:
-    return mistake("3", name, meaning, about="rod")
+def known(name: str, meaning: str) -> Callable[[Model], None]:
+    """A mistake in the velocities."""
+
+    def register(model: Model) -> None:
+        mistake("3", name, meaning, about="rod")(lambda rod: (*model(rod), rod.offset))
+
+    return register
 
 
 def right_impulse(rod: Rod) -> float:
@@ -45,9 +57,9 @@ known(
     "adds-the-speed", "Speed and bias are added; the impulse is for the difference, bias - speed."
 )(lambda rod: rod.pushed((rod.bias + rod.speed) / rod.k))
 
-known(
-    "pushes-the-wrong-way", "The impulse has the wrong sign: a stretched rod is stretched further."
-)(lambda rod: rod.pushed(-right_impulse(rod)))
+known("pushes-the-wrong-way", "The impulse goes the wrong way on both ends: it is +impulse on B.")(
+    lambda rod: rod.pushed(-right_impulse(rod))
+)
 
 known(
     "multiplies-by-k", "The impulse is multiplied by k; k is speed per impulse, so divide by it."
@@ -56,6 +68,20 @@ known(
 known(
     "not-divided-by-k", "The impulse lacks the division by k, the speed that one unit of it gives."
 )(lambda rod: rod.pushed(rod.bias - rod.speed))
+
+
+known("bias-has-the-wrong-sign", "The bias is turned round: a stretched rod is stretched further.")(
+    lambda rod: rod.pushed((-rod.bias - rod.speed) / rod.k)
+)
+
+known("impulse-is-not-applied", "No velocity changes: the impulse must reach both ends.")(
+    lambda rod: (rod.vel_a, rod.vel_b)
+)
+
+
+@known("moves-only-a", "Only A gets the impulse; B must get the opposite one.")
+def only_a(rod: Rod) -> Ends:
+    return rod.pushed(right_impulse(rod))[0], rod.vel_b
 
 
 @known("moves-only-b", "Only B gets the impulse; A must get the opposite one.")
@@ -96,3 +122,13 @@ def whole_velocity(rod: Rod) -> Ends:
     direction = wanted[0] / size, wanted[1] / size
     a, b = (size / rod.k * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
     return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)
+
+
+@mistake(
+    "3",
+    "moves-positions-instead",
+    "The ends are put in place; a pass changes velocities, and the step moves the bodies.",
+    about="rod",
+)
+def placed(rod: Rod) -> Answer:
+    return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)

@@ -7,25 +7,17 @@ from grader.checks import exact
 from grader.checks.exact import Pair, Rubbing, clamped
 from grader.judge.misconceptions import Undecided, mistake, truth
 
-Totals = tuple[float, ...]
+Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
+
+DEPTH = 0.25  # px, of every contact that is rubbed
 
 truth("friction")(exact.friction_totals)
 
 
-def known(name: str, meaning: str, rule: Rule) -> None:
-    """A mistake in what is done with the right limit."""
-    register(name, meaning, lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn, rule)
-
-
-def known_limit(name: str, meaning: str, limit: Callable[[Pair, float], float]) -> None:
-    """A mistake in the limit, with the right clamp."""
-    register(name, meaning, limit, lambda total, wanted, limit: clamped(wanted, limit))
-
-
-def register(name: str, meaning: str, limit_of: Callable[[Pair, float], float], rule: Rule) -> None:
+def register(name: str, meaning: str, limit_of: Limit, rule: Rule) -> None:
     @mistake("4", name, meaning, about="friction")
-    def model(mu: Pair, k: float, passes: Sequence[Rubbing]) -> Totals:
+    def model(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
         if not (mu[0] and mu[1]):
             raise Undecided  # an engine may leave friction out where there is none
         totals = [0.0]
@@ -35,85 +27,113 @@ def register(name: str, meaning: str, limit_of: Callable[[Pair, float], float], 
         return tuple(totals[1:])
 
 
-known(
-    "no-limit",
-    "The friction impulse has no limit; it may not exceed sqrt(mu_a mu_b) * jn either way.",
-    lambda total, wanted, limit: wanted,
-)
-known(
-    "clamps-the-increment",
-    "Each pass's change is clamped; the clamp is for the total, or passes add up beyond it.",
-    lambda total, wanted, limit: total + clamped(wanted - total, limit),
-)
-known(
-    "always-at-the-limit",
-    "Friction always pushes with all its limit; where less ends the slip, it must stop there.",
-    lambda total, wanted, limit: math.copysign(limit, wanted),
-)
-known(
-    "no-friction-beyond-the-limit",
-    "Beyond the limit there is no friction at all; a sliding body is held back by the limit.",
-    lambda total, wanted, limit: wanted if abs(wanted) <= limit else 0.0,
-)
-known(
-    "no-friction-at-all",
-    "Friction does nothing; the total is to be kept within the limit, not away.",
-    lambda total, wanted, limit: 0.0,
+# ---------------------------------------------------------------- the right clamp, another limit
+
+
+def limit(name: str, meaning: str) -> Callable[[Limit], None]:
+    def known(limit_of: Limit) -> None:
+        register(name, meaning, limit_of, lambda total, wanted, limit: clamped(wanted, limit))
+
+    return known
+
+
+limit("friction-of-a-only", "The limit has the friction of A alone; it takes sqrt(mu_a mu_b).")(
+    lambda mu, jn: mu[0] * jn
 )
 
-for sign in (1, -1):  # which way is positive is the engine's own business
+limit("friction-of-b-only", "The limit has the friction of B alone; it takes sqrt(mu_a mu_b).")(
+    lambda mu, jn: mu[1] * jn
+)
 
-    def turned(rule: Rule, sign: int = sign) -> Rule:
-        return lambda total, wanted, limit: sign * rule(sign * total, sign * wanted, limit)
+limit("root-is-forgotten", "The two frictions are multiplied, and the square root is missing.")(
+    lambda mu, jn: mu[0] * mu[1] * jn
+)
 
-    known(
-        "limits-one-direction",
-        "Friction is limited in one direction only; the limit holds for slip both ways.",
-        turned(lambda total, wanted, limit: min(wanted, limit)),
-    )
-    known(
-        "clamps-like-the-normal",
-        "The total is kept at 0 or more, like jn; friction acts in both directions.",
-        turned(lambda total, wanted, limit: max(0.0, min(wanted, limit))),
-    )
-    known(
-        "loses-the-direction",
-        "Beyond the limit, friction pushes the same way whichever way the body slips.",
-        turned(lambda total, wanted, limit: limit if abs(wanted) > limit else wanted),
-    )
+limit("root-over-jn-too", "jn is under the square root; only the two frictions belong there.")(
+    lambda mu, jn: math.sqrt(mu[0] * mu[1] * jn)
+)
 
-known_limit(
-    "friction-of-a-only",
-    "The limit uses the first body's friction only; it takes both, sqrt(mu_a mu_b).",
-    lambda mu, jn: mu[0] * jn,
+limit("arithmetic-mean-of-mu", "Half the sum of the frictions: rubber would grip even on ice.")(
+    lambda mu, jn: (mu[0] + mu[1]) / 2 * jn
 )
-known_limit(
-    "friction-of-b-only",
-    "The limit uses the second body's friction only; it takes both, sqrt(mu_a mu_b).",
-    lambda mu, jn: mu[1] * jn,
+
+limit("smaller-mu", "The smaller friction counts, as restitution does; it takes sqrt(mu_a mu_b).")(
+    lambda mu, jn: min(mu) * jn
 )
-known_limit(
-    "forgets-the-root",
-    "The frictions are multiplied, and the square root of the product is missing.",
-    lambda mu, jn: mu[0] * mu[1] * jn,
+
+limit("limit-without-mu", "The limit is jn itself: ice would grip as well as rubber.")(
+    lambda mu, jn: jn
 )
-known_limit(
-    "averages-the-frictions",
-    "The limit uses the arithmetic mean of both frictions; it takes the geometric one.",
-    lambda mu, jn: (mu[0] + mu[1]) / 2 * jn,
+
+limit("limit-without-jn", "The limit lacks jn: the harder two bodies press, the more friction.")(
+    lambda mu, jn: math.sqrt(mu[0] * mu[1])
 )
-known_limit(
-    "smaller-friction",
-    "The limit uses the smaller friction, as bounces use restitution; it takes sqrt(mu_a mu_b).",
-    lambda mu, jn: min(mu) * jn,
+
+limit(
+    "limit-comes-from-the-depth", "The limit takes the depth of the overlap for the pressure, jn."
+)(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * DEPTH)
+
+
+# ---------------------------------------------------------------- the right limit, another clamp
+
+
+def clamp(name: str, meaning: str, sign: int = 1) -> Callable[[Rule], None]:
+    """With sign -1, the rule is for totals that count the other way."""
+
+    def known(rule: Rule) -> None:
+        register(
+            name,
+            meaning,
+            lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn,
+            lambda total, wanted, limit: sign * rule(sign * total, sign * wanted, limit),
+        )
+
+    return known
+
+
+clamp("no-limit", "Friction has no limit; it may be sqrt(mu_a mu_b) * jn at the most, either way.")(
+    lambda total, wanted, limit: wanted
 )
-known_limit(
-    "forgets-jn",
-    "The limit lacks jn: without pressure there is no friction, and more of it holds more.",
-    lambda mu, jn: math.sqrt(mu[0] * mu[1]),
+
+clamp("no-friction-at-all", "The total stays 0; keep what is wanted of it within the limit.")(
+    lambda total, wanted, limit: 0.0
 )
-known_limit(
-    "root-over-jn-too",
-    "The square root covers jn as well; only the frictions are under it.",
-    lambda mu, jn: math.sqrt(mu[0] * mu[1] * jn),
+
+clamp(
+    "clamps-the-increment", "Each change is clamped; clamp the total, or passes add up beyond it."
+)(lambda total, wanted, limit: total + clamped(wanted - total, limit))
+
+clamp("always-at-the-limit", "Friction is always as large as its limit; less may end the slip.")(
+    lambda total, wanted, limit: math.copysign(limit, wanted)
 )
+
+clamp(
+    "lets-go-beyond-the-limit", "Beyond the limit friction is 0; a sliding body still feels it all."
+)(lambda total, wanted, limit: wanted if abs(wanted) <= limit else 0.0)
+
+clamp(
+    "clamps-from-above-only", "The total has an upper limit only; slip the other way needs one too."
+)(lambda total, wanted, limit: min(limit, wanted))
+
+clamp(
+    "clamps-from-below-only", "The total has a lower limit only; slip the other way needs one too."
+)(lambda total, wanted, limit: max(-limit, wanted))
+
+# Which way a total counts as positive is each engine's own business.
+for sign in (1, -1):
+    clamp(
+        "limit-never-below-zero",
+        "The total is kept from 0 up, like jn; friction acts both ways.",
+        sign,
+    )(lambda total, wanted, limit: max(0.0, min(limit, wanted)))
+    clamp(
+        "loses-the-sign", "The size is limited and the sign lost: friction acts one way only.", sign
+    )(lambda total, wanted, limit: min(abs(wanted), limit))
+    clamp(
+        "loses-the-sign", "The size is limited and the sign lost: friction acts one way only.", sign
+    )(lambda total, wanted, limit: limit if abs(wanted) > limit else wanted)
+    clamp(
+        "clamp-is-turned-round",
+        "min and max are swapped: the total is -limit whatever happens.",
+        sign,
+    )(lambda total, wanted, limit: -limit)

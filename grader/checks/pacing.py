@@ -11,6 +11,7 @@ from grader.judge.lab import STEP, Lab
 
 STEP_MS = 1000 * STEP
 MAX_STEPS = 8
+ROUNDING = 1e-6  # ms
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
 
@@ -35,11 +36,11 @@ class Pace:
         return sum(self.steps) * STEP_MS
 
     def out_of_step(self) -> int | None:
-        """The first frame with over a step more or less simulated than its time, or None."""
+        """The first frame when more is simulated than has passed, or over a step less, or None."""
         done = list(accumulate(self.steps))
         ends = [0.0, *accumulate(self.lengths)]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
-            if not end_before - STEP_MS <= done[frame] * STEP_MS <= end + STEP_MS:
+            if not end_before - STEP_MS <= done[frame] * STEP_MS <= end + ROUNDING:
                 return frame
         return None
 

@@ -35,8 +35,9 @@ def solve(lab: Lab, rod: Rod, passes: int = 1) -> tuple[BodyValue, BodyValue]:
     for _ in range(passes):
         lab.tell(joint, "solve")
     ends = lab.state(a), lab.state(b)
+    offset = ends[1].pos.x - ends[0].pos.x, ends[1].pos.y - ends[0].pos.y
     if passes == 1:
-        lab.saw("rod", (rod,), velocities(ends))
+        lab.saw("rod", (rod,), (*velocities(ends), offset))
     return ends
 
 

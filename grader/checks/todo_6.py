@@ -1,6 +1,7 @@
 """TODO 6: fixed steps, whatever the frames."""
 
 import math
+import re
 
 from hypothesis import given
 
@@ -8,26 +9,25 @@ from grader.checks.pacing import MAX_STEPS, SETTLE, STEP_MS, Pace, frames_at, pa
 from grader.checks.strategies import few, frame_lists
 from grader.judge.lab import STEP, Lab
 
-HICCUP = 2000  # ms
 
-
-def paced_with_a_hiccup(lab: Lab) -> Pace:
-    lab.ran("the lab scene at 60 frames a second, with one frame of 2 seconds in the middle")
-    return pace(lab, [*frames_at(60, 0.1), HICCUP, *frames_at(60, 0.2)])
+def paced_with_a_hiccup(lab: Lab, seconds: int) -> Pace:
+    lab.ran(f"the lab scene at 60 frames a second, with one frame of {seconds} seconds in between")
+    hiccup = 1000 * seconds + 1  # ms; no whole number of steps, where rounding would decide
+    return pace(lab, [*frames_at(60, 0.1), hiccup, *frames_at(60, 0.2)])
 
 
 def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     """As much is simulated at 30, 60 and 144 frames a second"""
     rates = (30, 60, 144)
-    lab.ran("the lab scene for half a second at 30, 60 and 144 frames a second")
-    paces = {rate: pace(lab, frames_at(rate, 0.5)) for rate in rates}
+    lab.ran("the lab scene for 0.3 s at 30, 60 and 144 frames a second")
+    paces = {rate: pace(lab, frames_at(rate, 0.3)) for rate in rates}
     # Up to one step, and up to what a program has not seen yet that is a frame behind.
     lab.want(
         all(
             -STEP_MS <= sum(each.lengths) - each.done <= STEP_MS + sum(SETTLE)
             for each in paces.values()
         ),
-        "60 steps of 1/120 s each time (one less or more will do)",
+        "36 steps of 1/120 s each time (one less or more will do)",
         ", ".join(f"{sum(each.steps)} at {rate}" for rate, each in paces.items()),
     )
 
@@ -58,7 +58,7 @@ def the_remainder_waits_for_the_next_frame(lab: Lab) -> None:
 
 def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
     """A frame of 2 seconds is cut to MAX_STEPS steps"""
-    most = max(paced_with_a_hiccup(lab).steps)
+    most = max(paced_with_a_hiccup(lab, 2).steps)
     # MAX_STEPS * STEP may hold a step less once it is rounded.
     lab.want(
         MAX_STEPS - 1 <= most <= MAX_STEPS,
@@ -69,7 +69,7 @@ def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
 
 def a_slow_frame_is_not_caught_up_later(lab: Lab) -> None:
     """What a slow frame lost is not caught up later"""
-    paced = paced_with_a_hiccup(lab)
+    paced = paced_with_a_hiccup(lab, 10)
     after = paced.lengths.index(max(paced.lengths)) + 2  # a program may be a frame behind
     owed, steps = sum(paced.lengths[after:]) / STEP_MS, sum(paced.steps[after:])
     # A step more or less at either end, and one more in the frame that is behind.
@@ -78,6 +78,17 @@ def a_slow_frame_is_not_caught_up_later(lab: Lab) -> None:
         f"{owed:.0f} steps in the {sum(paced.lengths[after:]):.0f} ms after it, as usual",
         f"{steps} steps",
     )
+
+
+def the_program_says_how_many_steps_ran(lab: Lab) -> None:
+    """On exit the program prints how many steps ran"""
+    lab.ran("the lab scene for ten frames of 17 ms, then the window is closed")
+    played = lab.play([17] * 10, physics=False)
+    ran = sum(played.steps)
+    numbers = [int(number) for line in played.lines for number in re.findall(r"\d+", line)]
+    said = ran if ran in numbers else next(iter(numbers), None)
+    lab.saw("said", (ran,), said)
+    lab.want(said == ran, f"{ran} in what it prints", f"{said}" if numbers else "no number")
 
 
 @few

@@ -43,7 +43,7 @@ class StepCounter:
         self.last = world
         self.in_frame += 1
         self.total += 1
-        if len(self.dts) < MAX_STEP_SIZES and dt not in self.dts:
+        if len(self.dts) < MAX_STEP_SIZES and not any(math.isclose(dt, each) for each in self.dts):
             self.dts.append(float(dt))
         result = self.real(world, dt, *rest) if self.physics else None
         if self.trail_every and self.total % self.trail_every == 0:

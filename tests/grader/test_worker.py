@@ -1,0 +1,236 @@
+"""One child and what it may do: questions and answers over the wall, with a hostile module behind."""
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+
+from grader.judge.children import Child, ChildEnded, WarmWorker, start_worker
+from grader.judge.grade import KIT
+from grader.protocol import (
+    Call,
+    ChildSetup,
+    Import,
+    Items,
+    Limits,
+    Missing,
+    Raised,
+    Ref,
+    Returned,
+    Vec,
+)
+
+MODULE = '''
+import os, select, socket, sys, time
+def environment(): return ",".join(sorted(os.environ))
+def folder(): return os.getcwd() + " " + ",".join(os.listdir("."))
+def read(path): return open(path).read(20)
+def write(path): open(path, "w").write("x")
+def listing(path): return str(len(os.listdir(path)))
+def leave(status): os._exit(status)
+def quit(): sys.exit(0)
+def forever():
+    while True: pass
+def recurse(): return recurse()
+def swallow(): return len(bytearray(4 * 1024**3))
+def talk(n): print("x" * n); sys.stderr.write("y" * n); return n
+def connect(port): socket.create_connection(("127.0.0.1", port), timeout=2); return 1
+def signal_it(pid): os.kill(pid, 0); return 1
+def leave_behind():
+    pid = os.fork()
+    if pid == 0:
+        os.setsid()
+        if os.fork(): os._exit(0)
+        open("part", "w").write(str(os.getpid()))
+        os.rename("part", "pid")
+        select.select([], [], [], 30)
+        os._exit(0)
+    while not os.path.exists("pid"): select.select([], [], [], 0.01)
+    return 1
+def flood_disk():
+    with open("big", "wb") as f:
+        for _ in range(64): f.write(bytes(1024 * 1024))
+def forge():
+    for fd in range(3, 200):
+        try: os.write(fd, b"\\x00\\x00\\x00\\x04junk")
+        except OSError: pass
+    return 1
+def number(): return 10 ** 400
+def weird(): return object()
+def deep():
+    x = []
+    for _ in range(5000): x = [x]
+    return x
+def clock(): return (time.time(), time.perf_counter())
+'''
+
+
+class Asker:
+    """Asks a fresh child to call one function of MODULE."""
+
+    def __init__(self, tmp_path: Path, spawn: bool) -> None:
+        folder, scratch = tmp_path / "submission", tmp_path / "scratch"
+        folder.mkdir()
+        scratch.mkdir()
+        (folder / "hostile.py").write_text(MODULE, encoding="utf-8")
+        self.worker = start_worker(spawn)
+        limits = Limits(cpu_seconds=2, memory_mb=1024)
+        self.setup = ChildSetup(str(folder), str(scratch), limits, True, [str(KIT / "grader")])
+        self.children: list[Child] = []
+        self.output = ""
+
+    def __call__(self, name: str, *args: int | str) -> object:
+        child = self.worker.open(self.setup)
+        self.children.append(child)
+        child.ask(Import("hostile"))
+        answered = child.ask(Call(f"hostile:{name}", list(args)))
+        self.output = answered.output
+        return answered.reply.value if isinstance(answered.reply, Returned) else answered.reply
+
+    def end(self) -> None:
+        for child in self.children:
+            child.end()
+
+
+@pytest.fixture
+def forked(tmp_path: Path) -> Iterator[Asker]:
+    asker = Asker(tmp_path, spawn=False)
+    yield asker
+    asker.end()
+    asker.worker.close()
+
+
+@pytest.fixture(params=["fork", "spawn"])
+def ask(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Asker]:
+    asker = Asker(tmp_path, spawn=request.param == "spawn")
+    yield asker
+    asker.end()
+    asker.worker.close()
+
+
+linux = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="the layer named in the test is Linux's"
+)
+
+
+def test_the_environment_tells_nothing(ask: Asker, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("SECRET_TOKEN", "x")
+    names = set(str(ask("environment")).split(","))
+    assert "SECRET_TOKEN" not in names and "PYTHONPATH" not in names and "USER" not in names
+
+
+def test_it_works_in_an_empty_folder(ask: Asker, tmp_path: Path):
+    assert ask("folder") == f"{tmp_path / 'scratch'} "
+
+
+def test_leaving_with_status_0_is_no_answer(ask: Asker):
+    with pytest.raises(ChildEnded, match="exit status 0"):
+        ask("leave", 0)
+
+
+def test_sys_exit_is_an_exception_like_any_other(ask: Asker):
+    reply = ask("quit")
+    assert isinstance(reply, Raised) and reply.error == "SystemExit"
+
+
+def test_an_endless_loop_uses_up_its_processor_time(ask: Asker):
+    with pytest.raises(ChildEnded, match="2 s of processor time"):
+        ask("forever")
+
+
+def test_endless_recursion_is_an_exception(ask: Asker):
+    reply = ask("recurse")
+    assert isinstance(reply, Raised) and reply.error == "RecursionError"
+    assert len(reply.frames) <= 12
+
+
+@linux
+def test_memory_is_limited(ask: Asker):
+    reply = ask("swallow")
+    assert isinstance(reply, Raised) and reply.error == "MemoryError"
+
+
+def test_files_are_limited_in_size(ask: Asker):
+    reply = ask("flood_disk")
+    assert isinstance(reply, Raised) and reply.error == "OSError"
+
+
+def test_what_is_printed_is_kept_up_to_a_bound(ask: Asker):
+    assert ask("talk", 5_000_000) == 5_000_000
+    assert len(ask.output) < 70_000
+    assert "bytes and then" in ask.output
+
+
+@linux
+@pytest.mark.parametrize("path", [KIT / "grader/checks/exact.py", KIT / "solution/integrators.py"])
+def test_the_kit_is_out_of_sight(ask: Asker, path: Path):
+    reply = ask("read", str(path))
+    assert isinstance(reply, Raised) and reply.error == "PermissionError"
+
+
+@linux
+@pytest.mark.parametrize("path", ["/etc/passwd", "/proc/1/environ", str(Path.home() / ".bashrc")])
+def test_the_machine_is_out_of_sight(ask: Asker, path: str):
+    reply = ask("read", path)
+    assert isinstance(reply, Raised) and reply.error in ("PermissionError", "FileNotFoundError")
+
+
+@linux
+def test_nothing_can_be_written_outside_the_scratch_folder(ask: Asker, tmp_path: Path):
+    for path in (tmp_path / "out.txt", tmp_path / "submission" / "hostile.py"):
+        reply = ask("write", str(path))
+        assert isinstance(reply, Raised) and reply.error == "PermissionError"
+    assert ask("write", str(tmp_path / "scratch" / "mine.txt")) is None
+
+
+@linux
+def test_no_connection_leaves_the_child(ask: Asker):
+    import socket
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        reply = ask("connect", server.getsockname()[1])
+        assert isinstance(reply, Raised)
+
+
+@linux
+def test_no_signal_reaches_the_judge(ask: Asker):
+    reply = ask("signal_it", os.getpid())
+    assert isinstance(reply, Raised) and reply.error == "PermissionError"
+
+
+@linux
+def test_a_process_left_behind_is_ended(forked: Asker, tmp_path: Path):
+    forked("leave_behind")
+    stray = int((tmp_path / "scratch" / "pid").read_text())
+    assert psutil.pid_exists(stray)
+    forked.end()
+    assert not psutil.pid_exists(stray)
+
+
+def test_forged_answers_end_the_child(ask: Asker):
+    with pytest.raises(ChildEnded, match="not an answer"):
+        ask("forge")
+
+
+@pytest.mark.parametrize("name", ["weird", "deep", "number"])
+def test_odd_answers_are_answers_of_no_use(ask: Asker, name: str):
+    reply = ask(name)
+    assert isinstance(reply, Ref | Items | Raised | Missing | float)
+
+
+def test_all_clocks_stand_at_the_same_scripted_time(ask: Asker):
+    shown = ask("clock")
+    assert isinstance(shown, Vec) and shown.x == shown.y < 10
+
+
+def test_the_warm_process_is_replaced_when_it_is_killed(tmp_path: Path):
+    worker = start_worker()
+    assert isinstance(worker, WarmWorker)
+    worker.process.kill()
+    worker.process.wait()
+    child = worker.open(ChildSetup(str(tmp_path), str(tmp_path), Limits(), True, []))
+    child.end()
+    worker.close()
