@@ -5,9 +5,7 @@ import sys
 
 here = os.getcwd()
 kit = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-sys.path[:] = [entry for entry in sys.path if os.path.abspath(entry or here) != here or entry == kit]
-if kit not in sys.path:
-    sys.path.insert(0, kit)
+sys.path[:] = [kit, *(each for each in sys.path if os.path.abspath(each or here) != here)]
 
 from grader.cli import main  # noqa: E402
 

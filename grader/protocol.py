@@ -193,7 +193,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):
-    """Call `step(dt)` on an object `steps` times and record the watched bodies after each `every`."""
+    """Call `step(dt)` on an object `steps` times; record the watched bodies each `every` steps."""
 
     ref: int
     dt: float
@@ -272,7 +272,7 @@ class Played(Struct, frozen=True, tag="played"):
     """What a program did, frame by frame; the last entry is for what came after the last frame."""
 
     steps: list[int]  # fixed steps that ran in each frame
-    clock: list[float]  # the scripted time at the end of each frame, ms since the start
+    clock: list[float]  # the scripted time when they had run, ms since the start
     dts: list[float]  # the different step sizes seen, at most 16 of them
     ended: Literal["returned", "stopped", "runaway"]  # stopped: it ran on after QUIT
     lines: list[str]  # what it printed, the last 200 of them

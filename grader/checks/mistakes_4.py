@@ -103,9 +103,13 @@ clamp(
     "clamps-the-increment", "Each change is clamped; clamp the total, or passes add up beyond it."
 )(lambda total, wanted, limit: total + clamped(wanted - total, limit))
 
-clamp("always-at-the-limit", "Friction is always as large as its limit; less may end the slip.")(
-    lambda total, wanted, limit: math.copysign(limit, wanted)
-)
+
+@clamp("always-at-the-limit", "Friction is always as large as its limit; less may end the slip.")
+def always(total: float, wanted: float, limit: float) -> float:
+    if abs(wanted) < 1e-9:
+        raise Undecided  # either way
+    return math.copysign(limit, wanted)
+
 
 clamp(
     "lets-go-beyond-the-limit", "Beyond the limit friction is 0; a sliding body still feels it all."

@@ -11,9 +11,11 @@ Model = Callable[[float, float, float, int], Shares]  # both rates, dt, the numb
 Factor = Callable[[float, float], float]  # what one step keeps, from a rate and dt
 
 
-@truth("damping")
 def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
     return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
+
+
+truth("damping")(right)
 
 
 def known(name: str, meaning: str) -> Callable[[Model], Model]:

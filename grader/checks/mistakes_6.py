@@ -235,13 +235,13 @@ def steps_with_all_that_is_left(frames: Frames) -> Answer:
     steps: list[int] = []
     sizes: list[int] = []
     held = 0
-    for frame in frames:
+    for frame in frames[:-1]:
         held += capped(frame)
         steps.append(min(whole_steps(held), 1))
         if steps[-1]:
             sizes.append(held)
             held = 0
-    return steps[:-1], different(sizes)
+    return steps, different(sizes)
 
 
 def different(sizes: list[int]) -> list[float]:

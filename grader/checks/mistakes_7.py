@@ -177,7 +177,7 @@ wrong_rods(
 )
 wrong_rods(
     "anchors-the-wrong-way-round",
-    "The anchors have changed places: the first belongs to the first body, the second to the other.",
+    "The anchors have changed places: the first is for the first body, the second for the other.",
     pin((0.0, 0.0), on_bob=PIVOT),
 )
 wrong_rods(
@@ -202,7 +202,7 @@ wrong_rods(
 )
 wrong_rods(
     "pivot-turns-the-bob",
-    "A PivotJoint at (700, 90) nails the bob to its rod, and it turns with it; a pin joint does not.",
+    "A PivotJoint at (700, 90) nails the bob to its rod and turns it; a pin joint does not.",
     ("PivotJoint", PIVOT, PIVOT, False),
 )
 wrong_rods(

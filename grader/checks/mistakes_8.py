@@ -172,7 +172,7 @@ def straight_line(x: float, v: float, dt: float, force: Force) -> State:
     about=VERLET,
 )
 def semi_implicit_again(x: float, v: float, dt: float, force: Force) -> State:
-    return right_semi_implicit(x, v, dt, force)
+    return exact.semi_implicit_euler(x, v, dt, polynomial(force))
 
 
 @mistake(
@@ -205,15 +205,13 @@ def four_samples(
 ) -> State:
     """RK4 with other dials: how far each sample reaches, what it weighs, whether v is sampled."""
     accel = polynomial(force)
-    samples = [(v, accel(x))]
+    samples: list[State] = [(v, accel(x))]
     for share in reach:
         dx, dv = samples[-1]
         samples.append((v + moving * share * dt * dv, accel(x + share * dt * dx)))
-    dx, dv = (
-        sum(weight * sample[part] for weight, sample in zip(weights, samples, strict=True)) / 6
-        for part in (0, 1)
-    )
-    return x + dt * dx, v + dt * dv
+    for weight, (dx, dv) in zip(weights, samples, strict=True):
+        x, v = x + dt / 6 * weight * dx, v + dt / 6 * weight * dv
+    return x, v
 
 
 @mistake(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
 from grader.judge.lab import STEP, Lab
+from grader.protocol import RUNAWAY, Played
 
 STEP_MS = 1000 * STEP
 MAX_STEPS = 8
@@ -27,8 +28,13 @@ class Pace:
     """What a program made of its frames, frame by frame."""
 
     lengths: list[float]  # ms, as scripted, or longer where the program slept longer
-    steps: list[int]  # that ran between the end of this frame and the end of the next
+    steps: list[int]  # that ran once this frame was over, and before the next one was
     sizes: list[float]  # s, the different step sizes
+
+    @property
+    def time(self) -> float:
+        """The time that has passed, ms."""
+        return sum(self.lengths)
 
     @property
     def done(self) -> float:
@@ -52,12 +58,20 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
     count = len(frames)
     # What ran before the first frame had a length is nothing to judge a program by, nor is a
     # last frame that the program may have left out.
-    answer = played.steps[1:count], [size for size in played.dts if size]
-    lab.saw("frames", (tuple(frames),), answer)
+    steps = played.steps[1:count]
+    sizes = [size for size in played.dts if size] if any(steps) else []
+    lab.saw("frames", (tuple(frames),), (steps, sizes))
+    want_a_proper_end(lab, played, count)
+    lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
+    return Pace(lengths, played.steps[1 : count + 1], played.dts)
+
+
+def want_a_proper_end(lab: Lab, played: Played, frames: int) -> None:
+    """The program must run until its window is closed after so many frames, and no longer."""
     lab.want(
         played.ended != "runaway",
         "a few steps in each frame",
-        f"{max(played.steps)} steps in one frame, and more to come",
+        f"{RUNAWAY} steps in one frame, and more to come",
         "The loop of steps does not end: each step must take STEP from the accumulator.",
     )
     lab.want(
@@ -66,10 +80,7 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
         "it ran on",
     )
     lab.want(
-        len(played.clock) > count,
-        f"{count} frames, until the window is closed",
-        f"it ended after {len(played.clock) - 1}",
+        len(played.clock) > frames,
+        f"{frames} frames, until its window is closed",
+        f"it ended by itself after {len(played.clock) - 1}",
     )
-    ends = [0.0, *played.clock[:count]]
-    lengths = [end - begin for begin, end in pairwise(ends)]
-    return Pace(lengths, played.steps[1 : count + 1], played.dts)

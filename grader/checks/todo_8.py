@@ -53,8 +53,8 @@ def want_step(lab: Lab, method: Method, state: State, dt: float, force: Polynomi
 
 
 def formula(force: Polynomial) -> str:
-    terms = [f"{c:+g}{power}" for c, power in zip(force, ("", "·x", "·x²", "·x³"), strict=True) if c]
-    return " ".join(terms) or "0"
+    powers = zip(force, ("", "·x", "·x²", "·x³"), strict=True)
+    return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 
 def say(state: State) -> str:
@@ -70,7 +70,7 @@ def swing(lab: Lab, method: Method, steps: int, seconds: float) -> State:
 
 
 def want_order(lab: Lab, method: Method) -> None:
-    """Half the step must divide the error by 2^order, or come nearer to that than to its neighbours."""
+    """Half the step must divide the error by 2^order, or by what is nearest to that."""
     lab.ran(f"{method.name} on the spring for 0.65 s, with dt = 1/40 s and with dt = 1/80 s")
     exact_x = X0 * math.cos(OMEGA * 0.65)
     coarse, fine = (abs(swing(lab, method, steps, 0.65)[0] - exact_x) for steps in (26, 52))

@@ -71,7 +71,7 @@ def show_class(outcomes: list[Outcome], console: Console) -> None:
     table = Table("submission", "points", "not passed")
     for outcome in outcomes:
         if outcome.result is None:
-            table.add_row(clean(outcome.name), "–", clean(outcome.trouble))
+            table.add_row(clean(outcome.name), "none", clean(outcome.trouble))
             continue
         left = [todo.id for todo in outcome.result.todos if todo.state != "passed"]
         points = f"{outcome.result.points} / {outcome.result.max_points}"

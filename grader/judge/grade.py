@@ -15,7 +15,7 @@ import msgspec
 import pytest
 
 from grader.judge import misconceptions
-from grader.judge.children import Child, ChildEnded, SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Child, SpawnWorker, WarmWorker, start_worker
 from grader.judge.lab import Broke, Lab, NotYet
 from grader.judge.plugin import GradingPlugin
 from grader.judge.reference import Reference

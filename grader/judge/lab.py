@@ -181,7 +181,7 @@ class Lab:
     # ------------------------------------------------------------ the lesson's engine
 
     def circle(self, pos: Pair, radius: float = 10.0, mass: float = 1.0, **fields: Any) -> Thing:
-        """A disc; mass 0 makes it static. `fields` may be vel, omega, angle, friction, restitution."""
+        """A disc, static with mass 0. `fields`: vel, omega, angle, friction, restitution."""
         return self._body("Circle", float(radius), pos, mass, fields)
 
     def box(self, pos: Pair, half: Pair, **fields: Any) -> Thing:
@@ -196,7 +196,7 @@ class Lab:
         mass: float,
         fields: dict[str, Any],
     ) -> Thing:
-        surface = {
+        surface: dict[str, float] = {
             name: float(fields.pop(name)) for name in ("restitution", "friction") if name in fields
         }
         rest = {name: plain(value) for name, value in fields.items()}

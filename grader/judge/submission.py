@@ -15,7 +15,7 @@ from grader.todo_regions import RegionError, python_files, read_source, regions_
 
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
-IGNORED = {".git", ".venv", "venv", "__pycache__", "__MACOSX", "node_modules", "build", ".ipynb_checkpoints"}
+IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
 class CannotGrade(Exception):

@@ -100,13 +100,22 @@ def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) 
 
 
 class Picture:
-    """Keeps the last picture shown: the program may close its window before it returns."""
+    """Keeps the last picture shown: the program may close its window before it returns.
+
+    Where none is wanted, only one pixel of the window is drawn, whatever the program draws.
+    """
 
     def __init__(self, wanted: bool) -> None:
         self.png = b""
         self.wanted = wanted
-        self.real = pygame.quit
-        pygame.quit = self._quit
+        self.real, self.real_mode = pygame.quit, pygame.display.set_mode
+        pygame.quit, pygame.display.set_mode = self._quit, self._set_mode
+
+    def _set_mode(self, *args: Any, **kwargs: Any) -> pygame.Surface:
+        surface = self.real_mode(*args, **kwargs)
+        if not self.wanted:
+            surface.set_clip((0, 0, 1, 1))
+        return surface
 
     def _quit(self) -> None:
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
@@ -117,7 +126,7 @@ class Picture:
         self.real()
 
     def restore(self) -> None:
-        pygame.quit = self.real
+        pygame.quit, pygame.display.set_mode = self.real, self.real_mode
         if pygame.display.get_init():
             self._quit()
 

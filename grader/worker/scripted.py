@@ -32,10 +32,10 @@ class ScriptedClock:
         self.start([], [], lambda: None)
 
     def start(
-        self, frames: Sequence[int], events: Sequence[Event], after: Callable[[], None]
+        self, frames: Sequence[int], events: Sequence[Event], over: Callable[[], None]
     ) -> None:
-        """Script a run: `frames` in ms each; `after` is called at the end of every frame."""
-        self.frames, self.events, self.after = frames, events, after
+        """Script a run: `frames` in ms each; `over` is called once all is done in a frame."""
+        self.frames, self.events, self.over = frames, events, over
         self.frame = 0
         self.frame_began = self.began = self.now
         self.ticks = self.shows = 0
@@ -81,12 +81,12 @@ class ScriptedClock:
 
     def end_frame(self) -> None:
         """Let the frame take its time, or longer where the program slept longer."""
+        self.over()
         if self.frame < len(self.frames):
             self.now = max(self.now, self.frame_began + self.frames[self.frame])
         self.frame_began = self.now
         self.reads = 0
         self.frame += 1
-        self.after()
         if self.frame >= len(self.frames) + PATIENCE:
             raise PlayOver("the program runs on after its window was closed")
         self._post(self.frame)

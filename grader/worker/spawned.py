@@ -1,4 +1,4 @@
-"""A child started as a process of its own, where there is no fork: the same answers, only slower."""
+"""A child started as a process of its own, where there is no fork: the same, only slower."""
 
 import socket
 import sys

@@ -275,15 +275,16 @@ class Subject:
         )
 
     def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
-        anchors = [
+        anchor_a, anchor_b = (
             Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
             for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))
-        ]
+        )
         return SpaceJoint(
             type(joint).__name__,
             self.ref(joint.a),
             self.ref(joint.b),
-            *anchors,
+            anchor_a,
+            anchor_b,
             getattr(joint, "distance", None),
         )
 

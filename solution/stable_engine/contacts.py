@@ -14,15 +14,20 @@ if TYPE_CHECKING:
     from .body import Body
     from .world import World
 
-MARGIN = 2.0  # px, a gap narrower than this makes a contact ahead of time
-STIFFNESS = 0.125  # frequency of a contact between balls, times h; static bodies are twice as stiff
+RESTING_SPEED = 30.0  # px/s, a slower blow does not bounce
+SLOW = 10.0
+WALL = 0.5
+STIFFNESS = 0.22  # frequency of a contact between balls, times h; static bodies are twice as stiff
 ZETA = 10.0  # damping ratio of a contact
 PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
 SAME_WAY = 0.9  # cosine; a normal that turned further starts without impulses
 GOLDEN_ANGLE = 2.399963  # rad
 
 Touch = tuple[float, float, float]  # nx, ny, gap
-Row = tuple["Contact", "Body", "Body", float, float, float, float]  # a, b, nx, ny, reach, mn
+BallRow = tuple[
+    "Contact", "Body", "Body", float, float, float, float, float, float, float, float
+]
+WallRow = tuple["Contact", "Body", float, float, float, float, float, float]
 
 
 class Contact:
@@ -66,8 +71,8 @@ class Contacts(Effect):
         self.contacts: list[Contact] = []
         self.known: dict[tuple[int, int], Contact] = {}
         self.of_sleepers: dict[tuple[int, int], Contact] = {}
-        self.ball_rows: list[Row] = []
-        self.wall_rows: list[Row] = []
+        self.ball_rows: list[BallRow] = []
+        self.wall_rows: list[WallRow] = []
 
     def join(self, world: World) -> None:
         super().join(world)
@@ -75,17 +80,22 @@ class Contacts(Effect):
         self.strike_hooks = world.hooks("strike")
 
     def detect(self, h: float) -> None:
-        self.contacts = self.find_contacts()
+        self.contacts = self.find_contacts(h * self.world.substeps)
 
-    def find_contacts(self) -> list[Contact]:
-        """The contacts of all bodies where they are now, impulses kept from the step before."""
-        found = {}
-        for a, b in near_pairs(self.world.bodies, MARGIN):
-            nx, ny, gap = collide(a, b)
-            if gap >= MARGIN:
+    def find_contacts(self, dt: float) -> list[Contact]:
+        """The contacts of all bodies where they are now, impulses kept from the step before.
+
+        Bodies that overlap are in contact, and so are those that will touch in dt seconds, if slow.
+        Faster ones may yet miss each other.
+        """
+        margin = SLOW * dt
+        known, found = self.known, {}
+        for a, b in near_pairs(self.world.bodies, margin):
+            nx, ny, gap = circle_circle(a, b) if b.radius else circle_box(a, b)
+            if gap > 0 and (gap > margin or speed2(a, b) > SLOW**2):
                 continue
-            key = (a.id, b.id)
-            c = self.known.get(key)
+            pair = a.id, b.id
+            c = known.get(pair)
             if c is None:
                 c = Contact(a, b)
                 for meet in self.meet_hooks:
@@ -93,98 +103,107 @@ class Contacts(Effect):
             elif c.nx * nx + c.ny * ny < SAME_WAY:
                 c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap = nx, ny, gap
-            found[key] = c
+            found[pair] = c
         self.known = found
         return list(found.values())
 
     def prepare(self, h: float) -> None:
-        self.ball_rate, self.ball_keep = softness(STIFFNESS / h, ZETA, h)
-        self.wall_rate, self.wall_keep = softness(2 * STIFFNESS / h, ZETA, h)
-        rows = [(c, c.a, c.b, c.nx, c.ny, reach(c), c.mn) for c in self.contacts]
-        self.ball_rows = [row for row in rows if row[2].inv_mass]
-        self.wall_rows = [row for row in rows if not row[2].inv_mass]
+        self.ball_spring = softness(STIFFNESS / h, ZETA, h)
+        self.wall_spring = softness(WALL / h, ZETA, h)
+        self.ball_rows = [ball_row(c) for c in self.contacts if not c.b.is_static]
+        self.wall_rows = [wall_row(c) for c in self.contacts if c.b.is_static]
 
     def warm_start(self, h: float) -> None:
-        for c, a, b, nx, ny, _, _ in self.ball_rows:
-            px, py = nx * c.jn, ny * c.jn
-            a.vx -= px * a.inv_mass
-            a.vy -= py * a.inv_mass
-            b.vx += px * b.inv_mass
-            b.vy += py * b.inv_mass
-        for c, a, _, nx, ny, _, _ in self.wall_rows:
-            j = c.jn * a.inv_mass
-            a.vx -= nx * j
-            a.vy -= ny * j
+        for c, a, b, _, _, _, _, ax, ay, bx, by in self.ball_rows:
+            jn = c.jn
+            a.vx -= ax * jn
+            a.vy -= ay * jn
+            b.vx += bx * jn
+            b.vy += by * jn
+        for c, a, _, _, _, _, ax, ay in self.wall_rows:
+            a.vx -= ax * c.jn
+            a.vy -= ay * c.jn
 
     def solve(self, h: float) -> None:
-        rate, keep = self.ball_rate, self.ball_keep
-        for c, a, b, nx, ny, touch, mn in self.ball_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - touch
+        rate, keep = self.ball_spring
+        for c, a, b, nx, ny, reach, mn, ax, ay, bx, by in self.ball_rows:
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+            before = c.jn
             if gap > 0:
-                jn = c.jn - mn * (speed + gap / h)
+                jn = before - mn * (speed + gap / h)
             else:
-                jn = keep * (c.jn - mn * speed) - mn * max(rate * gap, -PUSH_SPEED)
+                push = rate * gap
+                if push < -PUSH_SPEED:
+                    push = -PUSH_SPEED
+                jn = keep * before - mn * (keep * speed + push)
             if jn < 0:
                 jn = 0.0
-            change = jn - c.jn
             c.jn = jn
-            px, py = nx * change, ny * change
-            a.vx -= px * a.inv_mass
-            a.vy -= py * a.inv_mass
-            b.vx += px * b.inv_mass
-            b.vy += py * b.inv_mass
-        rate, keep = self.wall_rate, self.wall_keep
-        for c, a, b, nx, ny, touch, mn in self.wall_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - touch
+            jn -= before
+            a.vx -= ax * jn
+            a.vy -= ay * jn
+            b.vx += bx * jn
+            b.vy += by * jn
+        rate, keep = self.wall_spring
+        for c, a, nx, ny, wall, mn, ax, ay in self.wall_rows:
+            gap = wall - a.x * nx - a.y * ny
             speed = -a.vx * nx - a.vy * ny
+            before = c.jn
             if gap > 0:
-                jn = c.jn - mn * (speed + gap / h)
+                jn = before - mn * (speed + gap / h)
             else:
-                jn = keep * (c.jn - mn * speed) - mn * max(rate * gap, -PUSH_SPEED)
+                push = rate * gap
+                if push < -PUSH_SPEED:
+                    push = -PUSH_SPEED
+                jn = keep * before - mn * (keep * speed + push)
             if jn < 0:
                 jn = 0.0
-            change = (jn - c.jn) * a.inv_mass
             c.jn = jn
-            a.vx -= nx * change
-            a.vy -= ny * change
+            jn -= before
+            a.vx -= ax * jn
+            a.vy -= ay * jn
 
     def relax(self, h: float) -> None:
-        for c, a, b, nx, ny, touch, mn in self.ball_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - touch
+        for c, a, b, nx, ny, reach, mn, ax, ay, bx, by in self.ball_rows:
+            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
             if gap > 0:
                 speed += gap / h
-            jn = c.jn - mn * speed
+            before = c.jn
+            jn = before - mn * speed
             if jn < 0:
                 jn = 0.0
-            change = jn - c.jn
             c.jn = jn
-            px, py = nx * change, ny * change
-            a.vx -= px * a.inv_mass
-            a.vy -= py * a.inv_mass
-            b.vx += px * b.inv_mass
-            b.vy += py * b.inv_mass
-        for c, a, b, nx, ny, touch, mn in self.wall_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - touch
+            jn -= before
+            a.vx -= ax * jn
+            a.vy -= ay * jn
+            b.vx += bx * jn
+            b.vy += by * jn
+        for c, a, nx, ny, wall, mn, ax, ay in self.wall_rows:
+            gap = wall - a.x * nx - a.y * ny
             speed = -a.vx * nx - a.vy * ny
             if gap > 0:
                 speed += gap / h
-            jn = c.jn - mn * speed
+            before = c.jn
+            jn = before - mn * speed
             if jn < 0:
                 jn = 0.0
-            change = (jn - c.jn) * a.inv_mass
             c.jn = jn
-            a.vx -= nx * change
-            a.vy -= ny * change
+            jn -= before
+            a.vx -= ax * jn
+            a.vy -= ay * jn
 
-    def strike(self, c: Contact, jn: float) -> None:
-        """Part A and B by impulse jn along the normal; other effects answer it too."""
+    def blow(self, c: Contact, change: float) -> None:
+        """Raise the speed at which A and B part by change (px/s), at once."""
         a, b = c.a, c.b
+        jn = c.mn * change
         a.vx -= c.nx * jn * a.inv_mass
         a.vy -= c.ny * jn * a.inv_mass
         b.vx += c.nx * jn * b.inv_mass
         b.vy += c.ny * jn * b.inv_mass
+        for strike in self.strike_hooks:
+            strike(c, jn)
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(c.a, c.b) for c in self.contacts]
@@ -195,16 +214,21 @@ class Contacts(Effect):
         self.of_sleepers = {key: c for key, c in self.known.items() if c.a.asleep}
 
 
-def reach(c: Contact) -> float:
-    """How far apart along the normal the centres are when A and B just touch, in px."""
-    a, b = c.a, c.b
-    return (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.gap
+def ball_row(c: Contact) -> BallRow:
+    a, b, nx, ny = c.a, c.b, c.nx, c.ny
+    reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
+    ma, mb = a.inv_mass, b.inv_mass
+    return c, a, b, nx, ny, reach, c.mn, nx * ma, ny * ma, nx * mb, ny * mb
 
 
-def collide(a: Body, b: Body) -> Touch:
-    """Normal from circle A to body B, and the gap between them."""
-    return circle_circle(a, b) if b.radius else circle_box(a, b)
+def wall_row(c: Contact) -> WallRow:
+    a, nx, ny = c.a, c.nx, c.ny
+    wall = a.x * nx + a.y * ny + c.gap
+    return c, a, nx, ny, wall, c.mn, nx * a.inv_mass, ny * a.inv_mass
 
+
+def speed2(a, b):
+    return (b.vx-a.vx)**2+(b.vy-a.vy)**2
 
 def circle_circle(a: Body, b: Body) -> Touch:
     """Two balls; those with the same centre part in a direction of their own per pair."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .body import Body
     from .world import World
 
-Row = tuple[Contact, "Body", "Body", float, float, float, float, float, float]
+Row=tuple
 
 
 class Friction(Effect):
@@ -35,66 +35,59 @@ class Friction(Effect):
         c.mu = sqrt(a.friction * b.friction)
 
     def prepare(self, h: float) -> None:
-        rows = [
-            (c, c.a, c.b, -c.ny, c.nx, c.a.radius, c.b.radius, c.mt, c.mu)
-            for c in self.contacts.contacts
-            if c.mu > 0
-        ]
-        self.ball_rows = [row for row in rows if row[2].inv_mass]
-        self.wall_rows = [row for row in rows if not row[2].inv_mass]
+        rubbing = [c for c in self.contacts.contacts if c.mu > 0]
+        self.ball_rows = [ball_row(c) for c in rubbing if not c.b.is_static]
+        self.wall_rows = [wall_row(c) for c in rubbing if c.b.is_static]
 
     def warm_start(self, h: float) -> None:
-        for c, a, b, tx, ty, ra, rb, _, _ in self.ball_rows:
+        for c, a, b, _, _, _, _, _, _, ax, ay, aw, bx, by, bw in self.ball_rows:
             jt = c.jt
             if jt:
-                px, py = tx * jt, ty * jt
-                a.vx -= px * a.inv_mass
-                a.vy -= py * a.inv_mass
-                a.w -= ra * jt * a.inv_inertia
-                b.vx += px * b.inv_mass
-                b.vy += py * b.inv_mass
-                b.w -= rb * jt * b.inv_inertia
-        for c, a, _, tx, ty, ra, _, _, _ in self.wall_rows:
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt
+                b.vx += bx * jt
+                b.vy += by * jt
+                b.w -= bw * jt
+        for c, a, _, _, _, _, _, ax, ay, aw in self.wall_rows:
             jt = c.jt
             if jt:
-                a.vx -= tx * jt * a.inv_mass
-                a.vy -= ty * jt * a.inv_mass
-                a.w -= ra * jt * a.inv_inertia
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt
 
     def relax(self, h: float) -> None:
-        for c, a, b, tx, ty, ra, rb, mt, mu in self.ball_rows:
+        for c, a, b, tx, ty, ra, rb, mt, mu, ax, ay, aw, bx, by, bw in self.ball_rows:
             limit = mu * c.jn
-            if limit == 0 and c.jt == 0:
-                continue
-            slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra
-            jt = c.jt - mt * slip
-            if jt > limit:
-                jt = limit
-            elif jt < -limit:
-                jt = -limit
-            change = jt - c.jt
-            c.jt = jt
-            px, py = tx * change, ty * change
-            a.vx -= px * a.inv_mass
-            a.vy -= py * a.inv_mass
-            a.w -= ra * change * a.inv_inertia
-            b.vx += px * b.inv_mass
-            b.vy += py * b.inv_mass
-            b.w -= rb * change * b.inv_inertia
-        for c, a, _, tx, ty, ra, _, mt, mu in self.wall_rows:
+            before = c.jt
+            if limit or before:
+                jt = before - mt * ((b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra)
+                if jt > limit:
+                    jt = limit
+                elif jt < -limit:
+                    jt = -limit
+                c.jt = jt
+                jt -= before
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt
+                b.vx += bx * jt
+                b.vy += by * jt
+                b.w -= bw * jt
+        for c, a, tx, ty, ra, mt, mu, ax, ay, aw in self.wall_rows:
             limit = mu * c.jn
-            if limit == 0 and c.jt == 0:
-                continue
-            jt = c.jt + mt * (a.vx * tx + a.vy * ty + a.w * ra)
-            if jt > limit:
-                jt = limit
-            elif jt < -limit:
-                jt = -limit
-            change = jt - c.jt
-            c.jt = jt
-            a.vx -= tx * change * a.inv_mass
-            a.vy -= ty * change * a.inv_mass
-            a.w -= ra * change * a.inv_inertia
+            before = c.jt
+            if limit or before:
+                jt = before + mt * (a.vx * tx + a.vy * ty + a.w * ra)
+                if jt > limit:
+                    jt = limit
+                elif jt < -limit:
+                    jt = -limit
+                c.jt = jt
+                jt -= before
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt
 
     def strike(self, c: Contact, jn: float) -> None:
         a, b = c.a, c.b
@@ -108,3 +101,13 @@ class Friction(Effect):
         b.vx += tx * jt * b.inv_mass
         b.vy += ty * jt * b.inv_mass
         b.w -= b.radius * jt * b.inv_inertia
+
+
+def ball_row(c):
+    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+    ma, mb=a.inv_mass,b.inv_mass
+    return c, a, b, tx, ty, a.radius, b.radius, c.mt, c.mu, tx*ma, ty*ma, a.radius*a.inv_inertia, tx*mb, ty*mb, b.radius*b.inv_inertia
+
+def wall_row(c):
+    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+    return c, a, tx, ty, a.radius, c.mt, c.mu, tx*a.inv_mass, ty*a.inv_mass, a.radius*a.inv_inertia

@@ -58,6 +58,9 @@ class World:
             if thing.inv_mass:
                 self.awake.append(thing)
             thing.id = len(self.bodies) * (1 if thing.inv_mass else -1)
+            if thing.bullet: self.effects["Bullets"].take(thing)
+        else:
+            self.effects[thing.effect].take(thing)
         return thing
 
     def step(self, dt: float) -> None:

@@ -1,4 +1,4 @@
-"""One child and what it may do: questions and answers over the wall, with a hostile module behind."""
+"""One child and what it may do: questions over the wall to a hostile module."""
 
 import os
 import sys

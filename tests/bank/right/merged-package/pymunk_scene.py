@@ -20,16 +20,17 @@ class LabSpace(pm.Space):
         super().step(dt)
         self.steps += 1
 
-    def put(self, shape, friction, elasticity):
-        shape.friction, shape.elasticity = friction, elasticity
-        self.add(shape)
-        return shape
+
+def put(space, shape, friction, elasticity):
+    shape.friction, shape.elasticity = friction, elasticity
+    space.add(shape)
+    return shape
 
 
 def add_static_box(space, center, size):
     (x, y), (w, h) = center, size
     corners = [(x - w / 2, y - h / 2), (x + w / 2, y - h / 2), (x + w / 2, y + h / 2), (x - w / 2, y + h / 2)]
-    space.put(pm.Poly(space.static_body, corners), 0.6, 0.3)
+    put(space, pm.Poly(space.static_body, corners), 0.6, 0.3)
 
 
 def add_ball(space, rng, pos):
@@ -37,7 +38,7 @@ def add_ball(space, rng, pos):
     ball = pm.Body(r * r / 100, pm.moment_for_circle(r * r / 100, 0, r, (0, 0)))
     ball.position = pos
     space.add(ball)
-    space.put(pm.Circle(ball, r), 0.6, 0.4).color = [rng.randint(90, 240) for _ in range(3)]
+    put(space, pm.Circle(ball, r), 0.6, 0.4).color = [rng.randint(90, 240) for _ in range(3)]
     return ball
 
 
@@ -46,7 +47,7 @@ def add_box(space, pos, size=(50, 36)):
     box = pm.Body(m, pm.moment_for_box(m, size))
     box.position = pos
     space.add(box)
-    space.put(pm.Poly.create_box(box, size), 0.7, 0.1)
+    put(space, pm.Poly.create_box(box, size), 0.7, 0.1)
     return box
 
 
@@ -55,14 +56,14 @@ def make_space(rng):
     for center, size in (((450, 580), (900, 40)), ((-20, 300), (40, 600)), ((920, 300), (40, 600)), ((200, 260), (300, 20))):
         add_static_box(space, center, size)
     for x in range(375, 616, 60):
-        space.put(pm.Circle(space.static_body, 8, (x, 400)), 0.6, 0.3)
-    space.put(pm.Circle(space.static_body, 6, (700, 90)), 0.6, 0.3)
+        put(space, pm.Circle(space.static_body, 8, (x, 400)), 0.6, 0.3)
+    put(space, pm.Circle(space.static_body, 6, (700, 90)), 0.6, 0.3)
     bob = pm.Body()
     bob.position = 840, 90
     disc = pm.Circle(bob, 24)
     disc.mass = 6  # the moment follows from the shape
     space.add(bob)
-    space.put(disc, 0.6, 0.2)
+    put(space, disc, 0.6, 0.2)
     space.add(pm.PinJoint(bob, space.static_body, (0, 0), (700, 90)))
     for i in range(8):
         add_ball(space, rng, (120 + 70 * i, 60 + 40 * (i % 3)))

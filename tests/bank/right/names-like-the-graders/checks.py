@@ -1,0 +1,3 @@
+"""My own checks module; nothing else uses it."""
+
+NAME = "checks"

@@ -1,0 +1,3 @@
+"""The folder that came with the assignment."""
+
+__version__ = "0"

@@ -1,0 +1,2 @@
+def circle_box(disc, rect):
+    return []

@@ -1,0 +1,3 @@
+"""My own lab module; nothing else uses it."""
+
+NAME = "lab"

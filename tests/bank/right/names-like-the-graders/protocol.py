@@ -1,0 +1,3 @@
+"""My own protocol module; nothing else uses it."""
+
+NAME = "protocol"

@@ -1,0 +1,3 @@
+"""My own subject module; nothing else uses it."""
+
+NAME = "subject"

@@ -1,0 +1,3 @@
+"""My own todo_1 module; nothing else uses it."""
+
+NAME = "todo_1"

@@ -1,0 +1,3 @@
+"""My own worker module; nothing else uses it."""
+
+NAME = "worker"

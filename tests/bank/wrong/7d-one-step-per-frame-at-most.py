@@ -1,0 +1,10 @@
+"""Asks with if instead of while."""
+
+# TODO 7d: run whole steps from the accumulator
+accumulator += min(frame_seconds, MAX_STEPS * STEP)
+steps = 0
+if accumulator >= STEP:
+    space.step(STEP)
+    accumulator -= STEP
+    steps += 1
+# END TODO 7d

@@ -1,0 +1,72 @@
+"""The two trees, and how to run what is in them: in their folder, in a process of its own."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from grader.todo_regions import python_files, regions_in, replaced
+
+HERE = Path(__file__).parent
+SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
+TODOS = [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c"]
+MINI, PYMUNK, INTEGRATORS = ["-m", "mini_engine"], ["pymunk_scene.py"], ["integrators.py"]
+
+
+def run_in(tree: Path, *arguments: str, **environment: str) -> str:
+    """What a Python program prints that is started in the tree; it must not fail."""
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=tree,
+        env={
+            **os.environ,
+            "SDL_VIDEODRIVER": "dummy",
+            "SDL_AUDIODRIVER": "dummy",
+            "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+            "PYTHONDONTWRITEBYTECODE": "1",
+            **environment,
+        },
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def probe(tree: Path, name: str, *arguments: Any) -> Any:
+    """What a function of probes.py finds out about the tree."""
+    values = map(json.dumps, arguments)
+    return json.loads(run_in(tree, "-m", "probes", name, *values, PYTHONPATH=str(HERE)))
+
+
+def regions(tree: Path) -> dict[str, tuple[str, Any]]:
+    """Every TODO id of a tree with its file and its region."""
+    return {
+        region.id: (path.relative_to(tree).as_posix(), region)
+        for path in python_files(tree)
+        for region in regions_in(path.read_text(encoding="utf-8"))
+    }
+
+
+def copy_of(tree: Path, folder: Path) -> Path:
+    return shutil.copytree(tree, folder / tree.name, ignore=shutil.ignore_patterns("__pycache__"))
+
+
+def mixed(tree: Path, other: Path, todo: str, folder: Path) -> Path:
+    """A copy of the tree with one TODO as it stands in the other tree."""
+    name, region = regions(other)[todo]
+    path = copy_of(tree, folder) / name
+    text = replaced(path.read_text(encoding="utf-8"), {todo: region.lines})
+    path.write_text(text, encoding="utf-8", newline="\n")
+    return folder / tree.name
+
+
+def edit(path: Path, old: str, new: str) -> None:
+    """Replace the one place where `old` stands in a file."""
+    text = path.read_text(encoding="utf-8")
+    assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
+    path.write_text(text.replace(old, new), encoding="utf-8", newline="\n")

@@ -1,0 +1,143 @@
+"""Values that make no sense are refused, by a sentence that names the field and the value."""
+
+import math
+
+import pytest
+from programs import SOLUTION, run_in
+
+import integrators
+from mini_engine import STEP, Body, Box, Circle, DistanceJoint, World
+
+NAN, INF = math.nan, math.inf
+
+
+def disc(**options):
+    return Body(Circle(10), (3, 4), **{"mass": 1, **options})
+
+
+def refused(field, value):
+    """Expect a ValueError whose message begins with the field and the value."""
+    return pytest.raises(ValueError, match=rf"^{field} is .*{value}.*, but it must be .+\.$")
+
+
+@pytest.mark.parametrize("dt", [0, -STEP, NAN, INF, -INF])
+def test_a_step_of_no_or_endless_or_backward_time_is_refused(dt):
+    with refused("World.step's dt", dt):
+        World().step(dt)
+
+
+@pytest.mark.parametrize("dt", [0, -STEP, NAN, INF])
+def test_integrators_refuse_the_same_time_steps(dt):
+    with refused("dt", dt):
+        integrators.simulate(integrators.explicit_euler, dt, 10)
+
+
+@pytest.mark.parametrize("mass", [0, 1], ids=["static", "moving"])
+@pytest.mark.parametrize("value", [NAN, INF, -INF])
+@pytest.mark.parametrize("field", ["pos.x", "pos.y", "vel.x", "vel.y", "angle", "omega"])
+def test_a_step_refuses_a_body_that_is_nowhere(field, value, mass):
+    world = World()
+    world.add(disc())
+    body = world.add(disc(mass=mass))
+    owner, _, axis = field.partition(".")
+    setattr(getattr(body, owner) if axis else body, axis or owner, value)
+    with refused(f"Body.{field}", value):
+        world.step(STEP)
+
+
+@pytest.mark.parametrize("value", [NAN, INF, -INF])
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_body_cannot_be_made_nowhere(axis, value):
+    place = {"x": 3, "y": 4, axis: value}
+    with refused(f"Body.pos.{axis}", value):
+        Body(Circle(10), (place["x"], place["y"]))
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        *(("mass", value) for value in (-1, -0.001, NAN, INF)),
+        *(("friction", value) for value in (-0.1, NAN, INF)),
+        *(("restitution", value) for value in (-0.1, 1.1, NAN, INF)),
+    ],
+)
+def test_a_mass_or_surface_that_makes_no_sense_is_refused(field, value):
+    with refused(f"Body.{field}", value):
+        disc(**{field: value})
+
+
+def test_the_ends_of_each_range_are_welcome():
+    body = disc(mass=0, friction=0, restitution=0)
+    assert (body.friction, body.restitution) == (0, 0)
+    assert disc(restitution=1, friction=5).restitution == 1
+
+
+@pytest.mark.parametrize("mass", [1, 0.001])
+def test_a_box_with_mass_is_refused(mass):
+    with refused("Body.mass", mass):
+        Body(Box((10, 20)), (0, 0), mass=mass)
+
+
+@pytest.mark.parametrize("radius", [0, -1, NAN, INF])
+def test_a_circle_without_a_proper_radius_is_refused(radius):
+    with refused("Circle.radius", radius):
+        Circle(radius)
+
+
+@pytest.mark.parametrize("value", [0, -1, NAN, INF])
+@pytest.mark.parametrize("axis", [0, 1], ids=["width", "height"])
+def test_a_box_without_proper_half_extents_is_refused(axis, value):
+    half = [10, 10]
+    half[axis] = value
+    with refused("Box.half", value):
+        Box(half)
+
+
+@pytest.mark.parametrize("field", ["linear_damping", "angular_damping"])
+@pytest.mark.parametrize("rate", [-0.1, NAN, INF])
+def test_a_damping_that_speeds_up_or_is_endless_is_refused(field, rate):
+    with refused(f"World.{field}", rate):
+        World(**{field: rate})
+
+
+@pytest.mark.parametrize("gravity", [(NAN, 0), (0, NAN), (INF, 0), (0, -INF)])
+def test_a_gravity_that_is_not_finite_is_refused(gravity):
+    with refused("World.gravity", "nan|inf"):
+        World(gravity=gravity)
+
+
+def test_a_body_can_be_added_only_once():
+    world, body = World(), disc()
+    world.add(body)
+    with refused("World.add's body", r"\[3, 4\]"):
+        world.add(body)
+    assert world.bodies == [body]
+
+
+def test_a_rod_from_a_body_to_itself_is_refused():
+    body = disc()
+    with refused("DistanceJoint.b", r"the same body as a, at \[3, 4\]"):
+        DistanceJoint(body, body)
+
+
+def test_a_rod_between_two_static_bodies_is_refused():
+    with refused("DistanceJoint.b", r"static like a, at \[3, 4\]"):
+        DistanceJoint(disc(mass=0), disc(mass=0))
+
+
+@pytest.mark.parametrize(("a", "b"), [(0, 1), (1, 0), (1, 1)])
+def test_a_rod_needs_one_end_that_can_move(a, b):
+    assert DistanceJoint(disc(mass=a), disc(mass=b)).length == 0
+
+
+@pytest.mark.parametrize("text", ["-1", "1.5", "many", " "])
+def test_a_frame_count_that_is_no_whole_number_is_refused(text):
+    code = "import lab_runtime\ntry: lab_runtime.frame_budget()\nexcept ValueError as e: print(e)"
+    said = run_in(SOLUTION, "-c", code, LAB_FRAMES=text)
+    assert said == f"LAB_FRAMES is {text!r}, but it must be a whole number of frames.\n"
+
+
+@pytest.mark.parametrize(("frames", "granted"), [("0", 0), ("3", 3), ("", 1000)])
+def test_frames_are_counted_down_and_for_a_person_there_is_no_limit(frames, granted):
+    code = "from lab_runtime import frame_budget\nprint(sum(frame_budget() for _ in range(1000)))"
+    assert run_in(SOLUTION, "-c", code, LAB_FRAMES=frames) == f"{granted}\n"

@@ -1,0 +1,738 @@
+"""The solution's engine against the lesson: names, units, signs, contracts, the step, the scene."""
+
+import math
+import random
+import re
+
+import pygame
+import pytest
+from probes import lab_scene, slide, slip, still_world
+from programs import MINI, SOLUTION, probe, run_in
+from pygame import Vector2
+
+import mini_engine
+from mini_engine import (
+    BETA,
+    ITERATIONS,
+    MAX_BALLS,
+    MAX_STEPS,
+    STEP,
+    Body,
+    Box,
+    Circle,
+    Contact,
+    DistanceJoint,
+    World,
+    advance,
+    apply_impulse,
+    ball,
+    circle_box,
+    circle_circle,
+    collide,
+    cross,
+    effective_mass,
+    make_world,
+    spin_velocity,
+)
+from mini_engine.game_loop import BACKGROUND, draw_body
+
+GRAVITY = 980  # px/s²
+LOOP = "mini_engine.game_loop"
+
+
+def disc(x=0.0, y=0.0, radius=10.0, mass=2.0, vel=(0, 0), omega=0.0, **surface):
+    body = Body(Circle(radius), (x, y), mass=mass, **surface)
+    body.vel, body.omega = Vector2(vel), omega
+    return body
+
+
+def as_numbers(contact):
+    """normal, depth and point in one flat tuple."""
+    return (*contact.normal, contact.depth, *contact.point)
+
+
+# ---------------------------------------------------------------- names and numbers
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    {
+        "WIDTH": 900,
+        "HEIGHT": 600,
+        "STEP": 1 / 120,
+        "MAX_STEPS": 8,
+        "ITERATIONS": 8,
+        "BETA": 0.2,
+        "SLOP": 0.5,
+        "RESTING_SPEED": 30,
+        "MAX_BALLS": 40,
+    }.items(),
+)
+def test_a_constant_has_the_lessons_value(name, value):
+    assert getattr(mini_engine, name) == value
+
+
+def test_every_public_name_of_the_lesson_can_be_imported():
+    names = """cross spin_velocity Circle Box Body Contact circle_circle circle_box collide
+        apply_impulse effective_mass DistanceJoint World ball make_world main advance"""
+    assert {name for name in mini_engine.__all__ if not name.isupper()} == set(names.split())
+    assert all(hasattr(mini_engine, name) for name in mini_engine.__all__)
+
+
+# ---------------------------------------------------------------- vectors and bodies
+
+
+def test_cross_is_positive_clockwise_on_the_screen():
+    right, down = Vector2(2, 0), Vector2(0, 3)
+    assert (cross(right, down), cross(down, right), cross(right, right)) == (6, -6, 0)
+
+
+def test_a_positive_spin_carries_the_right_side_down():
+    assert tuple(spin_velocity(2, Vector2(3, 0))) == (0, 6)
+    assert tuple(spin_velocity(2, Vector2(3, 4))) == (-8, 6)
+
+
+def test_a_disc_has_half_the_inertia_of_its_mass_at_the_rim():
+    body = Body(Circle(10), (0, 0), mass=4)
+    assert (body.inv_mass, body.inv_inertia) == (1 / 4, 1 / 200)
+    assert not body.is_static
+
+
+@pytest.mark.parametrize("shape", [Circle(10), Box((10, 20))])
+def test_a_body_without_mass_is_static_in_both_ways(shape):
+    body = Body(shape, (0, 0))
+    assert (body.inv_mass, body.inv_inertia) == (0, 0)
+    assert body.is_static
+
+
+def test_a_body_starts_at_rest_with_the_usual_surface():
+    body = Body(Circle(10), (3, 4), mass=1)
+    assert (*body.pos, *body.vel, body.angle, body.omega) == (3, 4, 0, 0, 0, 0)
+    assert (body.restitution, body.friction) == (0.3, 0.6)
+
+
+def test_a_body_keeps_its_own_copy_of_its_position():
+    place = Vector2(3, 4)
+    body = Body(Circle(10), place, mass=1)
+    body.pos.x = 5
+    assert place.x == 3
+
+
+# ---------------------------------------------------------------- contacts
+
+
+@pytest.mark.parametrize(
+    ("b", "expected"),
+    [
+        ((25, 0), (1, 0, 5, 10, 0)),
+        ((-25, 0), (-1, 0, 5, -10, 0)),
+        ((0, 25), (0, 1, 5, 0, 10)),
+        ((15, -20), (0.6, -0.8, 5, 6, -8)),
+        ((0, 0), (0, 1, 30, 0, 10)),
+    ],
+    ids=["right", "left", "below", "askew", "same centre"],
+)
+def test_two_circles_touch_along_the_line_of_their_centres(b, expected):
+    one, other = disc(radius=10), disc(*b, radius=20)
+    contact = circle_circle(one, other)
+    assert as_numbers(contact) == pytest.approx(expected)
+    assert (contact.a, contact.b) == (one, other)
+
+
+@pytest.mark.parametrize("distance", [30, 31])
+def test_circles_that_only_touch_or_are_apart_have_no_contact(distance):
+    assert circle_circle(disc(radius=10), disc(distance, radius=20)) is None
+
+
+@pytest.mark.parametrize(
+    ("centre", "expected"),
+    [
+        ((100, 74), (0, 1, 4, 100, 80)),
+        ((103, 126), (0, -1, 4, 103, 120)),
+        ((64, 100), (1, 0, 4, 70, 100)),
+        ((136, 103), (-1, 0, 4, 130, 103)),
+        ((64, 72), (0.6, 0.8, 0, 70, 80)),
+        ((133, 124), (-0.6, -0.8, 5, 130, 120)),
+    ],
+    ids=["above", "below", "left", "right", "just off a corner", "corner"],
+)
+def test_a_circle_outside_a_box_touches_its_closest_point(centre, expected):
+    radius = 10 + 1e-9  # just off the corner counts as overlap
+    contact = circle_box(disc(*centre, radius=radius), Body(Box((30, 20)), (100, 100)))
+    assert as_numbers(contact) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("centre", "expected"),
+    [
+        ((100, 83), (0, 1, 13, 100, 80)),
+        ((100, 118), (0, -1, 12, 100, 120)),
+        ((72, 101), (1, 0, 12, 70, 101)),
+        ((126, 99), (-1, 0, 14, 130, 99)),
+        ((100, 80), (0, 1, 10, 100, 80)),
+        ((130, 100), (-1, 0, 10, 130, 100)),
+    ],
+    ids=["top", "bottom", "left", "right", "on the top face", "on the right face"],
+)
+def test_a_circle_inside_a_box_leaves_through_the_nearest_face(centre, expected):
+    contact = circle_box(disc(*centre), Body(Box((30, 20)), (100, 100)))
+    assert as_numbers(contact) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("centre", [(100, 70), (140, 100), (64, 72), (100, 0), (62, 72)])
+def test_a_circle_that_only_touches_a_box_or_is_apart_has_no_contact(centre):
+    assert circle_box(disc(*centre), Body(Box((30, 20)), (100, 100))) is None
+
+
+def test_collide_keeps_the_circle_as_a():
+    circle, box = disc(0, -8), Body(Box((30, 20)), (0, 20))
+    for contact in (collide(circle, box), collide(box, circle)):
+        assert (contact.a, contact.b) == (circle, box)
+        assert as_numbers(contact) == (0, 1, 2, 0, 0)
+
+
+def test_collide_knows_every_pair():
+    box = Body(Box((30, 20)), (0, 0))
+    assert collide(box, Body(Box((30, 20)), (5, 5))) is None
+    assert as_numbers(collide(disc(), disc(15))) == (1, 0, 5, 10, 0)
+
+
+def test_a_new_contact_has_done_nothing_yet():
+    contact = collide(disc(), disc(15))
+    assert (contact.jn, contact.jt) == (0, 0)
+
+
+# ---------------------------------------------------------------- impulses
+
+
+def test_an_impulse_pushes_b_along_and_a_back_and_turns_both():
+    a, b = disc(mass=2), disc(mass=4)
+    apply_impulse(a, b, Vector2(8, 4), ra=Vector2(0, 10), rb=Vector2(5, 0))
+    assert (*a.vel, *b.vel) == (-4, -2, 2, 1)
+    assert a.omega == pytest.approx(80 / 100)  # (0, 10) x (8, 4) = -80, inertia 100
+    assert b.omega == pytest.approx(20 / 200)  # (5, 0) x (8, 4) = 20, inertia 200
+
+
+def test_an_impulse_leaves_a_static_body_alone():
+    wall, b = Body(Box((10, 10)), (0, 0)), disc()
+    apply_impulse(wall, b, Vector2(8, 4), ra=Vector2(0, 10), rb=Vector2(5, 0))
+    assert (*wall.vel, wall.omega) == (0, 0, 0)
+    assert tuple(b.vel) == (4, 2)
+
+
+@pytest.mark.parametrize(
+    ("ra", "rb", "expected"),
+    [
+        ((0, 7), (0, -3), 1 / 2 + 1 / 4),
+        ((10, 0), (0, 0), 1 / 2 + 1 / 4 + 10**2 / 100),
+        ((0, 0), (-10, 5), 1 / 2 + 1 / 4 + 10**2 / 200),
+        ((6, 8), (3, 1), 1 / 2 + 1 / 4 + 6**2 / 100 + 3**2 / 200),
+    ],
+    ids=["through both centres", "turns a", "turns b", "turns both"],
+)
+def test_effective_mass_adds_what_each_body_gives_way(ra, rb, expected):
+    a, b = disc(mass=2), disc(mass=4)
+    assert effective_mass(a, b, Vector2(ra), Vector2(rb), Vector2(0, 1)) == pytest.approx(expected)
+
+
+def test_effective_mass_is_the_change_of_speed_per_unit_of_impulse():
+    a, b, ra, rb = disc(mass=2), disc(mass=4), Vector2(6, 8), Vector2(-3, 1)
+    axis = Vector2(0.6, 0.8)
+    apply_impulse(a, b, axis, ra, rb)
+    gained = b.vel + spin_velocity(b.omega, rb) - a.vel - spin_velocity(a.omega, ra)
+    assert gained.dot(axis) == pytest.approx(effective_mass(a, b, ra, rb, axis))
+
+
+# ---------------------------------------------------------------- the contact solver
+
+
+def ball_on_the_floor(vel, jn=0.0, friction=0.6):
+    """A world with a contact of a static body (A) and a ball of mass 2 above it (B)."""
+    floor = Body(Circle(10), (0, 10), friction=0.9)
+    one = disc(0, -10, mass=2, vel=vel, friction=friction)
+    contact = Contact(floor, one, Vector2(0, -1), 0.0, Vector2(0, 0))
+    contact.jn = jn
+    contact.target = 0.0
+    return still_world(), contact, one
+
+
+def test_a_contact_stops_a_ball_that_closes_in():
+    world, contact, one = ball_on_the_floor((0, 6))
+    world.solve_contact(contact, STEP)
+    assert (one.vel.y, contact.jn) == (0, 12)
+
+
+def test_a_contact_never_holds_a_ball_back():
+    world, contact, one = ball_on_the_floor((0, -6))
+    world.solve_contact(contact, STEP)
+    assert (one.vel.y, contact.jn) == (-6, 0)
+
+
+@pytest.mark.parametrize(("speed", "left", "jn"), [(-1, 0, 3), (-10, -7.5, 0)])
+def test_a_later_pass_takes_back_what_an_earlier_one_pushed_too_much(speed, left, jn):
+    world, contact, one = ball_on_the_floor((0, speed), jn=5)
+    world.solve_contact(contact, STEP)
+    assert (one.vel.y, contact.jn) == pytest.approx((left, jn))
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_friction_ends_at_the_root_of_both_coefficients_times_the_normal_impulse(direction):
+    world, contact, one = ball_on_the_floor((direction * 1000, 0), jn=10, friction=0.4)
+    limit = math.sqrt(0.9 * 0.4) * 10
+    for _ in range(3):
+        world.solve_contact(contact, STEP)
+        assert abs(contact.jt) == pytest.approx(limit)
+        assert one.vel.x == pytest.approx(direction * (1000 - limit / 2))
+        assert one.omega == pytest.approx(direction * limit * 10 / 100)
+
+
+def test_friction_below_its_limit_stops_the_slip_at_once():
+    world, contact, one = ball_on_the_floor((3, 0), jn=10)
+    world.solve_contact(contact, STEP)
+    assert one.vel.x == pytest.approx(2)  # two thirds, as for any disc that is made to roll
+    assert one.omega * 10 == pytest.approx(one.vel.x)
+    assert abs(contact.jt) == pytest.approx(2)
+
+
+def test_there_is_no_friction_on_ice():
+    world, contact, one = ball_on_the_floor((1000, 0), jn=10, friction=0)
+    world.solve_contact(contact, STEP)
+    assert (one.vel.x, one.omega, contact.jt) == (1000, 0, 0)
+
+
+# ---------------------------------------------------------------- the rod
+
+
+def rod_of_100(distance):
+    """A rod of 100 px between two moving bodies that are now so far apart."""
+    joint = DistanceJoint(disc(0, 0, mass=1), disc(60, 80, mass=3))
+    joint.b.pos = Vector2(0.6, 0.8) * distance
+    return joint
+
+
+def test_a_rod_is_as_long_as_its_ends_were_apart():
+    assert DistanceJoint(disc(0, 0), disc(60, 80)).length == 100
+
+
+@pytest.mark.parametrize(("distance", "bias"), [(110, -200), (90, 200), (100, 0)])
+def test_a_rod_is_measured_at_the_start_of_a_step(distance, bias):
+    joint = rod_of_100(distance)
+    joint.prepare(0.01)
+    assert (*joint.axis, joint.bias) == pytest.approx((0.6, 0.8, bias))
+    assert joint.k == pytest.approx(1 + 1 / 3)
+
+
+@pytest.mark.parametrize("distance", [110, 90], ids=["pulls", "pushes"])
+def test_a_rod_brings_the_speed_along_it_to_the_bias(distance):
+    joint = rod_of_100(distance)
+    joint.a.vel, joint.b.vel = Vector2(7, -3), Vector2(-2, 5)
+    momentum = joint.a.vel + joint.b.vel * 3
+    joint.prepare(0.01)
+    joint.solve()
+    across = Vector2(-joint.axis.y, joint.axis.x)
+    assert (joint.b.vel - joint.a.vel).dot(joint.axis) == pytest.approx(joint.bias)
+    assert (joint.b.vel - joint.a.vel).dot(across) == pytest.approx(Vector2(-9, 8).dot(across))
+    assert tuple(joint.a.vel + joint.b.vel * 3) == pytest.approx(tuple(momentum))
+    assert (joint.a.omega, joint.b.omega) == (0, 0)
+
+
+def test_a_rod_that_nothing_can_move_does_nothing():
+    joint = rod_of_100(110)
+    joint.prepare(0.01)
+    joint.k = 0.0
+    joint.solve()
+    assert (*joint.a.vel, *joint.b.vel) == (0, 0, 0, 0)
+
+
+# ---------------------------------------------------------------- the world and its step
+
+
+def test_a_world_has_the_lessons_gravity_and_dampings():
+    world = World()
+    assert (*world.gravity, world.linear_damping, world.angular_damping) == (0, 980, 0.05, 0.3)
+    assert (world.bodies, world.joints, world.contacts) == ([], [], [])
+
+
+def test_add_gives_the_body_back():
+    world, body = World(), disc()
+    assert world.add(body) is body
+    assert world.bodies == [body]
+
+
+def test_gravity_comes_before_damping():
+    world = still_world(gravity=(30, 1000), linear_damping=2)
+    body = world.add(disc())
+    world.step(0.1)
+    assert tuple(body.vel) == pytest.approx((3 * math.exp(-0.2), 100 * math.exp(-0.2)))
+
+
+@pytest.mark.parametrize("dt", [1 / 30, 1 / 120, 1 / 1000])
+@pytest.mark.parametrize(("linear", "angular"), [(0.05, 0.3), (2, 0), (0, 5), (0.603, 1.2)])
+def test_damping_takes_its_share_per_second_whatever_the_step(linear, angular, dt):
+    world = still_world(linear_damping=linear, angular_damping=angular)
+    body = world.add(disc(vel=(100, -50), omega=10))
+    for _ in range(round(1 / dt)):
+        world.step(dt)
+    assert tuple(body.vel) == pytest.approx((100 * math.exp(-linear), -50 * math.exp(-linear)))
+    assert body.omega == pytest.approx(10 * math.exp(-angular))
+
+
+def test_contacts_are_found_before_bodies_move():
+    world = still_world()
+    world.add(Body(Box((50, 10)), (0, 10)))
+    one = world.add(disc(0, -11, vel=(0, 600)))
+    world.step(STEP)
+    assert world.contacts == [] == world.joints
+    assert one.pos.y == pytest.approx(-6)
+    world.step(STEP)
+    assert len(world.contacts) == 1
+
+
+def test_bodies_move_with_the_velocity_of_this_step():
+    world = still_world(gravity=(0, GRAVITY))
+    one = world.add(disc(omega=3))
+    world.step(STEP)
+    assert one.vel.y == pytest.approx(GRAVITY * STEP)
+    assert one.pos.y == pytest.approx(GRAVITY * STEP**2)
+    assert one.angle == pytest.approx(3 * STEP)
+
+
+def test_bodies_move_after_the_contacts_are_solved():
+    world = still_world()
+    world.add(Body(Box((50, 10)), (0, 10), restitution=0.5))
+    one = world.add(disc(0, -9.8, vel=(0, 120), restitution=0.5))
+    world.step(STEP)
+    assert (one.vel.y, one.pos.y) == pytest.approx((-60, -9.8 - 60 * STEP))
+
+
+def test_a_ball_at_rest_stays_exactly_where_it_is():
+    world = still_world(gravity=(0, GRAVITY))
+    world.add(Body(Box((50, 10)), (0, 10)))
+    one = world.add(disc(0, -9.75))
+    for _ in range(120):
+        world.step(STEP)
+    assert (*one.pos, *one.vel, one.omega) == (0, -9.75, 0, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("closing", "restitutions", "depth", "target"),
+    [
+        (100, (0.5, 0.5), 0.2, 50),
+        (100, (0.5, 0.2), 0.2, 20),
+        (100, (0.2, 0.5), 0.2, 20),
+        (30, (0.5, 0.5), 0.2, 0),
+        (31, (0.5, 0.5), 0.2, 15.5),
+        (0, (0.5, 0.5), 0.5, 0),
+        (0, (0.5, 0.5), 1.5, BETA / STEP),
+        (100, (0.1, 0.1), 1.5, BETA / STEP),
+        (100, (0.5, 0.5), 1.5, 50),
+        (-40, (0.5, 0.5), 0.2, 0),
+    ],
+    ids=[
+        "bounce",
+        "smaller restitution of b",
+        "smaller restitution of a",
+        "resting speed",
+        "just above it",
+        "the slop stays",
+        "push-out",
+        "push-out above bounce",
+        "bounce above push-out",
+        "leaving",
+    ],
+)
+def test_the_target_is_the_larger_of_bounce_and_push_out(closing, restitutions, depth, target):
+    world = still_world()
+    world.add(Body(Circle(10), (0, 0), restitution=restitutions[0]))
+    one = disc(0, depth - 20, vel=(0, closing), restitution=restitutions[1])
+    world.add(one)
+    world.step(STEP)
+    assert world.contacts[0].target == pytest.approx(target)
+    assert one.vel.y == pytest.approx(min(-target, closing))
+
+
+def test_the_solver_passes_over_contacts_then_joints_so_many_times(monkeypatch):
+    world, calls = still_world(), []
+    one, other = world.add(disc(0, 0)), world.add(disc(15, 0))
+    joint = DistanceJoint(one, other)
+    world.joints.append(joint)
+    monkeypatch.setattr(world, "solve_contact", lambda contact, dt: calls.append("contact"))
+    monkeypatch.setattr(joint, "prepare", lambda dt: calls.append("prepare"))
+    monkeypatch.setattr(joint, "solve", lambda: calls.append("joint"))
+    world.step(STEP)
+    assert calls == ["prepare", *(["contact", "joint"] * ITERATIONS)]
+
+
+def test_static_bodies_never_move_and_never_meet():
+    world = World()
+    wall = world.add(Body(Box((50, 10)), (0, 0)))
+    peg = world.add(Body(Circle(10), (0, 0)))
+    world.step(STEP)
+    assert world.contacts == []
+    assert (*wall.pos, *wall.vel, *peg.pos, *peg.vel) == (0,) * 8
+
+
+def test_find_contacts_looks_at_every_pair_of_moving_bodies():
+    world = still_world()
+    one, two, three = (world.add(disc(x)) for x in (0, 15, 30))
+    floor = world.add(Body(Box((50, 10)), (0, 19)))
+    found = {(c.a, c.b) for c in world.find_contacts()}
+    assert found == {(one, two), (two, three), (one, floor), (two, floor), (three, floor)}
+
+
+# ---------------------------------------------------------------- known motions
+
+
+@pytest.mark.parametrize("radius", [10, 13, 16, 22])
+def test_a_ball_slid_at_300_rolls_at_200(radius):
+    trail = slide(radius)
+    assert trail[119][0] == pytest.approx(200, rel=0.005)
+    # It rests one step's fall deep in the floor, and its arm is shorter by that much.
+    assert slip(trail, radius) <= 1.001 * GRAVITY * STEP**2 / radius
+
+
+def test_a_sliding_ball_slows_down_by_friction_and_spins_up():
+    speed, omega = slide(10, seconds=0.1)[-1]
+    assert speed == pytest.approx(300 - 0.6 * GRAVITY * 0.1, rel=0.01)
+    assert omega == pytest.approx(2 * 0.6 * GRAVITY * 0.1 / 10, rel=0.01)
+
+
+def test_a_ball_that_rolls_right_turns_clockwise():
+    speed, omega = slide(16)[-1]
+    assert speed > 0 and omega > 0
+
+
+def state(world):
+    """Every number of every body, to the last bit."""
+    return [
+        value.hex()
+        for body in world.bodies
+        for value in (*body.pos, *body.vel, body.angle, body.omega)
+    ]
+
+
+def test_the_same_run_twice_gives_the_same_bits():
+    worlds = [make_world(random.Random(12)) for _ in range(2)]
+    for _ in range(3 * 120):
+        for world in worlds:
+            world.step(STEP)
+    assert state(worlds[0]) == state(worlds[1])
+    worlds[0].bodies[-1].pos.x += 1e-12
+    assert state(worlds[0]) != state(worlds[1])
+
+
+@pytest.fixture(scope="module")
+def minute():
+    """One minute of the lab scene: the world, and the largest error of the rod, in px."""
+    world, worst = make_world(random.Random(12)), 0.0
+    rod = world.joints[0]
+    for _ in range(60 * 120):
+        world.step(STEP)
+        worst = max(worst, abs(rod.a.pos.distance_to(rod.b.pos) - rod.length))
+    return world, worst
+
+
+def test_the_rod_keeps_its_length_for_a_minute(minute):
+    assert minute[1] < 1
+
+
+def test_after_a_minute_every_ball_lies_still_on_something(minute):
+    _, *balls = minute[0].moving_bodies()
+    touching = {body for c in minute[0].contacts for body in (c.a, c.b)}
+    for one in balls:
+        assert one in touching
+        assert one.vel.length() < 1
+        assert one.pos.y + one.shape.radius < 560 + mini_engine.SLOP
+        assert 0 < one.pos.x < 900
+
+
+# ---------------------------------------------------------------- the scene
+
+
+def described(body):
+    size = body.shape.radius if isinstance(body.shape, Circle) else tuple(body.shape.half)
+    return size, tuple(body.pos), body.restitution, body.friction
+
+
+def test_the_scene_has_the_lessons_static_bodies_all_in_grey():
+    expected = [
+        ((450, 20), (450, 580)),
+        ((20, 300), (-20, 300)),
+        ((20, 300), (920, 300)),
+        ((150, 10), (200, 260)),
+        *((8, (x, 400)) for x in (375, 435, 495, 555, 615)),
+        (6, (700, 90)),
+    ]
+    static = [body for body in make_world(random.Random(12)).bodies if body.is_static]
+    assert [described(body) for body in static] == [(*each, 0.3, 0.6) for each in expected]
+    assert len({body.color for body in static}) == 1
+    assert max(static[0].color) - min(static[0].color) <= 20
+
+
+def test_the_scene_has_the_lessons_pendulum():
+    world = make_world(random.Random(12))
+    (rod,) = world.joints
+    assert rod.length == 140
+    assert described(rod.a) == (6, (700, 90), 0.3, 0.6)
+    assert described(rod.b) == (24, (840, 90), 0.2, 0.6)
+    assert rod.b.inv_mass == 1 / 6
+    assert rod.a in world.bodies and rod.b in world.bodies
+
+
+def test_the_scene_has_eight_balls():
+    _, *balls = make_world(random.Random(12)).moving_bodies()
+    places = [(120, 60), (190, 100), (260, 140), (330, 60)]
+    places += [(400, 100), (470, 140), (540, 60), (610, 100)]
+    assert [tuple(one.pos) for one in balls] == places
+
+
+def test_the_scene_depends_on_nothing_but_the_seed():
+    def sizes(seed):
+        return [described(body) for body in make_world(random.Random(seed)).bodies]
+
+    assert sizes(12) == sizes(12) != sizes(13)
+
+
+class Draws(random.Random):
+    """A random.Random that keeps what it was asked for."""
+
+    def __init__(self):
+        super().__init__(12)
+        self.asked = []
+
+    def randint(self, low, high):
+        self.asked.append((low, high))
+        return super().randint(low, high)
+
+
+def test_a_ball_draws_its_radius_first_and_then_its_colour():
+    rng = Draws()
+    one = ball(rng, (5, 6))
+    radius = random.Random(12).randint(10, 22)
+    assert described(one) == (radius, (5, 6), 0.4, 0.6)
+    assert 1 / one.inv_mass == pytest.approx(radius**2 / 100)
+    assert rng.asked[0] == (10, 22) and len(rng.asked) == 4
+    assert all(0 <= channel <= 255 for channel in one.color)
+
+
+# ---------------------------------------------------------------- the frame
+
+
+class Counter:
+    """Stands in for a world: counts its steps."""
+
+    def __init__(self):
+        self.steps = []
+
+    def step(self, dt):
+        self.steps.append(dt)
+
+
+@pytest.mark.parametrize("rate", [24, 30, 60, 75, 144, 240])
+def test_a_second_is_120_steps_whatever_the_frame_rate(rate):
+    world, accumulator, total = Counter(), 0.0, 0
+    for _ in range(10 * rate):
+        accumulator, steps = advance(world, accumulator, 1 / rate)
+        total += steps
+        assert 0 <= accumulator < STEP
+    assert total == len(world.steps)
+    assert 1199 <= total <= 1200  # the last one may be due by a rounding error
+    assert set(world.steps) == {STEP}
+
+
+def test_what_is_left_of_a_frame_waits_for_the_next():
+    world = Counter()
+    accumulator, steps = advance(world, 0.0, 0.6 * STEP)
+    assert (accumulator, steps) == (pytest.approx(0.6 * STEP), 0)
+    accumulator, steps = advance(world, accumulator, 0.6 * STEP)
+    assert (accumulator, steps) == (pytest.approx(0.2 * STEP), 1)
+
+
+@pytest.mark.parametrize("seconds", [MAX_STEPS * STEP, 0.1, 5, 3600])
+def test_a_slow_frame_adds_eight_steps_at_most(seconds):
+    accumulator, steps = advance(Counter(), 0.0, seconds)
+    assert (accumulator, steps) == (pytest.approx(0, abs=1e-12), MAX_STEPS)
+
+
+# ---------------------------------------------------------------- the program
+
+
+def test_the_program_runs_without_a_screen_and_prints_its_two_lines():
+    printed = run_in(SOLUTION, *MINI, LAB_FRAMES="3")
+    assert re.fullmatch(r"Fixed steps: \d+\nPendulum length error: \d\.\d\d px\n", printed)
+
+
+def click(frame, x, y, button=1):
+    return [frame, "MOUSEBUTTONDOWN", {"pos": [x, y], "button": button}]
+
+
+def test_the_program_counts_its_steps_and_measures_its_rod():
+    played = probe(SOLUTION, "play", LOOP, [17] * 60)
+    steps, error = played["printed"]
+    assert steps == "Fixed steps: 122"  # 1.02 s
+    assert 0 <= float(re.fullmatch(r"Pendulum length error: (\d\.\d\d) px", error)[1]) < 1
+    moving = probe(SOLUTION, "lab_scene", 122 / 120)[0]
+    assert played["frames"][-1]["moving"] == moving
+
+
+def test_the_window_tells_how_many_bodies_move_and_touch():
+    played = probe(SOLUTION, "play", LOOP, [50] * 40)
+    world = make_world(random.Random(12))
+    for _ in range(240):
+        world.step(STEP)
+    assert played["printed"][0] == "Fixed steps: 240"
+    numbers = re.findall(r"\d+", played["frames"][-1]["text"][0])
+    assert list(map(int, numbers)) == [9, len(world.contacts)]
+    assert world.contacts
+
+
+def test_a_click_drops_a_ball_there_and_other_buttons_do_not():
+    events = [click(1, 300, 200), click(2, 50, 60, button=3)]
+    frames = probe(SOLUTION, "play", LOOP, [0] * 3, events)["frames"]
+    assert [len(frame["moving"]) for frame in frames] == [9, 10, 10]
+    assert frames[-1]["moving"][-1] == [300, 200]
+
+
+def test_clicks_fill_the_window_up_to_max_balls():
+    events = [click(0, 20 * i + 10, 30) for i in range(MAX_BALLS)]
+    frames = probe(SOLUTION, "play", LOOP, [0], events)["frames"]
+    assert len(frames[0]["moving"]) == MAX_BALLS
+
+
+def test_r_resets_the_scene():
+    events = [click(1, 300, 200), [4, "KEYDOWN", {"key": pygame.K_r}]]
+    frames = probe(SOLUTION, "play", LOOP, [0, 50, 50, 50, 0], events)["frames"]
+    assert len(frames[3]["moving"]) == 10
+    assert frames[3]["moving"][:9] != frames[0]["moving"]
+    assert frames[4]["moving"] == frames[0]["moving"]
+
+
+def test_closing_the_window_ends_the_program():
+    played = probe(SOLUTION, "play", LOOP, [50] * 9, [[2, "QUIT", {}]])
+    assert len(played["frames"]) == 3
+    assert len(played["printed"]) == 2
+
+
+def test_the_spoke_turns_with_the_ball():
+    one = disc(30, 30, radius=20)
+    right, below = [], []
+    for one.angle in (0, math.pi / 2):
+        screen = pygame.Surface((60, 60))
+        draw_body(screen, one)
+        right.append(screen.get_at((40, 30))[:3])
+        below.append(screen.get_at((30, 40))[:3])
+    assert right == [BACKGROUND, one.color]
+    assert below == [one.color, BACKGROUND]
+
+
+def test_static_circles_have_no_spoke():
+    peg = Body(Circle(20), (30, 30))
+    screen = pygame.Surface((60, 60))
+    draw_body(screen, peg)
+    assert screen.get_at((40, 30))[:3] == peg.color
+
+
+def test_balls_rest_on_the_ledge_and_on_the_floor():
+    moving, touched = lab_scene(5)
+    assert {0, 3} <= set(touched)
+    assert all(y < 560 for _, y in moving)

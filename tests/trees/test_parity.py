@@ -1,0 +1,180 @@
+"""Starter and solution are one tree but for the insides of the TODO regions, and stay so."""
+
+import ast
+from pathlib import Path
+
+import pytest
+from programs import SOLUTION, STARTER, TODOS, copy_of, edit, regions
+
+from grader.maintain import sync as sync_module
+from grader.maintain.sync import OutOfStep, given_files, sync
+from grader.todo_regions import RegionError, python_files, regions_in, replaced
+
+TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])
+
+
+def emptied(path: Path) -> bytes:
+    """A file with nothing inside its regions."""
+    content = path.read_bytes()
+    if path.suffix != ".py":
+        return content
+    text = content.decode()
+    return replaced(text, {region.id: () for region in regions_in(text)}).encode()
+
+
+# ---------------------------------------------------------------- as they are
+
+
+def test_sync_finds_nothing_to_do():
+    assert sync(SOLUTION, STARTER, write=False) == []
+
+
+def test_both_trees_have_the_same_files():
+    assert given_files(STARTER) == given_files(SOLUTION)
+    assert "mini_engine/world.py" in given_files(STARTER)
+
+
+@pytest.mark.parametrize("name", given_files(SOLUTION))
+def test_a_file_is_the_same_outside_the_regions(name):
+    assert emptied(STARTER / name) == emptied(SOLUTION / name)
+
+
+@TREES
+def test_a_tree_has_each_todo_once(tree):
+    found = [
+        region.id
+        for path in python_files(tree)
+        for region in regions_in(path.read_text(encoding="utf-8"))
+    ]
+    assert sorted(found) == TODOS
+
+
+@pytest.mark.parametrize("todo", TODOS)
+def test_a_todo_has_the_same_task_in_both_trees_and_is_done_in_one(todo):
+    (name, stub), (right_name, right) = regions(STARTER)[todo], regions(SOLUTION)[todo]
+    assert (name, stub.task) == (right_name, right.task)
+    assert stub.shape != right.shape
+
+
+@TREES
+def test_regions_hold_whole_statements(tree):
+    for path in python_files(tree):
+        text = path.read_text(encoding="utf-8")
+        statements = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.stmt)]
+        for region in regions_in(text):
+            inside = range(region.start + 2, region.stop + 1)  # line numbers count from 1
+            for node in statements:
+                if node.lineno in inside or not hasattr(node, "body"):
+                    assert (node.lineno in inside) == (node.end_lineno in inside), region.task
+
+
+# ---------------------------------------------------------------- when they drift
+
+
+@pytest.fixture
+def copies(tmp_path, monkeypatch):
+    """Copies of solution and starter in step, with a copy of the stubs that the checks know."""
+    monkeypatch.setattr(sync_module, "CHECKS", tmp_path)
+    trees = copy_of(SOLUTION, tmp_path), copy_of(STARTER, tmp_path)
+    sync(*trees, write=True)
+    return trees
+
+
+def contents(tree: Path) -> dict[str, bytes]:
+    return {name: (tree / name).read_bytes() for name in given_files(tree)}
+
+
+def change_a_given_line(tree: Path) -> str:
+    edit(tree / "mini_engine/world.py", "def step(self, dt):", "def step(self, seconds):")
+    return "mini_engine/world.py differs from the solution outside its TODO regions"
+
+
+def change_a_task(tree: Path) -> str:
+    edit(tree / "mini_engine/joints.py", "# TODO 3: hold", "# TODO 3: keep")
+    return "mini_engine/joints.py differs from the solution outside its TODO regions"
+
+
+def change_a_file_without_regions(tree: Path) -> str:
+    (tree / "README.md").write_text("Nothing to do.", encoding="utf-8")
+    return "README.md differs from the solution outside its TODO regions"
+
+
+def lose_a_file(tree: Path) -> str:
+    (tree / "mini_engine/shapes.py").unlink()
+    return "mini_engine/shapes.py differs from the solution outside its TODO regions"
+
+
+def leave_a_file_behind(tree: Path) -> str:
+    (tree / "mini_engine/notes.txt").touch()
+    return "mini_engine/notes.txt is in the starter and not in the solution"
+
+
+@pytest.mark.parametrize(
+    "drift",
+    [
+        change_a_given_line,
+        change_a_task,
+        change_a_file_without_regions,
+        lose_a_file,
+        leave_a_file_behind,
+    ],
+)
+def test_drift_is_noticed_and_repaired(drift, copies):
+    solution, starter = copies
+    before = contents(starter)
+    said = drift(starter)
+    drifted = contents(starter)
+    assert sync(solution, starter, write=False) == [said]
+    assert contents(starter) == drifted != before
+    assert sync(solution, starter, write=True) == [said]
+    assert contents(starter) == before
+    assert sync(solution, starter, write=False) == []
+
+
+def test_a_change_to_given_code_is_carried_over_and_the_stubs_stay(copies):
+    solution, starter = copies
+    change_a_given_line(solution)
+    stubs = {todo: region.lines for todo, (_, region) in regions(starter).items()}
+    sync(solution, starter, write=True)
+    assert "def step(self, seconds):" in (starter / "mini_engine/world.py").read_text("utf-8")
+    assert {todo: region.lines for todo, (_, region) in regions(starter).items()} == stubs
+
+
+def test_a_change_to_a_solution_inside_a_region_is_no_drift(copies):
+    edit(copies[0] / "mini_engine/world.py", "keep_vel = math.exp(", "keep_vel = 1 * math.exp(")
+    assert sync(*copies, write=False) == []
+
+
+def test_a_changed_stub_is_made_known_to_the_checks(copies):
+    edit(copies[1] / "mini_engine/world.py", "keep_vel = 0.99", "keep_vel = 0.98")
+    said = ["the stubs that the checks know are not the starter's"]
+    assert sync(*copies, write=False) == said
+    assert sync(*copies, write=True) == said
+    assert sync(*copies, write=False) == []
+
+
+def test_a_todo_without_a_stub_stops_sync(copies):
+    world = copies[0] / "mini_engine/world.py"
+    edit(world, "# TODO 5: ", "# TODO 9: ")
+    edit(world, "# END TODO 5", "# END TODO 9")
+    with pytest.raises(OutOfStep, match="no stub for TODO 9"):
+        sync(*copies, write=True)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("        # END TODO 5\n", ""),
+        ("        # TODO 5: damp by a rate per second\n", ""),
+        ("        # END TODO 5\n", "        # TODO 6: inside\n        # END TODO 5\n"),
+        ("        # END TODO 5\n", "        # END TODO 6\n"),
+    ],
+    ids=["never ended", "never begun", "nested", "ended by another"],
+)
+@pytest.mark.parametrize("side", [0, 1], ids=["solution", "starter"])
+def test_markers_that_do_not_pair_up_stop_sync(side, old, new, copies):
+    edit(copies[side] / "mini_engine/world.py", old, new)
+    before = contents(copies[1])
+    with pytest.raises(RegionError):
+        sync(*copies, write=True)
+    assert contents(copies[1]) == before
