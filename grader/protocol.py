@@ -376,8 +376,9 @@ class Channel:
             raise ProtocolError(f"a message of {length} bytes is longer than {MAX_MESSAGE}")
         return self._read(length, deadline)
 
-    def has_unread(self) -> bool:
-        return bool(select.select([self.sock], [], [], 0)[0])
+    def wait(self, seconds: float) -> bool:
+        """Whether something is there to be read, at the latest after so many seconds."""
+        return bool(select.select([self.sock], [], [], seconds)[0])
 
     def close(self) -> None:
         self.sock.close()

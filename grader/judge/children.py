@@ -29,6 +29,7 @@ from grader.protocol import (
 
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
+ASLEEP_SECONDS = 8  # a child that sleeps for so long without an answer waits for nothing
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
@@ -64,15 +65,15 @@ class Child:
         if self.over:
             raise ChildEnded(self.over)
         try:
-            if self.channel.has_unread():
+            if self.channel.wait(0):
                 raise ProtocolError("an answer came before its question")
             self.asked += 1
             self.channel.send(Asked(self.asked, request))
-            answered = answer_decoder.decode(self.channel.receive(self.wall_seconds))
+            answered = answer_decoder.decode(self._receive())
             if answered.number != self.asked:
                 raise ProtocolError("an answer to another question")
-        except ChannelTimeout:
-            self._give_up("it did not answer in time; it may be waiting for something", gone=False)
+        except ChannelTimeout as error:
+            self._give_up(str(error) or "it did not answer in time", gone=False)
         except ChannelClosed:
             self._give_up("", gone=True)
         except (ProtocolError, msgspec.DecodeError) as error:
@@ -81,6 +82,19 @@ class Child:
             return answered
         raise ChildEnded(self.over)
 
+    def _receive(self) -> bytes:
+        """The answer; a child that sleeps is not waited for as long as one that works."""
+        asleep, cpu = 0, -1.0
+        for _ in range(int(self.wall_seconds)):
+            if self.channel.wait(1.0):
+                return self.channel.receive(self.wall_seconds)
+            sleeping, used = activity(self.ready.pid)
+            asleep = asleep + 1 if sleeping and used == cpu else 0
+            cpu = used
+            if asleep >= ASLEEP_SECONDS:
+                raise ChannelTimeout("it sleeps, waiting for something that does not come")
+        raise ChannelTimeout
+
     def _give_up(self, why: str, gone: bool) -> None:
         status = self.worker.end(self, gone)
         self.over = why or status
@@ -88,6 +102,16 @@ class Child:
     def end(self) -> None:
         if not self.over:
             self._give_up("the child was ended", gone=False)
+
+
+def activity(pid: int) -> tuple[bool, float]:
+    """Whether the process sleeps, and the processor time it has used, s."""
+    try:
+        process = psutil.Process(pid)
+        times = process.cpu_times()
+        return process.status() == psutil.STATUS_SLEEPING, times.user + times.system
+    except psutil.Error:
+        return False, 0.0
 
 
 class Worker(Protocol):

@@ -96,6 +96,11 @@ class Lab:
     _played: bool = False  # whether the child has run a program
     _over: NotYet | Broke | None = None  # why nothing more can be asked
 
+    @property
+    def ended(self) -> bool:
+        """Whether the submission's process ended, or had to be ended, before the check did."""
+        return isinstance(self.failure, Broke) and self.failure.raised is None
+
     # ------------------------------------------------------------ saying what a check does
 
     def ran(self, text: str) -> None:

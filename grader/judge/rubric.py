@@ -17,7 +17,7 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     kind: Kind
     module: str = ""  # what it imports, where that is not the TODO's module
     needs: list[str] = []  # TODOs this check cannot do without
-    cpu_seconds: int = 10  # budget of one child; the reference needs about a twentieth
+    cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
 
 
 class Todo(Struct, frozen=True, forbid_unknown_fields=True):

@@ -24,7 +24,7 @@ from grader.protocol import (
 )
 
 MODULE = '''
-import os, select, socket, sys, time
+import os, select, socket, sys, threading, time
 def environment(): return ",".join(sorted(os.environ))
 def folder(): return os.getcwd() + " " + ",".join(os.listdir("."))
 def read(path): return open(path).read(20)
@@ -34,6 +34,7 @@ def leave(status): os._exit(status)
 def quit(): sys.exit(0)
 def forever():
     while True: pass
+def wait_for_nothing(): threading.Event().wait()
 def recurse(): return recurse()
 def swallow(): return len(bytearray(4 * 1024**3))
 def talk(n): print("x" * n); sys.stderr.write("y" * n); return n
@@ -139,6 +140,11 @@ def test_sys_exit_is_an_exception_like_any_other(ask: Asker):
 def test_an_endless_loop_uses_up_its_processor_time(ask: Asker):
     with pytest.raises(ChildEnded, match="2 s of processor time"):
         ask("forever")
+
+
+def test_waiting_for_nothing_is_noticed_before_the_last_resort(ask: Asker):
+    with pytest.raises(ChildEnded, match="it sleeps"):
+        ask("wait_for_nothing")
 
 
 def test_endless_recursion_is_an_exception(ask: Asker):
