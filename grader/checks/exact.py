@@ -142,6 +142,9 @@ def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
     return rod.pushed((rod.bias - rod.speed) / rod.k)
 
 
+DEPTH = 0.25  # px, the overlap of every contact that is rubbed
+
+
 class Rubbing(NamedTuple):
     """A contact just before a pass: how hard it is pressed, and how B moves as seen from A."""
 

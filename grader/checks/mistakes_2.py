@@ -88,7 +88,7 @@ def divided(a: Lever, b: Lever, axis: Pair) -> float:
 
 known(
     "inverse-inertia-is-squared",
-    "The inverse inertia is squared with the cross product; only that is.",
+    "The inverse inertia is squared too; only the cross product is.",
 )(with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2))
 
 known("first-arm-for-both", "Both spin terms use ra; the second body has an arm of its own, rb.")(

@@ -57,9 +57,9 @@ known(
     "adds-the-speed", "Speed and bias are added; the impulse is for the difference, bias - speed."
 )(lambda rod: rod.pushed((rod.bias + rod.speed) / rod.k))
 
-known("pushes-the-wrong-way", "The impulse goes the wrong way on both ends: it is +impulse on B.")(
-    lambda rod: rod.pushed(-right_impulse(rod))
-)
+known(
+    "pushes-the-wrong-way", "Both ends are pushed the wrong way: A gets -impulse, B gets +impulse."
+)(lambda rod: rod.pushed(-right_impulse(rod)))
 
 known(
     "multiplies-by-k", "The impulse is multiplied by k; k is speed per impulse, so divide by it."

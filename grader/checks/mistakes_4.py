@@ -4,13 +4,11 @@ import math
 from collections.abc import Callable, Sequence
 
 from grader.checks import exact
-from grader.checks.exact import Pair, Rubbing, clamped
+from grader.checks.exact import DEPTH, Pair, Rubbing, clamped
 from grader.judge.misconceptions import Undecided, mistake, truth
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
-
-DEPTH = 0.25  # px, of every contact that is rubbed
 
 truth("friction")(exact.friction_totals)
 
@@ -138,6 +136,6 @@ for sign in (1, -1):
     )(lambda total, wanted, limit: limit if abs(wanted) > limit else wanted)
     clamp(
         "clamp-is-turned-round",
-        "min and max are swapped: the total is -limit whatever happens.",
+        "min and max are swapped: the total is the same whatever the slip.",
         sign,
     )(lambda total, wanted, limit: -limit)

@@ -17,12 +17,12 @@ Frames = tuple[int, ...]  # ms
 Answer = tuple[list[int], list[float]]  # steps after each frame but the last, step sizes in s
 
 
-def fixed_step_mistake(name: str, meaning: str) -> Callable[[Model], Model]:
+def fixed_step_mistake(name: str, meaning: str, about: str = "frames") -> Callable[[Model], Model]:
     """Register a model for both programs."""
 
     def register(model: Model) -> Model:
         for todo in ("6", "7d"):
-            mistake(todo, name, meaning, about="frames")(model)
+            mistake(todo, name, meaning, about=about)(model)
         return model
 
     return register
@@ -254,8 +254,7 @@ def says_what_ran(ran: int) -> int:
     return ran
 
 
-@mistake(
-    "6",
+@fixed_step_mistake(
     "steps-are-not-counted",
     "The steps run, but they are not counted: steps must be the number of them.",
     about="said",

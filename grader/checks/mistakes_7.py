@@ -6,7 +6,7 @@ Those of 7d are the ones of TODO 6 and stand with them.
 import math
 
 from grader.checks import exact
-from grader.judge.lab import Pair
+from grader.judge.lab import STEP, Pair
 from grader.judge.misconceptions import mistake, truth
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
@@ -35,6 +35,18 @@ wrong_gravity(
     (0.0, 9.81),
     (0.0, -9.8),
     (0.0, -9.81),
+)
+wrong_gravity(
+    "gravity-of-one-step",
+    "That is the speed that one step adds, in px/s; pymunk multiplies by the step's length itself.",
+    (0.0, 980.0 * STEP),
+)
+wrong_gravity(
+    "gravity-of-another-scene",
+    "That is the gravity of pymunk's own examples; this scene has the mini engine's.",
+    (0.0, 900.0),
+    (0.0, 981.0),
+    (0.0, 1000.0),
 )
 wrong_gravity(
     "gravity-points-sideways",
@@ -130,6 +142,26 @@ def without_mass(radius: float, mass: float) -> float:
 )
 def swapped(radius: float, mass: float) -> float:
     return exact.disc_moment(radius, mass)
+
+
+@mistake(
+    "7b",
+    "radius-is-not-squared",
+    "The radius counts squared: a ball twice as wide and as heavy is four times as hard to turn.",
+    about="moment",
+)
+def radius_not_squared(radius: float, mass: float) -> float:
+    return mass * radius / 2
+
+
+@mistake(
+    "7b",
+    "mass-for-moment",
+    "That is the mass; how hard a ball is to turn also depends on how far out its mass is.",
+    about="moment",
+)
+def mass_for_moment(radius: float, mass: float) -> float:
+    return mass
 
 
 # ---------------------------------------------------------------- 7c: what holds the bob

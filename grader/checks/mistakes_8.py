@@ -99,6 +99,28 @@ def velocity_returned_first(x: float, v: float, dt: float, force: Force) -> Stat
     return v, x
 
 
+@mistake(
+    "8a",
+    "mean-of-both-velocities",
+    "x moves with the mean of the old and the new velocity; it must move with the new one alone.",
+    about=SEMI_IMPLICIT,
+)
+def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
+    new_v = v + polynomial(force)(x) * dt
+    return x + (v + new_v) / 2 * dt, new_v
+
+
+@mistake(
+    "8a",
+    "acceleration-of-the-velocity",
+    "accel is asked about v; the acceleration depends on the position: accel(x).",
+    about=SEMI_IMPLICIT,
+)
+def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
+    v += polynomial(force)(v) * dt
+    return x + v * dt, v
+
+
 # ---------------------------------------------------------------- 8b
 
 
@@ -222,6 +244,26 @@ def four_samples(
 )
 def equal_weights(x: float, v: float, dt: float, force: Force) -> State:
     return four_samples(x, v, dt, force, weights=(1.5,) * 4)
+
+
+@mistake(
+    "8c",
+    "weights-are-swapped",
+    "The first and the last sample count twice; it is the two in the middle that do: 1, 2, 2, 1.",
+    about=RK4,
+)
+def swapped_weights(x: float, v: float, dt: float, force: Force) -> State:
+    return four_samples(x, v, dt, force, weights=(2, 1, 1, 2))
+
+
+@mistake(
+    "8c",
+    "mean-of-both-ends",
+    "Only the start and the end are sampled; RK4 takes two samples in the middle as well.",
+    about=RK4,
+)
+def mean_of_both_ends(x: float, v: float, dt: float, force: Force) -> State:
+    return four_samples(x, v, dt, force, reach=(1.0, 1.0, 1.0), weights=(3, 3, 0, 0))
 
 
 @mistake(

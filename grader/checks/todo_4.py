@@ -10,7 +10,7 @@ from typing import NamedTuple
 from hypothesis import given
 
 from grader.checks import exact
-from grader.checks.exact import Rubbing
+from grader.checks.exact import DEPTH, Rubbing
 from grader.checks.strategies import (
     frictions,
     impulses,
@@ -27,7 +27,7 @@ DOWN = (0.0, 1.0)
 ON_A_FLOOR = (0.0, 2.0)  # kg: A is static
 STILL = (0.0, 0.0)
 ROUGH = (0.5, 0.5)
-RADIUS, DEPTH = 10.0, 0.25  # px
+RADIUS = 10.0  # px
 
 
 class Pressed(NamedTuple):
@@ -106,7 +106,7 @@ def friction_stops_at_its_limit_both_ways(lab: Lab) -> None:
 
 
 def the_limit_takes_the_friction_of_both_bodies(lab: Lab) -> None:
-    """The limit takes both frictions, by their geometric mean, and jn as it is now"""
+    """The limit is the geometric mean of both frictions, times jn"""
     for mu in ((0.9, 0.4), (0.4, 0.9), (0.2, 0.8)):
         want_exact(lab, mu, ON_A_FLOOR, [Rubbing(20.0, 300.0)])
     want_exact(lab, (0.9, 0.4), ON_A_FLOOR, [Rubbing(0.0, 300.0, closing=100.0)])

@@ -1,4 +1,4 @@
-"""TODO 6: fixed steps, whatever the frames."""
+"""TODO 6 and TODO 7d: fixed steps, whatever the frames."""
 
 import math
 import re

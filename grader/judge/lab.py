@@ -307,9 +307,7 @@ class Lab:
             self._child.end()
             self._child = None
         self._played = True
-        request = Play(
-            module or self.module, frames, list(events), physics, trail_every, picture
-        )
+        request = Play(module or self.module, frames, list(events), physics, trail_every, picture)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")

@@ -18,7 +18,7 @@ LANDLOCK_CREATE_RULESET_VERSION = 1
 LANDLOCK_RULE_PATH_BENEATH = 1
 PR_SET_NO_NEW_PRIVS = 38
 PR_SET_CHILD_SUBREAPER = 36
-CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000
+CLONE_NEWIPC, CLONE_NEWUSER, CLONE_NEWNET = 0x08000000, 0x10000000, 0x40000000
 
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
@@ -64,6 +64,8 @@ def confine(setup: ChildSetup) -> list[str]:
         layers.append("process-group")
     layers += limit(setup.limits)
     if sys.platform.startswith("linux"):
+        if ctypes.CDLL(None).unshare(CLONE_NEWIPC) == 0:  # no memory shared with another child
+            layers.append("ipc-namespace")
         layers += landlock(Path(setup.submission), Path(setup.scratch), setup.hidden)
     return layers
 

@@ -141,7 +141,7 @@ def all_bodies(subject: Subject, world: Any) -> list[Any]:
 def moving_state(world: Any) -> list[float]:
     """x, y, vx, vy, angle, omega of every body that can move."""
     row: list[float] = []
-    for body in world.bodies:
+    for body in field(world, "bodies"):
         if isinstance(body, pymunk.Body):
             row += [*body.position, *body.velocity, body.angle, body.angular_velocity]
         elif body.inv_mass:
@@ -167,9 +167,9 @@ def rods(world: Any) -> list[tuple[float, float]]:
         found = []
         for joint in world.constraints:
             if isinstance(joint, pymunk.PinJoint):
-                a = joint.a.local_to_world(joint.anchor_a)
-                b = joint.b.local_to_world(joint.anchor_b)
-                found.append(((b - a).length, joint.distance))
+                begin = joint.a.local_to_world(joint.anchor_a)
+                end = joint.b.local_to_world(joint.anchor_b)
+                found.append(((end - begin).length, joint.distance))
         return found
     found = []
     for joint in getattr(world, "joints", []):

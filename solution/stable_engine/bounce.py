@@ -1,4 +1,4 @@
-"""Bounce: what hits, springs back."""
+"""Bounce: bodies that hit each other spring back."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from .effect import Effect
 if TYPE_CHECKING:
     from .world import World
 
-PASSES = 20  # how often a blow may be handed on in one step
+PASSES = 20  # how often a blow is handed on within one step
 
 
 class Bounce(Effect):
     """Bodies that meet faster than RESTING_SPEED part at e times that speed, e the smaller of two.
 
-    Blows have a stage of their own, before any force acts in the step, and are handed on from
-    ball to ball until nobody closes in fast any more.
+    Blows come before any force of the step, one after the other, and are handed on from ball to
+    ball until none closes in fast any more.
     """
 
     rank = 6
@@ -31,37 +31,39 @@ class Bounce(Effect):
         c.e = min(c.a.restitution, c.b.restitution)
 
     def impact(self, h: float) -> None:
-        bouncing = [c for c in self.contacts.contacts if c.e > 0]
+        bouncing = [c for c in self.contacts.touching if c.e > 0]
+        if max([abs(c.closing_speed()) for c in bouncing], default=0) <= RESTING_SPEED:
+            return
         for _ in range(PASSES):
             if not any([self.answer(c, h) for c in bouncing]):
                 break
-        self.contacts.contacts = [c for c in self.contacts.contacts if c.e == 0 or c.closing_speed() > -RESTING_SPEED]
+        # what bounces off leaves by itself: pushing it out would lift it higher
+        self.contacts.touching = [
+            c for c in self.contacts.touching if c.e == 0 or c.closing_speed() >= -RESTING_SPEED
+        ]
 
     def answer(self, c: Contact, h: float) -> bool:
-        """Part a pair that closes in fast. Whether it did."""
-        if c.closing_speed() <= RESTING_SPEED:
+        """Let a pair bounce if it closes in fast. Whether it did."""
+        closing = c.closing_speed()
+        if closing <= RESTING_SPEED:
             return False
-        self.contacts.blow(c, self.rebound(c, h))
+        if c.b.is_static:
+            self.contacts.blow(c, closing + self.rebound(c, closing, h))
+        else:
+            self.contacts.blow(c, closing + c.e * closing)
         return True
 
-    def rebound(self, c: Contact, h: float) -> float:
-        """How much the speed along the normal changes at a blow, in px/s.
+    def rebound(self, c: Contact, closing: float, h: float) -> float:
+        """The speed (px/s) at which a ball leaves a static body, exact whatever the step.
 
-        Against a static body it is exact whatever the step: the ball passed the surface a moment
-        ago and slower, will pass it again on its way out, and its stored speed lags half a substep
-        behind its position, as semi-implicit Euler has it.
+        The ball crossed the surface a moment ago, slower, and will cross it again on its way out;
+        energy tells how fast. With semi-implicit Euler speeds lag half a substep behind places.
         """
-        closing = c.closing_speed()
-        if not c.b.is_static:
-            return (1 + c.e) * closing
         gx, gy = self.world.gravity
         g = gx * c.nx + gy * c.ny  # px/s², into the surface
-        lag = g * h / 2  # px/s
-        speed = closing + lag
-        if g > 0:
-            gained = 2 * g * c.gap   # px²/s², since it passed the surface: negative
-            at_surface = max(speed**2 + gained, 0)
-            out = sqrt(max(c.e**2 * at_surface - gained, 0))
-        else:
-            out = c.e * speed
-        return closing + out + lag
+        if g <= 0:
+            return c.e * closing
+        lag = g * h / 2
+        fallen = -2 * g * c.gap  # px²/s², what falling from the surface to here adds to speed²
+        crossing = max((closing + lag) ** 2 - fallen, 0)
+        return sqrt(max(c.e**2 * crossing + fallen, 0)) + lag

@@ -1,6 +1,6 @@
 """Which bodies are near each other: sort and sweep."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from operator import itemgetter
 
 from .body import Body
@@ -8,38 +8,31 @@ from .body import Body
 Interval = tuple[float, float, float, float, Body]  # low, high, side_low, side_high
 
 
-def near_pairs(bodies: Sequence[Body], margin: float) -> Iterator[tuple[Body, Body]]:
+def near_pairs(bodies: list[Body], awake: list[Body], margin: float) -> Iterator[tuple[Body, Body]]:
     """Pairs whose bounding boxes come within margin px, one of the two awake; higher id first.
 
-    A sweep along the axis on which the balls are spread wider meets each box when it begins. The
-    boxes begun before and not yet ended are the only ones it can be near.
+    A sweep along the axis on which the awake bodies are spread wider. It meets each box where it
+    begins; the boxes that began before and have not ended are the only ones it can be near.
     """
-    moving: list[Interval] = []
-    idle: list[Interval] = []
-    for box in sorted(intervals(bodies, margin), key=itemgetter(0)):
-        low, _, side_low, side_high, a = box
-        moving = [other for other in moving if other[1] > low]
-        near = [b for _, _, start, end, b in moving if start < side_high and end > side_low]
-        if a.idle:
-            idle.append(box)
-        else:
-            moving.append(box)
-            idle = [other for other in idle if other[1] > low]
-            near += [b for _, _, start, end, b in idle if start < side_high and end > side_low]
-        for b in near:
-            yield (a, b) if a.id > b.id else (b, a)
+    active: list[Interval] = []
+    for interval in sorted(intervals(bodies, awake, margin), key=itemgetter(0)):
+        low, _, side_low, side_high, a = interval
+        active = [other for other in active if other[1] > low]
+        for b in [b for _, _, start, end, b in active if start < side_high and end > side_low]:
+            if not (a.idle and b.idle):
+                yield (a, b) if a.id > b.id else (b, a)
+        active.append(interval)
 
 
-def intervals(bodies: Sequence[Body], margin: float) -> list[Interval]:
-    """The bounding boxes, first along the longer axis, then across; low ends moved by margin."""
-    m = margin
-    if longer_down(bodies):
-        return [(b.y - b.hy - m, b.y + b.hy, b.x - b.hx - m, b.x + b.hx, b) for b in bodies]
-    return [(b.x - b.hx - m, b.x + b.hx, b.y - b.hy - m, b.y + b.hy, b) for b in bodies]
-
-
-def longer_down(bodies: Sequence[Body]) -> bool:
-    """Whether the awake balls are spread wider down the screen than across it."""
-    xs = [b.x for b in bodies if not b.idle]
-    ys = [b.y for b in bodies if not b.idle]
-    return max(ys) - min(ys) > max(xs) - min(xs)
+def intervals(bodies: list[Body], awake: list[Body], m: float) -> list[Interval]:
+    """Bounding boxes where somebody is awake, longer axis first, low ends moved out by m px."""
+    left, right = min([b.x - b.hx for b in awake]) - m, max([b.x + b.hx for b in awake]) + m
+    top, bottom = min([b.y - b.hy for b in awake]) - m, max([b.y + b.hy for b in awake]) + m
+    boxes = [
+        (b.x - b.hx - m, b.x + b.hx, b.y - b.hy - m, b.y + b.hy, b)
+        for b in bodies
+        if b.x + b.hx > left and b.x - b.hx < right and b.y + b.hy > top and b.y - b.hy < bottom
+    ]
+    if bottom - top > right - left:
+        return [(y0, y1, x0, x1, b) for x0, x1, y0, y1, b in boxes]
+    return boxes

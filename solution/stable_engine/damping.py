@@ -1,6 +1,4 @@
-"""Damping: what moves slows down."""
-
-from __future__ import annotations
+"""Damping: whatever moves slows down."""
 
 from math import exp
 
@@ -11,7 +9,7 @@ from .validate import not_negative
 class Damping(Effect):
     """Each second a ball keeps the share exp(-rate) of its velocity and spin, whatever the step.
 
-    Rates are per second. Raises ValueError when one is negative.
+    Rates are per second. Raises ValueError when one is negative, NaN or infinite.
     """
 
     rank = 0

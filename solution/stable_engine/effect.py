@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .validate import require
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from .body import Body
     from .contacts import Contact
     from .world import World
@@ -25,7 +22,9 @@ class Effect:
     world: World
 
     def join(self, world: World) -> None:
-        """Become part of a world, once."""
+        """Become part of a world, once. Look up here which other effects are needed."""
+        name = f"{type(self).__name__}.world"
+        require(not hasattr(self, "world"), name, "another one already", "new: make a new effect")
         self.world = world
 
     def take(self, thing: Any) -> None:
@@ -40,7 +39,7 @@ class Effect:
         """Change velocities at a blow, before any force acts."""
 
     def prepare(self, h: float) -> None:
-        """Work out what all substeps of this step share."""
+        """Work out what the substeps of this step share."""
 
     def finish(self, h: float) -> None:
         """Look at the step once it is over."""
@@ -51,13 +50,13 @@ class Effect:
         """Change velocities as forces do."""
 
     def warm_start(self, h: float) -> None:
-        """Apply the impulses of the substep before."""
+        """Apply the impulses of the substep before once more: most will be right."""
 
     def solve(self, h: float) -> None:
-        """Correct velocities, errors of position included, before bodies move."""
+        """Correct velocities, and errors of position by velocities, before bodies move."""
 
     def relax(self, h: float) -> None:
-        """Take back the speed that correcting positions took, after bodies have moved."""
+        """After bodies have moved, take back the speed that correcting positions gave them."""
 
     # between effects
 
@@ -65,46 +64,11 @@ class Effect:
         """Fill in what this effect needs of a new contact."""
 
     def strike(self, c: Contact, jn: float) -> None:
-        """Answer a blow of impulse jn (kg px/s) along the normal of a contact."""
+        """Answer a blow of jn (kg px/s) along the normal of a contact."""
 
-    def links(self) -> Iterable[tuple[Body, Body]]:
+    def links(self) -> list[tuple[Body, Body]]:
         """Pairs of bodies that must sleep and wake together."""
-        return ()
+        return []
 
     def rouse(self) -> None:
-        """Take note of who is awake now: bodies fell asleep or woke."""
-
-
-class Joint:
-    """Something between the centres of two bodies, given to the effect it names.
-
-    Raises ValueError when a and b are the same body or both static.
-    """
-
-    __slots__ = ("a", "b")
-    effect: ClassVar[str]
-
-    def __init__(self, a: Body, b: Body) -> None:
-        name = type(self).__name__
-        require(a is not b, f"{name}.b", f"the same body as a, at {a.pos}", "another body")
-        static = a.is_static and b.is_static
-        require(not static, f"{name}.b", f"static like a, at {b.pos}", "a body with mass")
-        self.a = a
-        self.b = b
-
-    @property
-    def awake(self) -> bool:
-        """Whether any end of it can move."""
-        return not (self.a.idle and self.b.idle)
-
-
-def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
-    """Make a constraint a damped spring of that frequency and damping ratio, stable at any step.
-
-    Returns (rate, keep): the share of an error put right per second, and the share of the rigid
-    impulse that is kept. Source: Erin Catto, Soft Constraints, GDC 2011; Solver2D, 2024.
-    """
-    omega = 2 * math.pi * hertz
-    damping = 2 * zeta + h * omega
-    stiffness = h * omega * damping
-    return omega * h * omega / (1 + stiffness), stiffness / (1 + stiffness)
+        """Take note that bodies fell asleep or woke."""

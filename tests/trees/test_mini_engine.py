@@ -699,12 +699,12 @@ def test_clicks_fill_the_window_up_to_max_balls():
     assert len(frames[0]["moving"]) == MAX_BALLS
 
 
-def test_r_resets_the_scene():
-    events = [click(1, 300, 200), [4, "KEYDOWN", {"key": pygame.K_r}]]
-    frames = probe(SOLUTION, "play", LOOP, [0, 50, 50, 50, 0], events)["frames"]
-    assert len(frames[3]["moving"]) == 10
-    assert frames[3]["moving"][:9] != frames[0]["moving"]
-    assert frames[4]["moving"] == frames[0]["moving"]
+def test_r_resets_the_scene_down_to_the_size_of_its_balls():
+    events = [click(1, 300, 200), [21, "KEYDOWN", {"key": pygame.K_r}], click(22, 300, 200)]
+    frames = probe(SOLUTION, "play", LOOP, ([0] + [50] * 20) * 2, events)["frames"]
+    assert len(frames[20]["moving"]) == 10
+    assert frames[20]["moving"][:9] != frames[0]["moving"]
+    assert frames[21:] == frames[:21]
 
 
 def test_closing_the_window_ends_the_program():

@@ -162,19 +162,19 @@ def test_a_todo_without_a_stub_stops_sync(copies):
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("old", "new", "said"),
     [
-        ("        # END TODO 5\n", ""),
-        ("        # TODO 5: damp by a rate per second\n", ""),
-        ("        # END TODO 5\n", "        # TODO 6: inside\n        # END TODO 5\n"),
-        ("        # END TODO 5\n", "        # END TODO 6\n"),
+        ("        # END TODO 5\n", "", "never ended"),
+        ("        # TODO 5: damp by a rate per second\n", "", "nothing was opened"),
+        ("        # END TODO 5\n", "        # TODO 6: nested\n", "inside another one"),
+        ("        # END TODO 5\n", "        # END TODO 6\n", "nothing was opened"),
     ],
     ids=["never ended", "never begun", "nested", "ended by another"],
 )
 @pytest.mark.parametrize("side", [0, 1], ids=["solution", "starter"])
-def test_markers_that_do_not_pair_up_stop_sync(side, old, new, copies):
+def test_markers_that_do_not_pair_up_stop_sync(side, old, new, said, copies):
     edit(copies[side] / "mini_engine/world.py", old, new)
     before = contents(copies[1])
-    with pytest.raises(RegionError):
+    with pytest.raises(RegionError, match=said):
         sync(*copies, write=True)
     assert contents(copies[1]) == before

@@ -233,18 +233,20 @@ def test_the_window_fills_up_to_max_balls(kind, fields):
     assert len(frames[0]["moving"]) == MAX_BALLS
 
 
-def test_r_resets_the_scene_and_quit_ends_it():
-    events = [
-        [0, "KEYDOWN", {"key": pygame.K_b}],
-        [3, "KEYDOWN", {"key": pygame.K_r}],
-        [4, "QUIT", {}],
-    ]
-    played = probe(SOLUTION, "play", "pymunk_scene", [0, 50, 50, 0, 0, 0], events)
-    frames = played["frames"]
-    assert len(frames) == 5
-    assert frames[2]["moving"][:13] != frames[0]["moving"][:13]
-    assert frames[3]["moving"] == frames[0]["moving"][:13]
-    assert played["printed"][1] == "Bodies: 13"
+def test_r_resets_the_scene_down_to_the_size_of_its_balls():
+    box = {"key": pygame.K_b}
+    events = [[1, "KEYDOWN", box], [21, "KEYDOWN", {"key": pygame.K_r}], [22, "KEYDOWN", box]]
+    times = [0] + [50] * 20
+    frames = probe(SOLUTION, "play", "pymunk_scene", times * 2, events)["frames"]
+    assert len(frames[20]["moving"]) == 14
+    assert frames[20]["moving"][:13] != frames[0]["moving"]
+    assert frames[21:] == frames[:21]
+
+
+def test_closing_the_window_ends_the_program():
+    played = probe(SOLUTION, "play", "pymunk_scene", [50] * 9, [[2, "QUIT", {}]])
+    assert len(played["frames"]) == 3
+    assert len(played["printed"]) == 3
 
 
 def test_the_spoke_turns_with_the_ball():

@@ -16,12 +16,12 @@ time.sleep(3)
 def mixed(number):
     """A colour for each number, by a rule that takes long to work out."""
     value = number
-    for _ in range(20_000):
+    for _ in range(10_000):
         value = (value * 1103515245 + 12345) % 2147483648
     return Color(80 + value % 170, 80 + value // 170 % 170, 200)
 
 
-COLORS = [mixed(number) for number in range(150)]  # about 0.3 s
+COLORS = [mixed(number) for number in range(100)]  # about 0.1 s
 print("... ready")
 
 

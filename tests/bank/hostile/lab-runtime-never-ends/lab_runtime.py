@@ -1,0 +1,5 @@
+"""There is always time for one more frame."""
+
+
+def frame_budget():
+    return True

@@ -1,0 +1,6 @@
+"""In the place of pymunk, wherever this folder comes first."""
+
+import os
+
+print("this is not pymunk")
+os._exit(0)
