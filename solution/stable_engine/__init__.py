@@ -6,7 +6,8 @@ Read in this order: shapes, body, effect, world, contacts, friction, bounce, the
 from .body import Body
 from .bounce import Bounce
 from .bullets import Bullets
-from .contacts import Contact, Contacts
+from .contact import Contact
+from .contacts import Contacts
 from .damping import Damping
 from .effect import Effect
 from .friction import Friction

@@ -16,33 +16,16 @@ if TYPE_CHECKING:
 
 
 class Body:
-    """One rigid body, plain floats inside; pos, vel and omega are for the world outside.
+    """One rigid body: plain floats inside; pos, vel and omega to read and set from outside.
 
-    Mass 0 makes a static body. A Box is static only. A bullet never passes through a static body,
-    however fast it flies. Raises ValueError when a value makes no sense.
+    Mass 0 makes a static body, which never moves. A Box is static only. A bullet does not pass
+    through static bodies, however fast it is. Raises ValueError when a value makes no sense.
     """
 
     __slots__ = (
-        "angle",
-        "asleep",
-        "bullet",
-        "friction",
-        "hx",
-        "hy",
-        "id",
-        "idle",
-        "inv_inertia",
-        "inv_mass",
-        "island",
-        "radius",
-        "restitution",
-        "shape",
-        "still",
-        "vx",
-        "vy",
-        "w",
-        "x",
-        "y",
+        *("shape", "radius", "hx", "hy", "inv_mass", "inv_inertia", "restitution", "friction"),
+        *("x", "y", "vx", "vy", "angle", "w"),
+        *("id", "bullet", "idle", "asleep", "still", "island"),
     )
 
     def __init__(
@@ -54,29 +37,28 @@ class Body:
         friction: float = 0.6,
         bullet: bool = False,
     ) -> None:
-        mass = not_negative("Body.mass", mass)
+        not_negative("Body.mass", mass)
         require(0 <= restitution <= 1, "Body.restitution", restitution, "from 0 to 1")
+        require(mass > 0 or not bullet, "Body.mass", mass, "above 0 for a bullet")
         if isinstance(shape, Box):
             require(mass == 0, "Body.mass", mass, "0 for a Box, which is always static")
-            self.radius = 0.0  # px
-            self.hx, self.hy = shape.half  # px
+            self.radius = 0.0
+            self.hx, self.hy = shape.half  # px, half extents of the bounding box
         else:
             self.radius = self.hx = self.hy = shape.radius
-        if bullet:
-            require(mass > 0, "Body.mass", mass, "above 0 for a bullet")
         self.shape = shape
-        self.x, self.y = pair("Body.pos", pos)  # px
-        self.vx = self.vy = 0.0  # px/s
-        self.angle = 0.0  # rad, clockwise on the screen
-        self.w = 0.0  # rad/s
         self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
         self.inv_inertia = 2 / (mass * self.radius**2) if mass else 0.0  # 1/(kg px²), a disc
         self.restitution = float(restitution)
         self.friction = not_negative("Body.friction", friction)
+        self.x, self.y = pair("Body.pos", pos)  # px
+        self.vx = self.vy = 0.0  # px/s
+        self.angle = 0.0  # rad, clockwise on the screen
+        self.w = 0.0  # rad/s
+        self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.bullet = bullet
-        self.id = 0  # given by the world: from 1 up for a ball, from -1 down for a static body
-        self.asleep = False
         self.idle = mass == 0  # static or asleep
+        self.asleep = False
         self.still = 0.0  # s, how long it has hardly moved
         self.island: Island | None = None  # whom it sleeps with
 
@@ -87,7 +69,7 @@ class Body:
 
     @property
     def pos(self) -> Vector2:
-        """The centre in px: a copy, so set it as a whole. Setting it wakes the body."""
+        """The centre in px. A copy: set it as a whole, which wakes the body."""
         return Vector2(self.x, self.y)
 
     @pos.setter
@@ -97,7 +79,7 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """The velocity in px/s: a copy, so set it as a whole. Setting it wakes the body."""
+        """The velocity in px/s. A copy: set it as a whole, which wakes the body."""
         return Vector2(self.vx, self.vy)
 
     @vel.setter
@@ -117,7 +99,7 @@ class Body:
 
     def wake(self) -> None:
         """Wake this body and all that sleep with it."""
-        if self.island is not None:
+        if self.island:
             self.island.wake()
 
     def check(self) -> None:

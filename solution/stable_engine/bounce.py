@@ -1,15 +1,11 @@
 """Bounce: bodies that hit each other spring back."""
 
-from __future__ import annotations
-
 from math import sqrt
-from typing import TYPE_CHECKING
 
-from .contacts import RESTING_SPEED, Contact, Contacts
+from .contact import Contact
+from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
-
-if TYPE_CHECKING:
-    from .world import World
+from .world import World
 
 PASSES = 20  # how often a blow is handed on within one step
 
@@ -25,7 +21,7 @@ class Bounce(Effect):
 
     def join(self, world: World) -> None:
         super().join(world)
-        self.contacts = world.need(Contacts, self)
+        self.contacts: Contacts = world.need("Contacts", self)
 
     def meet(self, c: Contact) -> None:
         c.e = min(c.a.restitution, c.b.restitution)
@@ -37,10 +33,8 @@ class Bounce(Effect):
         for _ in range(PASSES):
             if not any([self.answer(c, h) for c in bouncing]):
                 break
-        # what bounces off leaves by itself: pushing it out would lift it higher
-        self.contacts.touching = [
-            c for c in self.contacts.touching if c.e == 0 or c.closing_speed() >= -RESTING_SPEED
-        ]
+        self.contacts.fresh = True
+        self.contacts.touching = [c for c in self.contacts.touching if not leaving(c)]
 
     def answer(self, c: Contact, h: float) -> bool:
         """Let a pair bounce if it closes in fast. Whether it did."""
@@ -67,3 +61,8 @@ class Bounce(Effect):
         fallen = -2 * g * c.gap  # px²/s², what falling from the surface to here adds to speed²
         crossing = max((closing + lag) ** 2 - fallen, 0)
         return sqrt(max(c.e**2 * crossing + fallen, 0)) + lag
+
+
+def leaving(c: Contact) -> bool:
+    """Whether a pair bounces off: pushing it out as well would lift it higher."""
+    return c.e > 0 and c.closing_speed() < -RESTING_SPEED

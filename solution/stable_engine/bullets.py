@@ -1,16 +1,11 @@
 """Bullets: fast balls do not pass through static bodies."""
 
-from __future__ import annotations
-
 from math import copysign, hypot, sqrt
-from typing import TYPE_CHECKING
 
+from .body import Body
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .world import World
+from .world import World
 
 FAR = 0.5  # radii, who moves further in one step is swept
 BITE = 0.05  # radii, how deep a stopped bullet overlaps, so that the next step finds the contact
@@ -30,13 +25,13 @@ class Bullets(Effect):
 
     def join(self, world: World) -> None:
         super().join(world)
-        self.contacts = world.need(Contacts, self)
+        self.contacts: Contacts = world.need("Contacts", self)
 
     def take(self, body: Body) -> None:
         self.bullets.append(body)
 
     def impact(self, h: float) -> None:
-        """Stop a bullet that hit something and did not bounce: it is too fast to be stopped softly."""
+        """Stop a bullet that did not bounce: it is too fast to be stopped softly."""
         if self.bullets:
             for c in self.contacts.touching:
                 if (c.a.bullet or c.b.bullet) and c.closing_speed() > RESTING_SPEED:

@@ -1,18 +1,17 @@
 """Friction: bodies that touch do not slide freely."""
 
-from __future__ import annotations
-
 from math import sqrt
-from typing import TYPE_CHECKING
 
-from .contacts import Contact, Contacts
+from .body import Body
+from .contact import Contact
+from .contacts import Contacts
 from .effect import Effect
+from .world import World
 
-if TYPE_CHECKING:
-    from .body import Body
-    from .world import World
-
-Row = tuple[Contact, "Body", "Body", *tuple[float, ...]]
+BallRow = tuple[
+    Contact, Body, Body, float, float, float, float, float, float, float, float, float, float, float
+]
+WallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
 
 
 class Friction(Effect):
@@ -26,7 +25,7 @@ class Friction(Effect):
 
     def join(self, world: World) -> None:
         super().join(world)
-        self.contacts = world.need(Contacts, self)
+        self.contacts: Contacts = world.need("Contacts", self)
 
     def meet(self, c: Contact) -> None:
         a, b = c.a, c.b
@@ -47,17 +46,23 @@ class Friction(Effect):
         b.w -= b.radius * jt * b.inv_inertia
 
     def prepare(self, h: float) -> None:
-        self.rows: list[Row] = []
+        if not self.contacts.fresh:
+            return
+        self.ball_rows: list[BallRow] = []
+        self.wall_rows: list[WallRow] = []
         for c in self.contacts.touching:
             if c.mu > 0:
                 a, b, tx, ty, ra, rb = c.a, c.b, -c.ny, c.nx, c.a.radius, c.b.radius
                 ax, ay, aw = tx * a.inv_mass, ty * a.inv_mass, ra * a.inv_inertia
-                bx, by, bw = tx * b.inv_mass, ty * b.inv_mass, rb * b.inv_inertia
-                row = (c, a, b, tx, ty, ra, rb, c.mt, c.mu, ax, ay, aw, bx, by, bw)
-                self.rows.append(row)
+                if b.inv_mass:
+                    bx, by, bw = tx * b.inv_mass, ty * b.inv_mass, rb * b.inv_inertia
+                    row = (c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw, bx, by, bw)
+                    self.ball_rows.append(row)
+                else:
+                    self.wall_rows.append((c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw))
 
     def warm_start(self, h: float) -> None:
-        for c, a, b, _, _, _, _, _, _, ax, ay, aw, bx, by, bw in self.rows:
+        for c, a, b, _, _, _, _, _, ax, ay, aw, bx, by, bw in self.ball_rows:
             jt = c.jt
             if jt:
                 a.vx -= ax * jt
@@ -66,10 +71,16 @@ class Friction(Effect):
                 b.vx += bx * jt
                 b.vy += by * jt
                 b.w -= bw * jt
+        for c, a, _, _, _, _, _, _, ax, ay, aw in self.wall_rows:
+            jt = c.jt
+            if jt:
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt
 
     def relax(self, h: float) -> None:
-        for c, a, b, tx, ty, ra, rb, mt, mu, ax, ay, aw, bx, by, bw in self.rows:
-            limit = mu * c.jn
+        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw, bx, by, bw in self.ball_rows:
+            limit = c.mu * c.jn
             before = c.jt
             if limit or before:
                 slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra
@@ -86,3 +97,18 @@ class Friction(Effect):
                 b.vx += bx * jt
                 b.vy += by * jt
                 b.w -= bw * jt
+        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw in self.wall_rows:
+            limit = c.mu * c.jn
+            before = c.jt
+            if limit or before:
+                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra
+                jt = before - mt * slip
+                if jt > limit:
+                    jt = limit
+                elif jt < -limit:
+                    jt = -limit
+                c.jt = jt
+                jt -= before
+                a.vx -= ax * jt
+                a.vy -= ay * jt
+                a.w -= aw * jt

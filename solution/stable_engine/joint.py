@@ -1,9 +1,10 @@
 """What rods and springs have in common."""
 
 from math import hypot
-from typing import ClassVar
+from typing import ClassVar, Generic, TypeVar
 
 from .body import Body
+from .effect import Effect
 from .validate import require
 
 
@@ -19,7 +20,8 @@ class Joint:
     def __init__(self, a: Body, b: Body) -> None:
         name = f"{type(self).__name__}.b"
         require(a is not b, name, f"the same body as a, at {a.pos}", "another body")
-        require(a.inv_mass + b.inv_mass > 0, name, f"static like a, at {b.pos}", "one with mass")
+        static = a.is_static and b.is_static
+        require(not static, name, f"static like a, at {b.pos}", "a body with mass")
         self.a = a
         self.b = b
         self.m = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass
@@ -37,8 +39,7 @@ class Joint:
 
     def speed(self) -> float:
         """How fast B moves away from A, in px/s."""
-        a, b = self.a, self.b
-        return (b.vx - a.vx) * self.nx + (b.vy - a.vy) * self.ny
+        return (self.b.vx - self.a.vx) * self.nx + (self.b.vy - self.a.vy) * self.ny
 
     def push(self, j: float) -> None:
         """Push B away from A by impulse j (kg px/s), and A by the opposite."""
@@ -49,6 +50,23 @@ class Joint:
         b.vx += px * b.inv_mass
         b.vy += py * b.inv_mass
 
-    def is_awake(self) -> bool:
-        """Whether any end of it can move now."""
-        return not (self.a.idle and self.b.idle)
+
+AnyJoint = TypeVar("AnyJoint", bound=Joint)
+
+
+class Joints(Effect, Generic[AnyJoint]):
+    """An effect with a list of joints. Those of sleepers rest as well."""
+
+    def __init__(self) -> None:
+        self.joints: list[AnyJoint] = []
+        self.awake: list[AnyJoint] = []
+
+    def take(self, joint: AnyJoint) -> None:
+        self.joints.append(joint)
+        self.awake.append(joint)
+
+    def links(self) -> list[tuple[Body, Body]]:
+        return [(joint.a, joint.b) for joint in self.awake]
+
+    def rouse(self) -> None:
+        self.awake = [joint for joint in self.joints if not (joint.a.idle and joint.b.idle)]

@@ -3,8 +3,7 @@
 from math import hypot
 
 from .body import Body
-from .effect import Effect
-from .joint import Joint
+from .joint import Joint, Joints
 from .soft import softness
 from .validate import require
 
@@ -24,21 +23,13 @@ class Rod(Joint):
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
 
 
-class Rods(Effect):
+class Rods(Joints[Rod]):
     """Soft rods that aim at the length they will have after the move.
 
     Relaxing works along the axis after the move: along the old one a pendulum loses energy.
     """
 
     rank = 2
-
-    def __init__(self) -> None:
-        self.rods: list[Rod] = []
-        self.awake: list[Rod] = []
-
-    def take(self, rod: Rod) -> None:
-        self.rods.append(rod)
-        self.awake.append(rod)
 
     def prepare(self, h: float) -> None:
         self.spring = softness(STIFFNESS / h, ZETA, h)
@@ -65,9 +56,3 @@ class Rods(Effect):
             j = rod.j - rod.m * rod.speed()
             rod.push(j - rod.j)
             rod.j = j
-
-    def links(self) -> list[tuple[Body, Body]]:
-        return [(rod.a, rod.b) for rod in self.awake]
-
-    def rouse(self) -> None:
-        self.awake = [rod for rod in self.rods if rod.is_awake()]

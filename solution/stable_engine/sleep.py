@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from .body import Body
 from .contacts import Contacts
 from .effect import Effect
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .world import World
+from .world import World
 
 STILL_SPEED = 3.0  # px/s, of the centre and of the rim
 STILL_TIME = 0.5  # s
@@ -46,16 +42,16 @@ class Sleep(Effect):
 
     def join(self, world: World) -> None:
         super().join(world)
-        self.contacts = world.find(Contacts)
         self.link_hooks = world.hooks("links")
         self.rouse_hooks = world.hooks("rouse")
 
     def detect(self, h: float) -> None:
         """Wake whoever is touched by somebody awake, and whoever that touches in turn."""
-        while self.contacts and (touched := sleepers(self.contacts)):
+        contacts = self.world.effects.get("Contacts")
+        while isinstance(contacts, Contacts) and (touched := sleepers(contacts)):
             for body in touched:
                 body.wake()
-            self.contacts.detect(h)
+            contacts.detect(h)
 
     def finish(self, h: float) -> None:
         dt = h * self.world.substeps

@@ -1,8 +1,7 @@
 """Springs: Hooke's law, with damping."""
 
 from .body import Body
-from .effect import Effect
-from .joint import Joint
+from .joint import Joint, Joints
 from .validate import not_negative
 
 
@@ -30,7 +29,7 @@ class Spring(Joint):
             self.length = not_negative("Spring.length", length)
 
 
-class Springs(Effect):
+class Springs(Joints[Spring]):
     """Forces that no stiffness can blow up, and a gentle spring keeps its energy.
 
     The divisor caps what a spring does at what one substep can carry.
@@ -38,23 +37,9 @@ class Springs(Effect):
 
     rank = 1
 
-    def __init__(self) -> None:
-        self.springs: list[Spring] = []
-        self.awake: list[Spring] = []
-
-    def take(self, spring: Spring) -> None:
-        self.springs.append(spring)
-        self.awake.append(spring)
-
     def force(self, h: float) -> None:
         for spring in self.awake:
             spring.measure()
             k, c = spring.stiffness, spring.damping
             force = -k * (spring.distance - spring.length) - c * spring.speed()
             spring.push(h * force / (1 + h * (c + h * k) / spring.m))
-
-    def links(self) -> list[tuple[Body, Body]]:
-        return [(spring.a, spring.b) for spring in self.awake]
-
-    def rouse(self) -> None:
-        self.awake = [spring for spring in self.springs if spring.is_awake()]

@@ -12,7 +12,6 @@ from .joint import Joint
 from .validate import pair, require
 
 Thing = TypeVar("Thing", bound=Body | Joint)
-Kind = TypeVar("Kind", bound=Effect)
 
 
 class World:
@@ -28,21 +27,21 @@ class World:
         substeps: int = 4,
         effects: Iterable[Effect] = (),
     ) -> None:
-        whole = isinstance(substeps, int) and substeps >= 1
-        require(whole, "World.substeps", substeps, "a whole number, 1 or more")
+        whole = isinstance(substeps, int) and substeps > 0
+        require(whole, "World.substeps", substeps, "a whole number above 0")
         self.gravity = pair("World.gravity", gravity)
         self.substeps = substeps
         self.bodies: list[Body] = []
         self.awake: list[Body] = []  # the balls that can move now
-        self.effects: list[Effect] = []
+        self.effects: dict[str, Effect] = {}
         for effect in effects:
-            require(isinstance(effect, Effect), "World.effects", effect, "made of effects")
-            once = self.find(type(effect)) is None
-            require(once, "World.effects", f"naming {type(effect).__name__}() twice", "once each")
-            self.effects.append(effect)
-        self.effects.sort(key=lambda effect: effect.rank)
-        for effect in self.effects:
+            name = type(effect).__name__
+            require(isinstance(effect, Effect), "World.effects", effect, "a list of effects")
+            require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
+            self.effects[name] = effect
+        for effect in self.effects.values():
             effect.join(self)
+
         self.detect_hooks = self.hooks("detect")
         self.impact_hooks = self.hooks("impact")
         self.prepare_hooks = self.hooks("prepare")
@@ -53,47 +52,51 @@ class World:
         self.finish_hooks = self.hooks("finish")
 
     def hooks(self, name: str) -> list[Callable[..., Any]]:
-        """The hooks of this name that the scene's effects override."""
+        """The hooks of this name that the scene's effects override, lowest rank first."""
+        effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
         base = getattr(Effect, name)
-        return [getattr(e, name) for e in self.effects if getattr(type(e), name) is not base]
+        return [getattr(e, name) for e in effects if getattr(type(e), name) is not base]
 
-    def find(self, kind: type[Kind]) -> Kind | None:
-        """The scene's effect of a kind, or None."""
-        return next((effect for effect in self.effects if isinstance(effect, kind)), None)
-
-    def need(self, kind: type[Kind], user: Effect) -> Kind:
-        """The scene's effect of a kind. Raises ValueError when it is not declared."""
-        found = self.find(kind)
-        if found is None:
-            raise ValueError(undeclared(f"{type(user).__name__}() needs", kind.__name__))
-        return found
+    def need(self, name: str, user: object) -> Any:
+        """The effect of that name. Raises ValueError when the scene does not declare it."""
+        if name not in self.effects:
+            raise ValueError(
+                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
+                f"Declare it: World(effects=[..., {name}()])."
+            )
+        return self.effects[name]
 
     def add(self, thing: Thing) -> Thing:
         """Add a body, rod or spring and return it.
 
-        Raises ValueError when it is here already, when it ties a body that is not, or when the
-        scene does not declare the effect it needs.
+        Raises ValueError when it is in a world already, when it ties bodies that are not in this
+        one, or when the scene does not declare the effect it needs.
         """
         if isinstance(thing, Body):
             self.add_body(thing)
         else:
-            for body in (thing.a, thing.b):
-                name = f"World.add's {type(thing).__name__}"
-                require(body in self.bodies, name, f"tied to a body at {body.pos}", "in this world")
-                body.wake()
-            self.effect_for(thing.effect, f"a {type(thing).__name__}").take(thing)
+            self.add_joint(thing)
         return thing
 
     def add_body(self, body: Body) -> None:
-        """Add a body. Balls are numbered from 1 up, static bodies from -1 down."""
-        found = f"in a world already (at {body.pos})"
+        found = f"in a world already, at {body.pos}"
         require(body.id == 0, "World.add's body", found, "a new one")
         if body.bullet:
-            self.effect_for("Bullets", "a bullet").take(body)
+            self.need("Bullets", body).take(body)
         self.bodies.append(body)
         body.id = -len(self.bodies) if body.is_static else len(self.bodies)
         if not body.is_static:
             self.awake.append(body)
+
+    def add_joint(self, joint: Joint) -> None:
+        effect = self.need(joint.effect, joint)
+        name = f"World.add's {type(joint).__name__}"
+        require(joint not in effect.joints, name, "in this world already", "a new one")
+        for body in (joint.a, joint.b):
+            found = f"tied to a body at {body.pos} that is not in this world"
+            require(body in self.bodies, name, found, "tied to bodies added before")
+            body.wake()
+        effect.take(joint)
 
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
@@ -147,17 +150,3 @@ class World:
             body.x += body.vx * h
             body.y += body.vy * h
             body.angle += body.w * h
-
-    def effect_for(self, name: str, thing: str) -> Effect:
-        """The scene's effect of that name. Raises ValueError when it is not declared."""
-        for effect in self.effects:
-            if type(effect).__name__ == name:
-                return effect
-        raise ValueError(undeclared(f"World.add was given {thing}, which needs", name))
-
-
-def undeclared(what_needs: str, name: str) -> str:
-    return (
-        f"{what_needs} {name}(), but this scene does not declare it. "
-        f"Declare it: World(effects=[..., {name}()])."
-    )
