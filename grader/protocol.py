@@ -144,6 +144,8 @@ class Piece(Struct, frozen=True):
     target: str  # module:name or module:Class.method
     source: str
     imports: str
+    parameters: list[str]
+    names: list[str]  # the globals it reads, beyond its imports
 
 
 class Import(Struct, frozen=True, tag="import"):

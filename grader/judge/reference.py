@@ -1,8 +1,11 @@
 """The reference's functions, cut out one by one, to stand in for a submission's unfinished ones."""
 
 import ast
+import builtins
+import dis
 import textwrap
 from pathlib import Path
+from types import CodeType
 
 from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import CannotGrade, function_named
@@ -43,8 +46,18 @@ def cut_out(folder: Path, todo: Todo) -> Piece:
         found = function_named(text, path)
         if found is not None:
             lines = text.splitlines()[found.lineno - 1 : found.end_lineno]
-            return Piece(todo.function, textwrap.dedent("\n".join(lines)), plain_imports(text))
+            source = textwrap.dedent("\n".join(lines))
+            parameters = [each.arg for each in found.args.args]
+            names = sorted(global_names(compile(source, str(file), "exec")))
+            return Piece(todo.function, source, plain_imports(text), parameters, names)
     raise CannotGrade(f"the reference at {folder} has no {path}, which TODO {todo.id} is about")
+
+
+def global_names(code: CodeType) -> set[str]:
+    """The global names that a piece of code reads, its inner functions' included."""
+    names = {each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"}
+    inner = [each for each in code.co_consts if isinstance(each, CodeType)]
+    return names.union(*map(global_names, inner)) - set(vars(builtins))
 
 
 def plain_imports(text: str) -> str:

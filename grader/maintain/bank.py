@@ -16,6 +16,7 @@ import msgspec
 from msgspec import Struct
 
 from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
 from grader.todo_regions import python_files, read_source, regions_in, replaced
 
 Kind = Literal["wrong", "right", "hostile"]
@@ -55,6 +56,19 @@ class Member:
             return frozenset()
         return frozenset(region.id for region in regions_in(read_source(self.source)))
 
+    @property
+    def judged_by(self) -> frozenset[str]:
+        """The TODOs to grade; empty for all.
+
+        A wrong member is one region of one program, and the programs share no file: the others
+        are the solution's, letter by letter. The whole is left out, it may suffer or not.
+        """
+        if self.kind != "wrong":
+            return frozenset()
+        todos = [todo for todo in load_rubric().todos if todo.function]
+        touched = {todo.module for todo in todos if todo.id in self.todos}
+        return frozenset(todo.id for todo in todos if todo.module in touched)
+
     def build(self, kit: Path, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
         base = self.entry.base
@@ -77,7 +91,7 @@ class Member:
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
         if self.kind == "wrong":
             unharmed = sorted(self.todos - set(lost))
-            others = sorted(set(lost) - self.todos - {"whole"})
+            others = sorted(set(lost) - self.todos)
             if unharmed:
                 return f"TODO {', '.join(unharmed)} loses nothing"
             return f"TODO {', '.join(others)} must not lose anything" if others else ""

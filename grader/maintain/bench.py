@@ -4,6 +4,7 @@ All three come from one run, taken in turns; the least of the rounds counts, and
 to look at. Only the shipped solution is run without the wall: nothing else ever is.
 """
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
@@ -15,7 +16,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from grader.judge.children import Child, start_worker
+from grader.judge.children import Child, clean_environment, start_worker
 from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
@@ -38,9 +39,10 @@ class OpenChild(Child):
 
     def __init__(self, setup: ChildSetup, clock: ScriptedClock, times: Times) -> None:
         self.ready, self.times, self.over = Ready(0, []), times, ""
-        forget_modules(setup.submission)
         self.folder = setup.submission
         self.clock, self.output = clock, Output()
+        self.streams = sys.stdout, sys.stderr
+        self.output.install()
         self.subject = Subject(Path(setup.submission))
 
     def ask(self, request: Request) -> Answered:
@@ -51,7 +53,9 @@ class OpenChild(Child):
         return Answered(0, reply)
 
     def end(self) -> None:
+        sys.stdout, sys.stderr = self.streams
         sys.path.remove(self.folder)
+        forget_modules(self.folder)
 
 
 class OpenWorker:
@@ -86,7 +90,7 @@ def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
     import pygame
 
     before: list[tuple[Any, dict[str, Any]]] = [
-        (module, dict(vars(module))) for module in (time, pygame.time, pygame.display)
+        (module, dict(vars(module))) for module in (time, pygame, pygame.time, pygame.display)
     ]
     clock.install()
     try:
@@ -118,14 +122,17 @@ def run_once(isolated: bool) -> Times:
 
 
 def bench(rounds: int, console: Console) -> None:
-    """Print the price of a grade."""
+    """Print the price of a grade on one core."""
+    os.environ.update(clean_environment())
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
     run_once(True), run_once(False)  # everything is imported and compiled after this
     walled, plain = [], []
     for _ in range(rounds):
         walled.append(run_once(True))
         plain.append(run_once(False))
     best, open_best = (min(each, key=lambda times: times.total) for each in (walled, plain))
-    table = Table("one full grade of the solution", "s", "ratio", title=f"best of {rounds} rounds")
+    table = Table("one full grade of the solution", "s", "ratio", title=f"one core, best of {rounds} rounds")
     table.add_row("with processes, pipe and limits", f"{best.total:.2f}",
                   f"{best.total / open_best.total:.2f}")
     table.add_row("the same checks in one process", f"{open_best.total:.2f}", "1.00")

@@ -88,7 +88,7 @@ def grade_member(member: Member) -> Verdict:
         member.build(KIT, submission)
         start = time.monotonic()
         try:
-            result = grade(submission, Options(shipped_reference()))
+            result = grade(submission, Options(shipped_reference(), only=member.judged_by))
         except Exception as error:  # a judge that falls over is the worst verdict of all
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)

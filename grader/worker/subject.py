@@ -1,9 +1,6 @@
 """The submission inside a child: its modules, its objects, and how both look as plain values."""
 
-import builtins
-import dis
 import importlib
-import inspect
 import math
 import numbers
 import random
@@ -106,16 +103,15 @@ class Subject:
     def _build(self, piece: Piece, original: Any) -> Callable[..., Any] | None:
         if not isinstance(original, types.FunctionType):
             return None
+        code = original.__code__
+        if list(code.co_varnames[: code.co_argcount]) != piece.parameters:
+            return None
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, "<reference>", "exec"), namespace)
         exec(compile(piece.source, "<reference>", "exec"), namespace)
         wanted = namespace[piece.target.rpartition(":")[2].rpartition(".")[2]]
-        if list(inspect.signature(wanted).parameters) != list(
-            inspect.signature(original).parameters
-        ):
-            return None
         package = importlib.import_module(piece.target.partition(":")[0])
-        for name in global_names(wanted.__code__) - set(namespace) - set(vars(builtins)):
+        for name in set(piece.names) - set(namespace):
             place = original.__globals__ if name in original.__globals__ else vars(package)
             namespace[name] = place[name]
         return wanted  # type: ignore[no-any-return]
@@ -311,14 +307,6 @@ class Subject:
         except Exception:
             message = ""
         return Raised(type(error).__name__[:100], message, frames[-12:])
-
-
-def global_names(code: types.CodeType) -> set[str]:
-    """The global names that a function reads, its inner functions' included."""
-    names = {each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"}
-    return names.union(
-        *(global_names(each) for each in code.co_consts if isinstance(each, types.CodeType))
-    )
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 It never imports the submission, and it ends whatever a child left behind.
 """
 
+import gc
 import os
 import signal
 import socket
@@ -24,6 +25,7 @@ decoder = msgspec.msgpack.Decoder(Open | End)
 def main(control_fd: int) -> None:
     control = Channel(socket.socket(fileno=control_fd))
     control.send(prepare_server())
+    gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
         while True:
             match decoder.decode(control.receive()):

@@ -15,7 +15,7 @@ def near_pairs(bodies: list[Body], awake: list[Body], margin: float) -> Iterator
     begins; the boxes that began before and have not ended are the only ones it can be near.
     """
     active: list[Interval] = []
-    for interval in sorted(intervals(bodies, awake, margin), key=itemgetter(0)):
+    for interval in sorted(intervals(bodies, awake, margin), key=itemgetter(0, 2)):
         low, _, side_low, side_high, a = interval
         active = [other for other in active if other[1] > low]
         for b in [b for _, _, start, end, b in active if start < side_high and end > side_low]:

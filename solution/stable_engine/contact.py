@@ -47,7 +47,7 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
     dx, dy = b.x - a.x, b.y - a.y
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
-        return dx / distance, dy / distance, distance - a.radius - b.radius
+        return dx / distance, dy / distance, distance - (a.radius + b.radius)
     turn = (7919 * a.id + b.id) * GOLDEN_ANGLE
     return cos(turn), sin(turn), -a.radius - b.radius
 

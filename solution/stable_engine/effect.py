@@ -8,7 +8,7 @@ from .validate import require
 
 if TYPE_CHECKING:
     from .body import Body
-    from .contacts import Contact
+    from .contact import Contact
     from .world import World
 
 

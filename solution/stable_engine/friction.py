@@ -35,7 +35,7 @@ class Friction(Effect):
 
     def strike(self, c: Contact, jn: float) -> None:
         a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-        slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * b.radius - a.w * a.radius
+        slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * b.radius + a.w * a.radius)
         limit = c.mu * jn
         jt = max(-limit, min(limit, -c.mt * slip))
         a.vx -= tx * jt * a.inv_mass
@@ -83,7 +83,7 @@ class Friction(Effect):
             limit = c.mu * c.jn
             before = c.jt
             if limit or before:
-                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra
+                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * rb + a.w * ra)
                 jt = before - mt * slip
                 if jt > limit:
                     jt = limit
@@ -101,7 +101,7 @@ class Friction(Effect):
             limit = c.mu * c.jn
             before = c.jt
             if limit or before:
-                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - b.w * rb - a.w * ra
+                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * rb + a.w * ra)
                 jt = before - mt * slip
                 if jt > limit:
                     jt = limit
