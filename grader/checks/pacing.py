@@ -37,16 +37,21 @@ class Pace:
         return sum(self.lengths)
 
     @property
+    def step(self) -> float:
+        """The time that a step simulates, ms; the longest where they differ."""
+        return 1000 * max(self.sizes, default=STEP)
+
+    @property
     def done(self) -> float:
         """The simulated time, ms."""
-        return sum(self.steps) * STEP_MS
+        return sum(self.steps) * self.step
 
     def out_of_step(self) -> int | None:
         """The first frame when more is simulated than has passed, or over a step less, or None."""
         done = list(accumulate(self.steps))
         ends = [0.0, *accumulate(self.lengths)]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
-            if not end_before - STEP_MS <= done[frame] * STEP_MS <= end + ROUNDING:
+            if not end_before - STEP_MS <= done[frame] * self.step <= end + ROUNDING:
                 return frame
         return None
 

@@ -126,7 +126,7 @@ class GradingPlugin:
         return self._result(todo, check, title, "passed")
 
     def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
-        pieces = self.reference.for_the_others(todo, self.rubric) if isolated else []
+        pieces = self.reference.for_the_others(todo, self.rubric, self.submission) if isolated else []
         lab = Lab(
             check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces
         )

@@ -3,14 +3,13 @@
 import ast
 import builtins
 import dis
-import textwrap
 from pathlib import Path
 from types import CodeType
 
 from grader.judge.rubric import Rubric, Todo
-from grader.judge.submission import CannotGrade, function_named
+from grader.judge.submission import CannotGrade, Submission, function_named, source_of
 from grader.protocol import Piece
-from grader.todo_regions import python_files, read_source
+from grader.todo_regions import python_files, read_source, shape_of
 
 
 class Reference:
@@ -18,6 +17,7 @@ class Reference:
 
     def __init__(self, folder: Path | None, rubric: Rubric) -> None:
         self.pieces: dict[str, Piece] = {}
+        self.shapes: dict[str, str] = {}
         if folder is None:
             return
         if not folder.is_dir():
@@ -25,15 +25,22 @@ class Reference:
         for todo in rubric.todos:
             if todo.function:
                 self.pieces[todo.id] = cut_out(folder, todo)
+                self.shapes[todo.id] = shape_of(self.pieces[todo.id].source)
 
-    def for_the_others(self, todo: Todo, rubric: Rubric) -> list[Piece]:
-        """The pieces of every other TODO of the same program; none for the whole."""
+    def for_the_others(self, todo: Todo, rubric: Rubric, submission: Submission) -> list[Piece]:
+        """The pieces of the program's other TODOs, where the submission's own differ from them.
+
+        None for the whole, which is the submission as it is.
+        """
         if not todo.function:
             return []
         return [
             self.pieces[other.id]
             for other in rubric.todos
-            if other.id in self.pieces and other.id != todo.id and other.module == todo.module
+            if other.id in self.pieces
+            and other.id != todo.id
+            and other.module == todo.module
+            and self.shapes[other.id] != submission.functions.get(other.id)
         ]
 
 
@@ -45,8 +52,7 @@ def cut_out(folder: Path, todo: Todo) -> Piece:
         text = read_source(file)
         found = function_named(text, path)
         if found is not None:
-            lines = text.splitlines()[found.lineno - 1 : found.end_lineno]
-            source = textwrap.dedent("\n".join(lines))
+            source = source_of(text, found)
             parameters = [each.arg for each in found.args.args]
             names = sorted(global_names(compile(source, str(file), "exec")))
             return Piece(todo.function, source, plain_imports(text), parameters, names)

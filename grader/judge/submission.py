@@ -5,8 +5,10 @@ import os
 import py_compile
 import shutil
 import stat
+import textwrap
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 from grader.judge.result import Where
@@ -30,6 +32,7 @@ class Submission:
     folder: Path
     begun: dict[str, bool] = field(default_factory=dict)
     where: dict[str, Where] = field(default_factory=dict)
+    functions: dict[str, str] = field(default_factory=dict)  # the shape of each TODO's function
     left_out: list[str] = field(default_factory=list)
 
 
@@ -101,31 +104,31 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             submission.where.setdefault(region.id, Where(file, region.start + 1))
             submission.begun[region.id] = region.shape != stubs.get(region.id)
     for todo in rubric.todos:
-        if todo.function and todo.id not in submission.begun:
-            look_for_function(submission, todo, stubs, sources)
+        if todo.function:
+            look_at_function(submission, todo, stubs, sources)
 
 
-def look_for_function(
+def look_at_function(
     submission: Submission, todo: Todo, stubs: dict[str, str], sources: dict[Path, str]
 ) -> None:
-    """For a submission without our markers: the function that the TODO is about."""
-    submission.begun[todo.id] = True
+    """What stands in the function that the TODO is about; it says enough where no marker does."""
     for path, text in sources.items():
-        found = function_named(text, todo.function.partition(":")[2])
         file = path.relative_to(submission.folder).as_posix()
-        if found is not None and file.split("/")[0].removesuffix(".py") == todo.module:
-            submission.where[todo.id] = Where(file, found.lineno)
-            source = ast.get_source_segment(text, found) or ""
-            submission.begun[todo.id] = shape_of(source) != stubs.get(f"def {todo.id}")
+        if file.split("/")[0].removesuffix(".py") != todo.module:
+            continue
+        found = function_named(text, todo.function.partition(":")[2])
+        if found is not None:
+            shape = shape_of(source_of(text, found))
+            submission.functions[todo.id] = shape
+            submission.where.setdefault(todo.id, Where(file, found.lineno))
+            submission.begun.setdefault(todo.id, shape != stubs.get(f"def {todo.id}"))
             return
+    submission.begun.setdefault(todo.id, True)
 
 
 def function_named(text: str, path: str) -> ast.FunctionDef | None:
     """The definition of `name` or `Class.name` in a source text."""
-    try:
-        body: list[ast.stmt] = ast.parse(text).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return None
+    body = statements(text)
     owner, _, name = path.rpartition(".")
     if owner:
         body = [
@@ -136,3 +139,18 @@ def function_named(text: str, path: str) -> ast.FunctionDef | None:
         ]
     found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
     return found[-1] if found else None
+
+
+@lru_cache(maxsize=512)
+def statements(text: str) -> list[ast.stmt]:
+    """The statements of a source text; none where it is no Python."""
+    try:
+        return ast.parse(text).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+
+
+def source_of(text: str, function: ast.FunctionDef) -> str:
+    """The lines of a function, moved to the left edge."""
+    lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
+    return textwrap.dedent("\n".join(lines))

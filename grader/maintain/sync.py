@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.judge.submission import function_named
+from grader.judge.submission import function_named, source_of
 from grader.todo_regions import python_files, regions_in, replaced
 
 SKIPPED = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache", ".mypy_cache", ".ruff_cache"}
@@ -78,6 +78,5 @@ def stub_sources(starter: Path) -> dict[str, str]:
         for name, todo in functions.items():
             found = function_named(text, name) if name and todo in ids else None
             if found is not None:
-                lines = text.splitlines()[found.lineno - 1 : found.end_lineno]
-                stubs[f"def {todo}"] = "\n".join(lines)
+                stubs[f"def {todo}"] = source_of(text, found)
     return dict(sorted(stubs.items()))

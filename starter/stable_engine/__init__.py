@@ -1,0 +1,37 @@
+"""A physics engine of rolling balls that stays stable. A scene declares its effects.
+
+Read in this order: shapes, body, effect, world, contacts, friction, bounce, then any other effect.
+"""
+
+from .body import Body
+from .bounce import Bounce
+from .bullets import Bullets
+from .contact import Contact
+from .contacts import Contacts
+from .damping import Damping
+from .effect import Effect
+from .friction import Friction
+from .rods import Rod, Rods
+from .shapes import Box, Circle
+from .sleep import Sleep
+from .springs import Spring, Springs
+from .world import World
+
+__all__ = [
+    "Body",
+    "Bounce",
+    "Box",
+    "Bullets",
+    "Circle",
+    "Contact",
+    "Contacts",
+    "Damping",
+    "Effect",
+    "Friction",
+    "Rod",
+    "Rods",
+    "Sleep",
+    "Spring",
+    "Springs",
+    "World",
+]

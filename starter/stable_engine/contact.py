@@ -1,0 +1,65 @@
+"""Where two bodies touch."""
+
+from dataclasses import dataclass
+from math import copysign, cos, sin, sqrt
+
+from pygame import Vector2
+
+from .body import Body
+
+GOLDEN_ANGLE = 2.399963  # rad
+
+
+@dataclass(slots=True, eq=False)
+class Contact:
+    """Two bodies that touch. It lives as long as they do so, step after step."""
+
+    a: Body  # always a ball with mass
+    b: Body
+    nx: float = 0.0  # unit normal from A to B
+    ny: float = 0.0
+    gap: float = 0.0  # px, negative when they overlap
+    jn: float = 0.0  # kg px/s, accumulated normal impulse, never negative
+    jt: float = 0.0  # kg px/s, accumulated friction impulse
+    mn: float = 0.0  # kg, effective mass along the normal
+    mt: float = 0.0  # kg, effective mass along the tangent, filled in by Friction
+    mu: float = 0.0  # friction of the pair, filled in by Friction
+    e: float = 0.0  # restitution of the pair, filled in by Bounce
+
+    @property
+    def normal(self) -> Vector2:
+        """The unit normal from A to B."""
+        return Vector2(self.nx, self.ny)
+
+    def closing_speed(self) -> float:
+        """How fast A and B come together, in px/s."""
+        a, b = self.a, self.b
+        return (a.vx - b.vx) * self.nx + (a.vy - b.vy) * self.ny
+
+
+def collide(a: Body, b: Body) -> tuple[float, float, float]:
+    """Unit normal from circle a to body b, in two numbers, and the gap between them in px."""
+    return circle_circle(a, b) if b.radius else circle_box(a, b)
+
+
+def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
+    """Two circles with the same centre part, each pair in a direction of its own."""
+    dx, dy = b.x - a.x, b.y - a.y
+    distance = sqrt(dx * dx + dy * dy)
+    if distance > 0:
+        return dx / distance, dy / distance, distance - (a.radius + b.radius)
+    turn = (7919 * a.id + b.id) * GOLDEN_ANGLE
+    return cos(turn), sin(turn), -a.radius - b.radius
+
+
+def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
+    """A circle with its centre inside the box leaves through the nearest face."""
+    x, y = a.x - b.x, a.y - b.y
+    dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
+    distance = sqrt(dx * dx + dy * dy)
+    if distance > 0:
+        return dx / distance, dy / distance, distance - a.radius
+    out_x, out_y = b.hx - abs(x), b.hy - abs(y)
+    if out_y <= out_x:
+        return 0.0, -copysign(1.0, y), -a.radius - out_y
+    return -copysign(1.0, x), 0.0, -a.radius - out_x

@@ -1,0 +1,26 @@
+"""Damping: whatever moves slows down."""
+
+from math import exp
+
+from .effect import Effect
+from .validate import not_negative
+
+
+class Damping(Effect):
+    """Each second a ball keeps the share exp(-rate) of its velocity and spin, whatever the step.
+
+    Rates are per second. Raises ValueError when one is negative, NaN or infinite.
+    """
+
+    rank = 0
+
+    def __init__(self, linear: float = 0.05, angular: float = 0.3) -> None:
+        self.linear = not_negative("Damping.linear", linear)  # 1/s
+        self.angular = not_negative("Damping.angular", angular)  # 1/s
+
+    def force(self, h: float) -> None:
+        keep_vel, keep_omega = exp(-self.linear * h), exp(-self.angular * h)
+        for body in self.world.awake:
+            body.vx *= keep_vel
+            body.vy *= keep_vel
+            body.w *= keep_omega

@@ -1,0 +1,72 @@
+"""What rods and springs have in common."""
+
+from math import hypot
+from typing import ClassVar, Generic, TypeVar
+
+from .body import Body
+from .effect import Effect
+from .validate import require
+
+
+class Joint:
+    """Something along the line between the centres of a and b. It turns neither.
+
+    Raises ValueError when a and b are the same body or both static.
+    """
+
+    __slots__ = ("a", "b", "distance", "dx", "dy", "length", "m", "nx", "ny")
+    effect: ClassVar[str]  # whose list it belongs to
+
+    def __init__(self, a: Body, b: Body) -> None:
+        name = f"{type(self).__name__}.b"
+        require(a is not b, name, f"the same body as a, at {a.pos}", "another body")
+        static = a.is_static and b.is_static
+        require(not static, name, f"static like a, at {b.pos}", "a body with mass")
+        self.a = a
+        self.b = b
+        self.m = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass
+        self.measure()
+        self.length = self.distance  # px, the one it wants
+
+    def measure(self) -> None:
+        """See where B is, from A."""
+        self.dx, self.dy = self.b.x - self.a.x, self.b.y - self.a.y  # px
+        self.distance = hypot(self.dx, self.dy)  # px
+        if self.distance > 0:
+            self.nx, self.ny = self.dx / self.distance, self.dy / self.distance
+        else:
+            self.nx, self.ny = 0.0, 1.0
+
+    def speed(self) -> float:
+        """How fast B moves away from A, in px/s."""
+        return (self.b.vx - self.a.vx) * self.nx + (self.b.vy - self.a.vy) * self.ny
+
+    def push(self, j: float) -> None:
+        """Push B away from A by impulse j (kg px/s), and A by the opposite."""
+        a, b = self.a, self.b
+        px, py = self.nx * j, self.ny * j
+        a.vx -= px * a.inv_mass
+        a.vy -= py * a.inv_mass
+        b.vx += px * b.inv_mass
+        b.vy += py * b.inv_mass
+
+
+AnyJoint = TypeVar("AnyJoint", bound=Joint)
+
+
+class Joints(Effect, Generic[AnyJoint]):
+    """An effect with a list of joints. Those of sleepers rest as well."""
+
+    def __init__(self) -> None:
+        self.joints: list[AnyJoint] = []
+        self.awake: list[AnyJoint] = []
+
+    def take(self, joint: AnyJoint) -> None:
+        self.joints.append(joint)
+        self.awake.append(joint)
+
+    def links(self) -> list[tuple[Body, Body]]:
+        return [(joint.a, joint.b) for joint in self.awake]
+
+    def rouse(self) -> None:
+        self.awake = [joint for joint in self.joints if not (joint.a.idle and joint.b.idle)]

@@ -1,0 +1,152 @@
+"""The world and its step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
+
+from .body import Body
+from .effect import Effect
+from .joint import Joint
+from .validate import pair, require
+
+Thing = TypeVar("Thing", bound=Body | Joint)
+
+
+class World:
+    """Bodies, and the effects that the scene declares. No other effect runs a line of code.
+
+    gravity in px/s². Each step is made of that many substeps. Raises ValueError when a value makes
+    no sense, or when an effect needs another one that is not declared.
+    """
+
+    def __init__(
+        self,
+        gravity: Iterable[float] = (0, 980),
+        substeps: int = 4,
+        effects: Iterable[Effect] = (),
+    ) -> None:
+        whole = isinstance(substeps, int) and substeps > 0
+        require(whole, "World.substeps", substeps, "a whole number above 0")
+        self.gravity = pair("World.gravity", gravity)
+        self.substeps = substeps
+        self.bodies: list[Body] = []
+        self.awake: list[Body] = []  # the balls that can move now
+        self.effects: dict[str, Effect] = {}
+        for effect in effects:
+            name = type(effect).__name__
+            require(isinstance(effect, Effect), "World.effects", effect, "a list of effects")
+            require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
+            self.effects[name] = effect
+        for effect in self.effects.values():
+            effect.join(self)
+
+        self.detect_hooks = self.hooks("detect")
+        self.impact_hooks = self.hooks("impact")
+        self.prepare_hooks = self.hooks("prepare")
+        self.force_hooks = self.hooks("force")
+        self.warm_start_hooks = self.hooks("warm_start")
+        self.solve_hooks = self.hooks("solve")
+        self.relax_hooks = self.hooks("relax")
+        self.finish_hooks = self.hooks("finish")
+
+    def hooks(self, name: str) -> list[Callable[..., Any]]:
+        """The hooks of this name that the scene's effects override, lowest rank first."""
+        effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
+        base = getattr(Effect, name)
+        return [getattr(e, name) for e in effects if getattr(type(e), name) is not base]
+
+    def need(self, name: str, user: object) -> Any:
+        """The effect of that name. Raises ValueError when the scene does not declare it."""
+        if name not in self.effects:
+            raise ValueError(
+                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
+                f"Declare it: World(effects=[..., {name}()])."
+            )
+        return self.effects[name]
+
+    def add(self, thing: Thing) -> Thing:
+        """Add a body, rod or spring and return it.
+
+        Raises ValueError when it is in a world already, when it ties bodies that are not in this
+        one, or when the scene does not declare the effect it needs.
+        """
+        if isinstance(thing, Body):
+            self.add_body(thing)
+        else:
+            self.add_joint(thing)
+        return thing
+
+    def add_body(self, body: Body) -> None:
+        found = f"in a world already, at {body.pos}"
+        require(body.id == 0, "World.add's body", found, "a new one")
+        if body.bullet:
+            self.need("Bullets", body).take(body)
+        self.bodies.append(body)
+        body.id = -len(self.bodies) if body.is_static else len(self.bodies)
+        if not body.is_static:
+            self.awake.append(body)
+
+    def add_joint(self, joint: Joint) -> None:
+        effect = self.need(joint.effect, joint)
+        name = f"World.add's {type(joint).__name__}"
+        require(joint not in effect.joints, name, "in this world already", "a new one")
+        for body in (joint.a, joint.b):
+            found = f"tied to a body at {body.pos} that is not in this world"
+            require(body in self.bodies, name, found, "tied to bodies added before")
+            body.wake()
+        effect.take(joint)
+
+    def step(self, dt: float) -> None:
+        """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
+        h = dt / self.substeps
+        require(0 < h < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
+        for body in self.awake:
+            body.check()
+        if not self.awake:
+            return
+
+        # 1 detect
+        for detect in self.detect_hooks:
+            detect(h)
+        for impact in self.impact_hooks:
+            impact(h)
+        for prepare in self.prepare_hooks:
+            prepare(h)
+
+        for _ in range(self.substeps):
+            # 2 forces
+            self.apply_gravity(h)
+            for force in self.force_hooks:
+                force(h)
+
+            # 3 solve
+            for warm_start in self.warm_start_hooks:
+                warm_start(h)
+            for solve in self.solve_hooks:
+                solve(h)
+
+            # 4 move
+            self.move(h)
+
+            # 5 relax
+            for relax in self.relax_hooks:
+                relax(h)
+
+        for finish in self.finish_hooks:
+            finish(h)
+
+    def apply_gravity(self, h: float) -> None:
+        """Let balls fall faster."""
+        gx, gy = self.gravity[0] * h, self.gravity[1] * h
+        for body in self.awake:
+            body.vx += gx
+            body.vy += gy
+
+    def move(self, h: float) -> None:
+        """Move and turn balls with their new velocities (semi-implicit Euler)."""
+        for body in self.awake:
+            body.x += body.vx * h
+            body.y += body.vy * h
+            body.angle += body.w * h
