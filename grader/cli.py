@@ -38,7 +38,7 @@ def grade_command(
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
     ] = None,
     jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
-    isolation: Annotated[Isolation, typer.Option(help="How much confinement to insist on.")] = "auto",
+    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
 ) -> None:
@@ -122,7 +122,7 @@ def own_tree(path: Path) -> Path:
 @app.command("hint")
 def hint_command(
     todo: Annotated[str, typer.Option(help="The TODO you are at.")],
-    level: Annotated[int, typer.Option(min=1, max=3, help="1 asks, 2 explains, 3 nearly tells.")] = 1,
+    level: Annotated[int, typer.Option(min=1, max=3, help="How much to tell.")] = 1,
 ) -> None:
     """Give a hint: first a question, then the idea, then nearly the code."""
     known_todos([todo])
@@ -179,5 +179,3 @@ def bench_command(
 
 def main() -> None:
     app(prog_name="grader")
-
-

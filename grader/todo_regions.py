@@ -75,9 +75,7 @@ def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
     lines = text.splitlines(keepends=True)
     for region in reversed(regions_in(text)):
         if region.id in contents:
-            lines[region.start + 1 : region.stop] = [
-                line + "\n" for line in contents[region.id]
-            ]
+            lines[region.start + 1 : region.stop] = [line + "\n" for line in contents[region.id]]
     return "".join(lines)
 
 

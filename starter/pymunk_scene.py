@@ -7,8 +7,9 @@ import random
 
 import pygame
 import pymunk
-from lab_runtime import frame_budget
 from pygame import Vector2
+
+from lab_runtime import frame_budget
 
 WIDTH, HEIGHT = 900, 600  # px
 STEP = 1 / 120  # s, one physics step

@@ -71,7 +71,8 @@ def one_long_step_or_many_short_ones_damp_alike(
             for share, wanted in zip(shares, right, strict=True)
         ),
         f"{say(right[0])} of the speed, {say(right[1])} of the spin, both times",
-        f"{say(once[0])} and {say(once[1])} in one step, {say(often[0])} and {say(often[1])} in many",
+        f"{say(once[0])} and {say(once[1])} in one step, "
+        f"{say(often[0])} and {say(often[1])} in many",
     )
 
 
@@ -105,4 +106,5 @@ def no_damping_loses_nothing(lab: Lab) -> None:
     """A rate of 0 loses nothing"""
     lab.ran("one ball, both dampings 0, for one second")
     speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120)
-    lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", f"{say(speed)}, {say(spin)}")
+    left = f"{say(speed)} and {say(spin)}"
+    lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)

@@ -47,18 +47,21 @@ def shipped_reference() -> Path | None:
     return folder if (folder / "mini_engine").is_dir() else None
 
 
-def grade(path: Path, options: Options) -> Result:
-    """Grade the submission at `path`; raises CannotGrade when there is nothing to grade."""
+def grade(path: Path, options: Options, worker: WarmWorker | SpawnWorker | None = None) -> Result:
+    """Grade the submission at `path`; raises CannotGrade when there is nothing to grade.
+
+    A `worker` that is handed in serves more than one grade and stays open.
+    """
     rubric = load_rubric()
     reference = Reference(options.reference, rubric)
     with work_folder() as work:
         submission = take_in(path, work / "submission", rubric, load_stubs())
-        worker = start_worker(options.spawn)
+        ours = worker or start_worker(options.spawn)
         try:
-            grading = Grading(options, rubric, reference, submission, worker, work)
-            return grading.run()
+            return Grading(options, rubric, reference, submission, ours, work).run()
         finally:
-            worker.close()
+            if worker is None:
+                ours.close()
 
 
 def load_stubs() -> dict[str, str]:
@@ -139,7 +142,10 @@ class Grading:
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""
         modules = dict.fromkeys(
-            check.module or todo.module for todo in self.rubric.todos for check in todo.checks
+            check.module or todo.module
+            for todo in self.rubric.todos
+            for check in todo.checks
+            if not self.options.only or todo.id in self.options.only
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:

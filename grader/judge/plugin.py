@@ -126,10 +126,9 @@ class GradingPlugin:
         return self._result(todo, check, title, "passed")
 
     def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
-        pieces = self.reference.for_the_others(todo, self.rubric, self.submission) if isolated else []
-        lab = Lab(
-            check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces
-        )
+        others = self.reference.for_the_others(todo, self.rubric, self.submission)
+        pieces = others if isolated else []
+        lab = Lab(check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces)
         with lab.opened():
             try:
                 function = hypothesis.seed(self.seed)(function) if self.seed else function

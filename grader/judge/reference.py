@@ -7,7 +7,7 @@ from pathlib import Path
 from types import CodeType
 
 from grader.judge.rubric import Rubric, Todo
-from grader.judge.submission import CannotGrade, Submission, function_named, source_of
+from grader.judge.submission import CannotGrade, Submission, function_named, source_of, statements
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
 
@@ -50,7 +50,7 @@ def cut_out(folder: Path, todo: Todo) -> Piece:
         if file.relative_to(folder).parts[0].removesuffix(".py") != todo.module:
             continue
         text = read_source(file)
-        found = function_named(text, path)
+        found = function_named(statements(text), path)
         if found is not None:
             source = source_of(text, found)
             parameters = [each.arg for each in found.args.args]

@@ -8,7 +8,6 @@ import stat
 import textwrap
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
 
 from grader.judge.result import Where
@@ -103,20 +102,25 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         for region in regions:
             submission.where.setdefault(region.id, Where(file, region.start + 1))
             submission.begun[region.id] = region.shape != stubs.get(region.id)
+    trees = {path: statements(text) for path, text in sources.items()}
     for todo in rubric.todos:
         if todo.function:
-            look_at_function(submission, todo, stubs, sources)
+            look_at_function(submission, todo, stubs, sources, trees)
 
 
 def look_at_function(
-    submission: Submission, todo: Todo, stubs: dict[str, str], sources: dict[Path, str]
+    submission: Submission,
+    todo: Todo,
+    stubs: dict[str, str],
+    sources: dict[Path, str],
+    trees: dict[Path, list[ast.stmt]],
 ) -> None:
     """What stands in the function that the TODO is about; it says enough where no marker does."""
     for path, text in sources.items():
         file = path.relative_to(submission.folder).as_posix()
         if file.split("/")[0].removesuffix(".py") != todo.module:
             continue
-        found = function_named(text, todo.function.partition(":")[2])
+        found = function_named(trees[path], todo.function.partition(":")[2])
         if found is not None:
             shape = shape_of(source_of(text, found))
             submission.functions[todo.id] = shape
@@ -126,9 +130,8 @@ def look_at_function(
     submission.begun.setdefault(todo.id, True)
 
 
-def function_named(text: str, path: str) -> ast.FunctionDef | None:
-    """The definition of `name` or `Class.name` in a source text."""
-    body = statements(text)
+def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
+    """The definition of `name` or `Class.name` among the statements of a file."""
     owner, _, name = path.rpartition(".")
     if owner:
         body = [
@@ -141,7 +144,6 @@ def function_named(text: str, path: str) -> ast.FunctionDef | None:
     return found[-1] if found else None
 
 
-@lru_cache(maxsize=512)
 def statements(text: str) -> list[ast.stmt]:
     """The statements of a source text; none where it is no Python."""
     try:

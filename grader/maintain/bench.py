@@ -132,10 +132,17 @@ def bench(rounds: int, console: Console) -> None:
         walled.append(run_once(True))
         plain.append(run_once(False))
     best, open_best = (min(each, key=lambda times: times.total) for each in (walled, plain))
-    table = Table("one full grade of the solution", "s", "ratio", title=f"one core, best of {rounds} rounds")
-    table.add_row("with processes, pipe and limits", f"{best.total:.2f}",
-                  f"{best.total / open_best.total:.2f}")
+    table = Table("one full grade of the solution", "s", "ratio")
+    table.title = f"one core, best of {rounds} rounds"
+    table.add_row(
+        "with processes, pipe and limits",
+        f"{best.total:.2f}",
+        f"{best.total / open_best.total:.2f}",
+    )
     table.add_row("the same checks in one process", f"{open_best.total:.2f}", "1.00")
-    table.add_row("of that, the simulation alone", f"{open_best.simulating:.2f}",
-                  f"{open_best.simulating / open_best.total:.2f}")
+    table.add_row(
+        "of that, the simulation alone",
+        f"{open_best.simulating:.2f}",
+        f"{open_best.simulating / open_best.total:.2f}",
+    )
     console.print(table)

@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.judge.submission import function_named, source_of
+from grader.judge.submission import function_named, source_of, statements
 from grader.todo_regions import python_files, regions_in, replaced
 
 SKIPPED = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache", ".mypy_cache", ".ruff_cache"}
@@ -71,12 +71,12 @@ def stub_sources(starter: Path) -> dict[str, str]:
     functions = {todo.function.partition(":")[2]: todo.id for todo in load_rubric().todos}
     for path in python_files(starter):
         text = path.read_text(encoding="utf-8")
-        ids = set()
+        body, ids = statements(text), set()
         for region in regions_in(text):
             stubs[region.id] = "\n".join(region.lines)
             ids.add(region.id)
         for name, todo in functions.items():
-            found = function_named(text, name) if name and todo in ids else None
+            found = function_named(body, name) if name and todo in ids else None
             if found is not None:
                 stubs[f"def {todo}"] = source_of(text, found)
     return dict(sorted(stubs.items()))

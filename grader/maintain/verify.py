@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
+from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from grader.judge.children import SpawnWorker, WarmWorker, start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -88,12 +90,19 @@ def grade_member(member: Member) -> Verdict:
         member.build(KIT, submission)
         start = time.monotonic()
         try:
-            result = grade(submission, Options(shipped_reference(), only=member.judged_by))
+            options = Options(shipped_reference(), only=member.judged_by)
+            result = grade(submission, options, shared_worker())
         except Exception as error:  # a judge that falls over is the worst verdict of all
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
         return Verdict(member, result, seconds, member.complaint(result, seconds))
+
+
+@cache
+def shared_worker() -> WarmWorker | SpawnWorker:
+    """One for all members that this process grades; it ends when this process does."""
+    return start_worker()
 
 
 def show(report: Report, console: Console) -> None:

@@ -18,7 +18,6 @@ from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve
 from grader.worker.confinement import prepare_server, readable
 
-
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 

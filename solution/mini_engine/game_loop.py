@@ -3,8 +3,9 @@
 import random
 
 import pygame
-from lab_runtime import frame_budget
 from pygame import Vector2
+
+from lab_runtime import frame_budget
 
 from .constants import HEIGHT, MAX_BALLS, MAX_STEPS, STEP, WIDTH
 from .scenes import ball, make_world

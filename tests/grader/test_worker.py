@@ -23,7 +23,7 @@ from grader.protocol import (
     Vec,
 )
 
-MODULE = '''
+MODULE = """
 import os, select, socket, sys, threading, time
 def environment(): return ",".join(sorted(os.environ))
 def folder(): return os.getcwd() + " " + ",".join(os.listdir("."))
@@ -66,7 +66,7 @@ def deep():
     for _ in range(5000): x = [x]
     return x
 def clock(): return (time.time(), time.perf_counter())
-'''
+"""
 
 
 class Asker:

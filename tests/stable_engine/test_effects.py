@@ -1,0 +1,212 @@
+"""A scene pays only for the effects it declares. Proofs by tracing, none by timing."""
+
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from measures import run, state, watch
+from opcodes import count_opcodes, files_run
+from scenes import (
+    DT,
+    EFFECTS,
+    NEED_CONTACTS,
+    Scene,
+    all_but,
+    build,
+    build_playground,
+    flying,
+    lying,
+)
+
+import stable_engine
+from stable_engine import Body, Circle, Contacts, Rod, Sleep, Spring, World
+
+HERE = Path(__file__).parent
+FILES = {name: {f"{name.lower()}.py"} for name in EFFECTS}
+FILES["Contacts"] |= {"contact.py", "broad_phase.py"}
+
+
+def make(names):
+    return [getattr(stable_engine, name)() for name in names]
+
+
+# ---------------------------------------------------------------- undeclared
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_the_playground_uses_every_effect_it_declares(effect):
+    world = build_playground(EFFECTS)
+    assert files_run(lambda: run(world, 0.5)) >= FILES[effect]
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_no_function_of_an_undeclared_effect_runs(effect):
+    files = files_run(lambda: run(build_playground(all_but(effect)), 0.5))
+    assert "world.py" in files
+    assert not files & FILES[effect]
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_an_undeclared_effect_may_be_broken(effect, monkeypatch):
+    intact = build_playground(all_but(effect))
+    run(intact, 0.5)
+    break_module(getattr(stable_engine, effect).__module__, monkeypatch)
+    with pytest.raises(BrokenError):
+        run(build_playground(EFFECTS), 0.5)
+    world = build_playground(all_but(effect))
+    run(world, 0.5)
+    assert state(world) == state(intact)
+
+
+class BrokenError(Exception):
+    """A function ran that must not."""
+
+
+def break_module(name, monkeypatch):
+    """Make every function and method of a module raise."""
+
+    def broken(*_):
+        raise BrokenError
+
+    module = sys.modules[name]
+    own = [thing for thing in vars(module).values() if getattr(thing, "__module__", "") == name]
+    for home in [module, *filter(inspect.isclass, own)]:
+        for key, value in list(vars(home).items()):
+            if inspect.isfunction(value) and value.__module__ == name:
+                monkeypatch.setattr(home, key, broken)
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_an_undeclared_effect_may_be_missing_and_costs_no_opcode(effect):
+    available, unavailable = opcodes_without(effect), opcodes_without(effect, "unavailable")
+    assert available == unavailable > 10_000
+
+
+def opcodes_without(*arguments):
+    """What opcodes.py prints, in a Python of its own."""
+    path = os.pathsep.join([str(HERE), str(Path(stable_engine.__file__).parents[1])])
+    program = [sys.executable, str(HERE / "opcodes.py"), *arguments]
+    env = os.environ | {"PYTHONPATH": path}
+    return int(subprocess.run(program, env=env, check=True, capture_output=True).stdout)
+
+
+# ---------------------------------------------------------------- declared
+
+
+@pytest.mark.parametrize("effect", ["Springs", "Rods", "Friction", "Bounce", "Bullets"])
+def test_a_declared_effect_without_users_costs_a_constant(effect):
+    few, many = (price_of(effect, flying(count)) for count in (10, 100))
+    assert few == many < 600
+
+
+def price_of(effect, scene):
+    """How many opcodes more a step costs when the effect is declared."""
+    base = ["Contacts"]
+    with_it = build(scene, make([*base, effect]))
+    without = build(scene, make(base))
+    return opcodes_of_a_step(with_it) - opcodes_of_a_step(without)
+
+
+def opcodes_of_a_step(world, files=None):
+    """What the second of two steps costs in these files, or in all."""
+    world.step(DT)
+    counts = count_opcodes(lambda: world.step(DT))
+    return sum(counts[name] for name in files or counts)
+
+
+def rods(count, others):
+    scene = flying(2 * count + others)
+    scene.rods = [(2 * i, 2 * i + 1) for i in range(count)]
+    return scene
+
+
+def springs(count, others):
+    scene = flying(2 * count + others)
+    scene.springs = [(2 * i, 2 * i + 1, 10.0) for i in range(count)]
+    return scene
+
+
+def bullets(count, others):
+    return flying(count + others, bullets=count)
+
+
+@pytest.mark.parametrize(
+    ("scene", "effects", "files"),
+    [
+        (rods, ["Rods"], {"rods.py", "joint.py"}),
+        (springs, ["Springs"], {"springs.py", "joint.py"}),
+        (bullets, ["Contacts", "Bullets"], {"bullets.py"}),
+        (lying, ["Contacts", "Friction"], {"friction.py"}),
+        (lying, ["Contacts", "Bounce"], {"bounce.py"}),
+    ],
+    ids=["Rods", "Springs", "Bullets", "Friction", "Bounce"],
+)
+def test_an_effect_costs_in_proportion_to_its_users_alone(scene, effects, files):
+    def price(users, others):
+        return opcodes_of_a_step(build(scene(users, others), make(effects)), files)
+
+    assert price(5, 0) == price(5, 50), "bodies that do not use it cost something"
+    assert price(15, 0) - price(10, 0) == price(10, 0) - price(5, 0) > 0
+
+
+@pytest.mark.parametrize("effects", [["Contacts", "Friction", "Sleep"], ["Damping", "Sleep"]])
+def test_the_sleeping_cost_nothing(effects):
+    prices = []
+    for count in (5, 50):
+        scene = lying(count, still=0)
+        scene.gravity = scene.gravity if "Contacts" in effects else (0, 0)
+        world = build(scene, make(effects))
+        run(world, 2)
+        assert all(body.asleep for body in world.bodies[1:])
+        prices.append(opcodes_of_a_step(world))
+    assert prices[0] == prices[1] < 100
+
+
+# ---------------------------------------------------------------- what needs what
+
+
+def test_a_rod_or_spring_without_its_effect_is_an_error():
+    for effect, joint in (("Rods", Rod), ("Springs", lambda a, b: Spring(a, b, 1.0))):
+        world = World()
+        a, b = (world.add(Body(Circle(1), (x, 0), 1.0)) for x in (0, 9))
+        with pytest.raises(ValueError, match=rf"needs {effect}\(\).*World\(effects="):
+            world.add(joint(a, b))
+
+
+def test_a_bullet_without_its_effect_is_an_error():
+    world = World(effects=[Contacts()])
+    with pytest.raises(ValueError, match=r"needs Bullets\(\).*World\(effects="):
+        world.add(Body(Circle(1), (0, 0), 1.0, bullet=True))
+    assert world.bodies == []
+
+
+@pytest.mark.parametrize("effect", NEED_CONTACTS)
+def test_an_effect_on_contacts_without_contacts_is_an_error(effect):
+    with pytest.raises(ValueError, match=rf"{effect} needs Contacts\(\)"):
+        World(effects=make([effect]))
+
+
+def test_effects_may_be_declared_in_any_order():
+    there, back = build_playground(EFFECTS), build_playground(EFFECTS[::-1])
+    run(there, 1)
+    run(back, 1)
+    assert state(there) == state(back)
+
+
+def test_a_scene_without_effects_falls_freely():
+    world = build(Scene(flying(1).bodies), [])
+    ball = world.bodies[0]
+    steps = watch(world, 1, lambda: ball.y)
+    count = len(steps) * world.substeps
+    h = DT / world.substeps
+    assert ball.y == pytest.approx(980 * h * h * count * (count + 1) / 2, rel=1e-12)
+
+
+def test_sleep_works_without_contacts():
+    world = World(gravity=(0, 0), effects=[Sleep()])
+    ball = world.add(Body(Circle(1), (0, 0), 1.0))
+    run(world, 1)
+    assert ball.asleep

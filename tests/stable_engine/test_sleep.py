@@ -1,0 +1,87 @@
+"""When islands fall asleep, and what wakes them."""
+
+import pytest
+from measures import balls, deepest_overlap, run, top_speed, watch
+from scenes import DT, Ball, Scene, build, chain, floor, oscillator, pile, tower
+
+from stable_engine import Body, Bounce, Circle, Contacts, Friction, Rod, Rods, Sleep, Springs
+
+
+def effects():
+    return [Contacts(), Friction(), Bounce(), Sleep()]
+
+
+def asleep(world, most=10):
+    """Step until all are asleep, for so many seconds at most."""
+    for _ in range(round(most / DT)):
+        if not world.awake:
+            break
+        world.step(DT)
+    assert all(ball.asleep for ball in balls(world))
+    return world
+
+
+def test_a_tower_falls_asleep_and_wakes_calmly():
+    world = asleep(build(tower(20), effects()))
+    before = [ball.y for ball in balls(world)]
+    run(world, 1)
+    assert [ball.y for ball in balls(world)] == before
+    balls(world)[7].wake()
+    assert len(world.awake) == 20
+    assert max(watch(world, 1, lambda: top_speed(world))) < 1
+    assert [ball.y for ball in balls(world)] == pytest.approx(before, abs=0.01)
+
+
+def test_a_falling_ball_wakes_the_pile_it_hits():
+    world = asleep(build(pile(60, 150), effects()))
+    ball = world.add(Body(Circle(10), (0, -600), 1.0))
+    highest = min(other.y - other.radius for other in balls(world)[:-1])
+    while ball.y + ball.radius < highest:
+        assert world.awake == [ball]
+        world.step(DT)
+    run(world, 0.5)
+    assert len(world.awake) > 1
+    asleep(world)
+    assert deepest_overlap(world) < 0.5
+
+
+def test_a_ball_far_away_sleeps_on():
+    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((200, -10))]), effects()))
+    near, far = balls(world)
+    world.add(Body(Circle(10), (0, -60), 1.0))
+    run(world, 0.5)
+    assert not near.asleep
+    assert far.asleep
+
+
+@pytest.mark.parametrize(
+    ("field", "value"), [("pos", (0.0, -10.5)), ("vel", (1.0, 0.0)), ("omega", 5.0)]
+)
+def test_setting_a_ball_wakes_its_island(field, value):
+    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), effects()))
+    lower, upper = balls(world)
+    setattr(lower, field, value)
+    assert not lower.asleep
+    assert not upper.asleep
+
+
+def test_joints_sleep_with_their_bodies_and_wake_them():
+    for scene, effect in ((chain(5, (0, 20)), Rods()), (oscillator(10.0), Springs())):
+        world = asleep(build(scene, [effect, Sleep()]))
+        assert effect.awake == []
+        balls(world)[-1].vel = (50, 0)
+        assert world.awake == balls(world)
+        assert effect.awake == effect.joints
+
+
+def test_a_new_rod_wakes_its_bodies():
+    scene = Scene([floor(), Ball((0, -10)), Ball((100, -10))])
+    world = asleep(build(scene, [*effects(), Rods()]))
+    world.add(Rod(*balls(world)))
+    assert len(world.awake) == 2
+
+
+def test_a_swinging_pendulum_does_not_fall_asleep():
+    scene = chain(1, (100, 0))
+    world = build(scene, [Rods(), Sleep()])
+    assert all(watch(world, 10, lambda: bool(world.awake)))
