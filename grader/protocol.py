@@ -315,6 +315,8 @@ class ChildSetup(Struct, frozen=True):
     limits: Limits
     confine: bool
     hidden: list[str]  # folders that must be out of reach
+    bytecode: str  # a folder for compiled files
+    compiles: bool  # whether this child fills that folder; the others only read it
 
 
 class Ready(Struct, frozen=True):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 MAX_SOURCE = 1024 * 1024  # bytes; no lesson file comes near it
-START = re.compile(r"^(?P<indent>[ \t]*)# TODO (?P<id>[0-9]+[a-d]?|B[0-9]): (?P<task>.+?)\s*$")
-END = re.compile(r"^[ \t]*# END TODO (?P<id>[0-9]+[a-d]?|B[0-9])\s*$")
+START = re.compile(r"^(?P<indent>[ \t]*)# TODO (?P<id>[0-9]+[a-d]?|B[0-9]): (?P<task>\S.*)$")
+END = re.compile(r"^[ \t]*# END TODO (?P<id>[0-9]+[a-d]?|B[0-9])\s{0,80}$")
 
 
 class RegionError(ValueError):
@@ -58,7 +58,11 @@ def regions_in(text: str) -> list[Region]:
                 raise RegionError(f"line {number + 1}: nothing was opened for: {line.strip()}")
             found.append(
                 Region(
-                    end["id"], opened["task"], open_at, number, tuple(lines[open_at + 1 : number])
+                    end["id"],
+                    opened["task"].rstrip(),
+                    open_at,
+                    number,
+                    tuple(lines[open_at + 1 : number]),
                 )
             )
             open_at = None

@@ -46,6 +46,11 @@ class Pace:
         """The simulated time, ms."""
         return sum(self.steps) * self.step
 
+    @property
+    def slack(self) -> float:
+        """How much a program that is a frame behind may not have seen yet, ms."""
+        return sum(self.lengths[-len(SETTLE) :])
+
     def out_of_step(self) -> int | None:
         """The first frame when more is simulated than has passed, or over a step less, or None."""
         done = list(accumulate(self.steps))

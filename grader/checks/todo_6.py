@@ -7,7 +7,6 @@ from hypothesis import given
 
 from grader.checks.pacing import (
     MAX_STEPS,
-    SETTLE,
     STEP_MS,
     Pace,
     frames_at,
@@ -30,7 +29,7 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     paces = {rate: pace(lab, frames_at(rate, 0.3)) for rate in (30, 60, 144)}
     # Up to one step, and up to what a program has not seen yet that is a frame behind.
     lab.want(
-        all(-STEP_MS <= each.time - each.done <= STEP_MS + sum(SETTLE) for each in paces.values()),
+        all(-STEP_MS <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
         ", ".join(f"{each.time / 1000:.3f} s at {rate}" for rate, each in paces.items()),
         ", ".join(f"{each.done / 1000:.3f} s at {rate}" for rate, each in paces.items()),
     )
@@ -107,7 +106,7 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(lab: Lab, frames: list[int]) -
     slow = sum(length > most - STEP_MS for length in paced.lengths)  # may lose a remainder as well
     lab.want(
         max(paced.steps) <= MAX_STEPS
-        and -STEP_MS <= cut - paced.done <= (1 + slow) * STEP_MS + sum(SETTLE),
+        and -STEP_MS <= cut - paced.done <= (1 + slow) * STEP_MS + paced.slack,
         f"{cut / STEP_MS:.0f} steps or up to {1 + slow} less, and {MAX_STEPS} a frame at the most",
         f"{sum(paced.steps)} steps, and up to {max(paced.steps)} a frame",
     )

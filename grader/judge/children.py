@@ -76,7 +76,7 @@ class Child:
             self._give_up(str(error) or "it did not answer in time", gone=False)
         except ChannelClosed:
             self._give_up("", gone=True)
-        except (ProtocolError, msgspec.DecodeError) as error:
+        except (ProtocolError, msgspec.DecodeError, RecursionError) as error:
             self._give_up(f"what it sent is not an answer ({error})", gone=False)
         else:
             return answered
@@ -104,12 +104,15 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
 
+IDLE = {psutil.STATUS_SLEEPING, psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
+
+
 def activity(pid: int) -> tuple[bool, float]:
     """Whether the process sleeps, and the processor time it has used, s."""
     try:
         process = psutil.Process(pid)
         times = process.cpu_times()
-        return process.status() == psutil.STATUS_SLEEPING, times.user + times.system
+        return process.status() in IDLE, times.user + times.system
     except psutil.Error:
         return False, 0.0
 

@@ -20,7 +20,7 @@ from grader.judge.lab import Broke, Lab, NotYet
 from grader.judge.plugin import GradingPlugin
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
-from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.submission import CannotGrade, Submission, take_in
 from grader.protocol import ChildSetup, Limits
 from grader.todo_regions import shape_of
@@ -110,8 +110,10 @@ class Grading:
 
     # ------------------------------------------------------------ children
 
-    def open_child(self, cpu_seconds: int) -> Child:
+    def open_child(self, cpu_seconds: int, compiles: bool = False) -> Child:
         scratch = Path(tempfile.mkdtemp(dir=self.work))
+        bytecode = self.work / "bytecode"
+        bytecode.mkdir(exist_ok=True)
         return self.worker.open(
             ChildSetup(
                 submission=str(self.submission.folder),
@@ -119,6 +121,8 @@ class Grading:
                 limits=Limits(cpu_seconds=cpu_seconds),
                 confine=self.options.isolation != "none",
                 hidden=[str(KIT / "grader"), str(self.options.reference or KIT / "solution")],
+                bytecode=str(bytecode),
+                compiles=compiles,
             )
         )
 
@@ -149,7 +153,7 @@ class Grading:
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:
-            lab = Lab(module, lambda: self.open_child(10), [])
+            lab = Lab(module, lambda: self.open_child(10, compiles=True), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:
@@ -165,7 +169,7 @@ class Grading:
         for todo in self.rubric.todos:
             if not plugin.wanted(todo):
                 continue
-            checks = [plugin.results[todo.id, check.id] for check in todo.checks]
+            checks = count_guards(todo, [plugin.results[todo.id, c.id] for c in todo.checks])
             mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
             failed = any(check.state == "not yet" for check in checks)
             if mistake is not None and failed:
@@ -190,6 +194,21 @@ class Grading:
             isolation=layers,
             todos=todos,
         )
+
+
+def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
+    """A check that a stub passes as well earns nothing alone: another one must pass, too."""
+    guards = {check.id for check in todo.checks if check.guard}
+    if any(check.state == "passed" and check.id not in guards for check in checks):
+        return checks
+    return [
+        msgspec.structs.replace(
+            check, state="waiting", points=0, got="waiting for another check of this TODO to pass"
+        )
+        if check.state == "passed"
+        else check
+        for check in checks
+    ]
 
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:

@@ -54,6 +54,7 @@ class NotYet(Exception):
     def __init__(self, ran: str, expected: str, got: str, meaning: str = "") -> None:
         super().__init__(got)
         self.ran, self.expected, self.got, self.meaning = ran, expected, got, meaning
+        self.quotes = False  # whether it repeats words of the submission
 
 
 class Broke(Exception):
@@ -62,6 +63,7 @@ class Broke(Exception):
     def __init__(self, ran: str, got: str, raised: Raised | None = None) -> None:
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
+        self.quotes = raised is not None
 
 
 @dataclass(frozen=True)
@@ -174,9 +176,11 @@ class Lab:
             case None:
                 return "None (is there a return missing?)"
             case Ref(kind=kind):
-                return f"an object of type {kind}"
+                return "an object" if self.pieces else f"an object of type {kind}"
             case Items():
                 return f"a list of {len(value.items)}"
+            case str() if self.pieces:
+                return "a text"
             case bool() | int() | float() | str():
                 return f"{value!r}"[:200]
             case Vec(x, y):
@@ -353,7 +357,9 @@ class Lab:
                 text = f"{raised.error}: {raised.message}"
                 raise self._remember(Broke(self.running, text, raised))
             case Missing(what):
-                self.fail("the names and types of the lesson", what)
+                missing = NotYet(self.running, "the names and types of the lesson", what)
+                missing.quotes = True
+                raise self._remember(missing)
         return answered.reply
 
     def _stop(self, why: str) -> NoReturn:

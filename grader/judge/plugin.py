@@ -119,7 +119,8 @@ class GradingPlugin:
         lab = self._attempt(todo, check, function, isolated=True)
         if lab.failure is not None and lab.swapped and not lab.ended:
             as_it_is = self._attempt(todo, check, function, isolated=False)
-            lab = as_it_is if as_it_is.failure is None else lab
+            if as_it_is.failure is None or lab.failure.quotes:
+                lab = as_it_is
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if lab.failure is not None:
             return self._failure(todo, check, title, lab.failure)
@@ -135,8 +136,8 @@ class GradingPlugin:
                 function(lab=lab)
             except (NotYet, Broke) as failure:
                 lab.failure = failure
-            except hypothesis.errors.Flaky:
-                pass  # the lab kept the first failure
+            except hypothesis.errors.Flaky:  # the lab kept the first failure, if it saw one
+                lab.failure = lab.failure or Broke(lab.running, "another answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")

@@ -16,6 +16,7 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     points: int
     kind: Kind
     module: str = ""  # what it imports, where that is not the TODO's module
+    guard: bool = False  # also a stub may pass it: counts once another check of the TODO passes
     needs: list[str] = []  # TODOs this check cannot do without
     cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
 

@@ -2,11 +2,10 @@
 
 import ast
 import os
-import py_compile
 import shutil
 import stat
 import textwrap
-from contextlib import suppress
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -46,48 +45,43 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
     else:
         copy_tree(path, submission)
     find_todos(submission, rubric, stubs)
-    compile_files(copy)
     for each in [copy, *copy.rglob("*")]:
         mode = stat.S_IRUSR | stat.S_IRGRP | stat.S_IROTH
         each.chmod(mode | (stat.S_IXUSR if each.is_dir() else 0))
     return submission
 
 
-def compile_files(folder: Path) -> None:
-    """Compile once what every child will import; a file that does not compile says so there."""
-    for path in python_files(folder):
-        with suppress(Exception):
-            py_compile.compile(
-                str(path),
-                doraise=True,
-                quiet=2,
-                invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH,
-            )
-
-
 def copy_tree(path: Path, submission: Submission) -> None:
-    """Plain files only: no links, nothing hidden, and no more than the bounds."""
+    """Plain files only, Python's first: no links, nothing hidden, and no more than the bounds."""
     files = size = 0
+    for source in sorted(plain_files(path), key=lambda each: (each.suffix != ".py", each)):
+        inside = source.relative_to(path)
+        length = source.stat().st_size
+        if files + 1 > MAX_FILES or size + length > MAX_BYTES:
+            submission.left_out.append(f"{inside.as_posix()}: too much")
+            continue
+        files, size = files + 1, size + length
+        target = submission.folder / inside
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
+
+
+def plain_files(path: Path) -> Iterator[Path]:
+    """What may be part of a submission: no virtual environment, no name that is no text."""
     for folder, folders, names in os.walk(path):
         here = Path(folder)
-        folders[:] = sorted(
+        folders[:] = [
             name
             for name in folders
-            if name not in IGNORED and not name.startswith(".") and not (here / name).is_symlink()
-        )
-        for name in sorted(names):
+            if name not in IGNORED
+            and not name.startswith(".")
+            and not (here / name).is_symlink()
+            and not (here / name / "pyvenv.cfg").exists()
+        ]
+        for name in names:
             source = here / name
-            inside = source.relative_to(path)
-            if source.is_symlink() or not source.is_file():
-                submission.left_out.append(f"{inside.as_posix()}: a link or no plain file")
-                continue
-            files, size = files + 1, size + source.stat().st_size
-            if files > MAX_FILES or size > MAX_BYTES:
-                submission.left_out.append(f"{inside.as_posix()} and what follows: too much")
-                return
-            target = submission.folder / inside
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
+            if name.isprintable() and source.is_file() and not source.is_symlink():
+                yield source
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:

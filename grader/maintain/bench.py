@@ -85,12 +85,14 @@ def forget_modules(folder: str) -> None:
 @contextmanager
 def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
     """The scripted clock for as long as the submission's code runs."""
+    import datetime
     import time
 
     import pygame
 
     before: list[tuple[Any, dict[str, Any]]] = [
-        (module, dict(vars(module))) for module in (time, pygame, pygame.time, pygame.display)
+        (module, dict(vars(module)))
+        for module in (datetime, time, pygame, pygame.time, pygame.display)
     ]
     clock.install()
     try:

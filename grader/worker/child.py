@@ -2,10 +2,12 @@
 
 import contextlib
 import os
+import sys
 import tempfile
 from pathlib import Path
 
 import msgspec
+import pygame.sysfont
 
 from grader.protocol import (
     Answered,
@@ -40,6 +42,8 @@ decoder = msgspec.msgpack.Decoder(Asked)
 def serve(channel: Channel, setup: ChildSetup) -> None:
     """Answer until the judge closes the channel. Whatever the submission raises is an answer."""
     tidy_environment(setup.scratch)
+    sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
+    pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
     channel.send(Ready(os.getpid(), confine(setup)))
     output, clock = Output(), ScriptedClock()
     output.install()

@@ -48,7 +48,7 @@ def prepare_server() -> list[str]:
         return []
     libc = ctypes.CDLL(None, use_errno=True)
     libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-    if libc.unshare(CLONE_NEWNET) == 0 or libc.unshare(CLONE_NEWUSER | CLONE_NEWNET) == 0:
+    if libc.unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
         return ["network-namespace"]
     return []
 
@@ -64,10 +64,29 @@ def confine(setup: ChildSetup) -> list[str]:
         layers.append("process-group")
     layers += limit(setup.limits)
     if sys.platform.startswith("linux"):
-        if ctypes.CDLL(None).unshare(CLONE_NEWIPC) == 0:  # no memory shared with another child
-            layers.append("ipc-namespace")
-        layers += landlock(Path(setup.submission), Path(setup.scratch), setup.hidden)
+        layers += leave_shared_memory()
+        layers += landlock(setup)
     return layers
+
+
+def leave_shared_memory() -> list[str]:
+    """A namespace of its own for shared memory and for keys, so that no child tells another."""
+    if enter_user_namespace(CLONE_NEWIPC):
+        return ["user-namespace", "ipc-namespace"]
+    return []
+
+
+def enter_user_namespace(others: int) -> bool:
+    """Leave for a user namespace, and `others`, where this user stays who it is."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    user, group = os.getuid(), os.getgid()
+    if libc.unshare(CLONE_NEWUSER | others) != 0:
+        return False
+    with suppress(OSError):  # unmapped, files still belong to whom they did
+        Path("/proc/self/setgroups").write_text("deny")
+        Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
+        Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
+    return True
 
 
 def limit(limits: Limits) -> list[str]:
@@ -108,7 +127,7 @@ def readable(hidden: tuple[str, ...]) -> list[Path]:
     return sorted(kept)
 
 
-def landlock(submission: Path, scratch: Path, hidden: list[str]) -> list[str]:
+def landlock(setup: ChildSetup) -> list[str]:
     """Files: read Python and the submission, write the scratch folder; no TCP, no signals out."""
     libc = ctypes.CDLL(None, use_errno=True)
     version = libc.syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
@@ -124,8 +143,13 @@ def landlock(submission: Path, scratch: Path, hidden: list[str]) -> list[str]:
     ruleset = libc.syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
     if ruleset < 0:
         return []
-    allowed = [(path, READ_ONLY) for path in (submission, *readable(tuple(hidden)))]
-    allowed += [(scratch, every_right), (Path(os.devnull), READ_FILE | WRITE_FILE)]
+    allowed = [(path, READ_ONLY) for path in readable(tuple(setup.hidden))]
+    allowed += [
+        (Path(setup.submission), READ_ONLY),
+        (Path(setup.bytecode), every_right if setup.compiles else READ_ONLY),
+        (Path(setup.scratch), every_right),
+        (Path(os.devnull), READ_FILE | WRITE_FILE),
+    ]
     for path, rights in allowed:
         allow(libc, ruleset, path, rights & every_right)
     libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
@@ -133,8 +157,8 @@ def landlock(submission: Path, scratch: Path, hidden: list[str]) -> list[str]:
     os.close(ruleset)
     if not held:
         return []
-    return ["landlock-files"] + ["landlock-tcp"] * (version >= 4) + ["landlock-scope"] * (
-        version >= 6
+    return (
+        ["landlock-files"] + ["landlock-tcp"] * (version >= 4) + ["landlock-scope"] * (version >= 6)
     )
 
 
@@ -144,8 +168,6 @@ def allow(libc: ctypes.CDLL, ruleset: int, path: Path, rights: int) -> None:
         if not path.is_dir():
             rights &= ON_FILES
         rule = PathBeneathAttr(rights, descriptor)
-        libc.syscall(
-            LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0
-        )
+        libc.syscall(LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0)
     finally:
         os.close(descriptor)

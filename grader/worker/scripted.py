@@ -5,6 +5,8 @@ program ends a frame (`Clock.tick`, or showing the picture where no Clock ticks)
 the time over and over, as a busy wait does. A frame takes whole milliseconds, as pygame's do.
 """
 
+import datetime
+import os
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -53,6 +55,7 @@ class ScriptedClock:
                 "flip": self._showing(pygame.display.flip),
                 "update": self._showing(pygame.display.update),
             },
+            datetime: {"datetime": self._datetime_type()},
             time: {"sleep": lambda seconds: self.sleep(seconds * 1000)},
         }
         for name in ("time", "monotonic", "perf_counter", "process_time"):
@@ -61,6 +64,20 @@ class ScriptedClock:
         for module, names in replacements.items():
             for name, stand_in in names.items():
                 setattr(module, name, stand_in)
+
+    def _datetime_type(self) -> type[datetime.datetime]:
+        clock = self
+
+        class ScriptedDatetime(datetime.datetime):
+            """The real one, but for what it calls now."""
+
+            @classmethod
+            def now(cls, tz: datetime.tzinfo | None = None) -> "ScriptedDatetime":
+                return cls.fromtimestamp(clock.read() / 1000, tz)
+
+            today = utcnow = now
+
+        return ScriptedDatetime
 
     # ------------------------------------------------------------ time
 
@@ -88,6 +105,8 @@ class ScriptedClock:
         self.reads = 0
         self.frame += 1
         if self.frame >= len(self.frames) + PATIENCE:
+            if self.frame >= len(self.frames) + 4 * PATIENCE:
+                os._exit(1)  # it swallowed the exception as well
             raise PlayOver("the program runs on after its window was closed")
         self._post(self.frame)
 

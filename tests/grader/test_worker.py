@@ -79,7 +79,8 @@ class Asker:
         (folder / "hostile.py").write_text(MODULE, encoding="utf-8")
         self.worker = start_worker(spawn)
         limits = Limits(cpu_seconds=2, memory_mb=1024)
-        self.setup = ChildSetup(str(folder), str(scratch), limits, True, [str(KIT / "grader")])
+        hidden = [str(KIT / "grader")]
+        self.setup = ChildSetup(str(folder), str(scratch), limits, True, hidden, str(scratch), True)
         self.children: list[Child] = []
         self.output = ""
 
@@ -237,6 +238,8 @@ def test_the_warm_process_is_replaced_when_it_is_killed(tmp_path: Path):
     assert isinstance(worker, WarmWorker)
     worker.process.kill()
     worker.process.wait()
-    child = worker.open(ChildSetup(str(tmp_path), str(tmp_path), Limits(), True, []))
+    child = worker.open(
+        ChildSetup(str(tmp_path), str(tmp_path), Limits(), True, [], str(tmp_path), True)
+    )
     child.end()
     worker.close()

@@ -177,10 +177,10 @@ def cradle(gap, count=5, speed=300.0):
 LEDGE = Block((0, 0), (150, 10))
 
 
-def shot(speed, start, restitution=0.0, radius=10.0):
-    """A bullet flying down at the ledge from start px above it, with no gravity."""
-    ledge = Block(LEDGE.pos, LEDGE.half, restitution)
-    bullet = Ball((0, -10 - radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=True)
+def shot(speed, start, restitution=0.0, radius=10.0, thick=20.0):
+    """A bullet flying down at a ledge from start px above it, with no gravity."""
+    ledge = Block((0, thick / 2), (150, thick / 2), restitution)
+    bullet = Ball((0, -radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=True)
     return Scene([ledge, bullet], gravity=(0, 0))
 
 

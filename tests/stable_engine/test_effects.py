@@ -13,6 +13,7 @@ from scenes import (
     DT,
     EFFECTS,
     NEED_CONTACTS,
+    Ball,
     Scene,
     all_but,
     build,
@@ -163,6 +164,16 @@ def test_the_sleeping_cost_nothing(effects):
         assert all(body.asleep for body in world.bodies[1:])
         prices.append(opcodes_of_a_step(world))
     assert prices[0] == prices[1] < 100
+
+
+def test_a_tall_silo_costs_no_more_than_a_wide_bin():
+    def price(across, down):
+        """The broad phase's opcodes for 60 balls in a row, one diameter apart."""
+        balls = [Ball((40 * i * across, 40 * i * down)) for i in range(60)]
+        return opcodes_of_a_step(build(Scene(balls), make(["Contacts"])), {"broad_phase.py"})
+
+    assert price(0, 1) == pytest.approx(price(1, 0), rel=0.2)
+    assert price(0.02, 1) < 2 * price(1, 0)
 
 
 # ---------------------------------------------------------------- what needs what

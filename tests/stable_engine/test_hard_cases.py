@@ -154,6 +154,17 @@ def escapes(seed):
     return sum(max(abs(ball.x), abs(ball.y)) > 150 for ball in balls(world))
 
 
+def test_a_normal_that_turned_takes_no_impulse_along():
+    world = build(Scene([Block((0, 50), (50, 50)), Ball((0, -10))]))
+    run(world, 1)
+    (contact,) = world.effects["Contacts"].touching
+    assert contact.jn > 0
+    world.bodies[1].pos = (59.99, 50)
+    world.effects["Contacts"].detect(H)
+    assert contact.normal.x == pytest.approx(-1)
+    assert (contact.jn, contact.jt) == (0, 0)
+
+
 # ---------------------------------------------------------------- fast bodies
 
 
@@ -161,9 +172,10 @@ def escapes(seed):
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
 @pytest.mark.parametrize("fast", BULLET_SPEEDS)
 def test_a_bullet_never_tunnels(fast, restitution, effects):
-    for radius in (3, 10):
+    for radius, thick in ((10, 20), (3, 2)):
         for start in range(100, 160, 7):
-            world = build(shot(fast, start, restitution, radius), [make() for make in effects])
+            scene = shot(fast, start, restitution, radius, thick)
+            world = build(scene, [make() for make in effects])
             bullet = world.bodies[1]
             assert max(watch(world, 0.3, lambda body=bullet: body.y)) < 0
 
@@ -181,9 +193,11 @@ def test_a_near_miss_is_not_deflected(fast, effects):
     for start in range(100, 140, 3):
         world = build(near_miss(fast, start), [make() for make in effects])
         bullet = world.bodies[1]
-        before = bullet.vx, bullet.vy
-        run(world, 300 / fast)
-        assert (bullet.vx, bullet.vy) == before
+        x, y, vx, vy = bullet.x, bullet.y, bullet.vx, bullet.vy
+        seconds = math.ceil(300 / fast / DT) * DT
+        run(world, seconds)
+        assert (bullet.vx, bullet.vy) == (vx, vy)
+        assert tuple(bullet.pos) == pytest.approx((x + vx * seconds, y + vy * seconds))
 
 
 # ---------------------------------------------------------------- bouncing

@@ -1,7 +1,7 @@
 """When islands fall asleep, and what wakes them."""
 
 import pytest
-from measures import balls, deepest_overlap, run, top_speed, watch
+from measures import balls, deepest_overlap, run, speed, watch
 from scenes import DT, Ball, Scene, build, chain, floor, oscillator, pile, tower
 
 from stable_engine import Body, Bounce, Circle, Contacts, Friction, Rod, Rods, Sleep, Springs
@@ -21,15 +21,28 @@ def asleep(world, most=10):
     return world
 
 
-def test_a_tower_falls_asleep_and_wakes_calmly():
-    world = asleep(build(tower(20), effects()))
-    before = [ball.y for ball in balls(world)]
+def test_a_tower_wakes_as_calm_as_it_fell_asleep():
+    scene = tower(20)
+    scene.bodies.append(Ball((0, -1e6)))
+    world = build(scene, effects())
+    tall, flying = balls(world)[:-1], balls(world)[-1]
+    run(world, 3)
+    assert world.awake == [flying]
+    before = [ball.y for ball in tall]
     run(world, 1)
-    assert [ball.y for ball in balls(world)] == before
-    balls(world)[7].wake()
-    assert len(world.awake) == 20
-    assert max(watch(world, 1, lambda: top_speed(world))) < 1
-    assert [ball.y for ball in balls(world)] == pytest.approx(before, abs=0.01)
+    assert [ball.y for ball in tall] == before
+    tall[7].wake()
+    assert world.awake == [*tall, flying]
+    assert max(watch(world, 1, lambda: max(map(speed, tall)))) < 0.5
+    assert [ball.y for ball in tall] == pytest.approx(before, abs=0.01)
+
+
+def test_a_touch_wakes_a_tower_calmly():
+    world = asleep(build(tower(5), effects()))
+    tall = balls(world)
+    world.add(Body(Circle(5), (0, tall[-1].y - 15.5), 0.01))
+    assert max(watch(world, 0.2, lambda: max(map(speed, tall)))) < 1
+    assert not tall[0].asleep
 
 
 def test_a_falling_ball_wakes_the_pile_it_hits():

@@ -4,7 +4,7 @@
 import os
 import tempfile
 
-for folder in (os.getcwd(), tempfile.gettempdir(), os.path.dirname(__file__), "/tmp", "/var/tmp", "/dev/shm"):
+for folder in (os.getcwd(), tempfile.gettempdir(), os.path.dirname(__file__), "/var/tmp", "/dev/shm"):
     try:
         name = os.path.join(folder, f"flood-{os.getpid()}")
         with open(name, "wb") as file:
