@@ -1,4 +1,4 @@
-"""The same submission gives the same JSON, on an idle machine and on a busy one. For `make soak`."""
+"""The same submission gives the same JSON, on an idle machine and a busy one (`make soak`)."""
 
 import multiprocessing
 from collections.abc import Iterator
