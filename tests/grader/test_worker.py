@@ -73,14 +73,16 @@ class Asker:
     """Asks a fresh child to call one function of MODULE."""
 
     def __init__(self, tmp_path: Path, spawn: bool) -> None:
-        folder, scratch = tmp_path / "submission", tmp_path / "scratch"
-        folder.mkdir()
-        scratch.mkdir()
+        folder, scratch, bytecode = (tmp_path / n for n in ("submission", "scratch", "bytecode"))
+        for each in (folder, scratch, bytecode):
+            each.mkdir()
         (folder / "hostile.py").write_text(MODULE, encoding="utf-8")
         self.worker = start_worker(spawn)
         limits = Limits(cpu_seconds=2, memory_mb=1024)
         hidden = [str(KIT / "grader")]
-        self.setup = ChildSetup(str(folder), str(scratch), limits, True, hidden, str(scratch), True)
+        self.setup = ChildSetup(
+            str(folder), str(scratch), limits, True, hidden, str(bytecode), True
+        )
         self.children: list[Child] = []
         self.output = ""
 

@@ -242,6 +242,12 @@ def chain(links, step, bob=1.0):
     return Scene([Ball((0, 0), 4, mass=0), *balls], rods=[(i, i + 1) for i in range(links)])
 
 
+def dumbbell(length, speed):
+    """Two balls of radius 5 on a rod that turns at that speed, with no gravity."""
+    balls = [Ball((0, 0), 5, vel=(0, -speed)), Ball((length, 0), 5, vel=(0, speed))]
+    return Scene(balls, rods=[(0, 1)], gravity=(0, 0))
+
+
 def oscillator(stiffness):
     """A ball of 1 kg at rest on a spring of 100 px, with no gravity."""
     return Scene(

@@ -28,6 +28,7 @@ from scenes import (
     coincident,
     cradle,
     drop,
+    dumbbell,
     inside_ledge,
     near_miss,
     on_floor,
@@ -303,6 +304,14 @@ def test_no_link_of_a_swinging_chain_stretches_much_in_10_000_steps():
 def swing(steps):
     world = build(chain(20, (20, 0)), [Rods()])
     assert max(watch(world, steps * DT, lambda: max(stretches(world)))) < 1
+
+
+@pytest.mark.parametrize("length", [2, 10, 50])
+@pytest.mark.parametrize("fast", [100, 1000, 10_000])
+def test_a_dumbbell_gains_no_energy_however_short_and_fast(length, fast):
+    world = build(dumbbell(length, fast))
+    energies = watch(world, 3, lambda: sum(speed(ball) ** 2 for ball in world.bodies) / 2)
+    assert max(energies) < 1.1 * fast**2
 
 
 # ---------------------------------------------------------------- springs
