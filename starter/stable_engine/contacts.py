@@ -6,7 +6,7 @@ from .body import Body
 from .broad_phase import near_pairs
 from .contact import Contact, collide
 from .effect import Effect
-from .soft import softness
+from .soft import SAME_WAY, softness
 from .world import World
 
 STIFFNESS = 0.24  # frequency of a contact of two balls, per substep; a static body doubles it
@@ -15,7 +15,6 @@ PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
 RESTING_SPEED = 30.0  # px/s, a slower blow does not bounce
 SLOW = 10.0  # px/s, bodies that move slower past each other touch ahead of time
 STAY = 1e-4  # px, contacts are good until a body has moved further
-SAME_WAY = 0.9  # cosine, a normal that turned further keeps no impulses
 
 BallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
 WallRow = tuple[Contact, Body, Body, float, float, float, float, float, float]
@@ -37,6 +36,7 @@ class Contacts(Effect):
         self.places: list[tuple[Body, float, float]] = []  # of all bodies when last looked
         self.known: dict[tuple[int, int], Contact] = {}
         self.known_asleep: dict[tuple[int, int], Contact] = {}
+        self.spared: set[tuple[int, int]] = set()
 
     def join(self, world: World) -> None:
         super().join(world)
@@ -66,6 +66,8 @@ class Contacts(Effect):
             pair = a.id, b.id
             c = known.get(pair)
             if c is None:
+                if pair in self.spared:
+                    continue
                 c = self.new_contact(a, b)
             elif nx * c.nx + ny * c.ny < SAME_WAY:
                 c.jn = c.jt = 0.0
@@ -80,6 +82,12 @@ class Contacts(Effect):
         for meet in self.meet_hooks:
             meet(c)
         return c
+
+    def spare(self, a: Body, b: Body) -> None:
+        """Never let A and B touch: something else holds them overlapping."""
+        self.spared |= {(a.id, b.id), (b.id, a.id)}
+        self.known = {pair: c for pair, c in self.known.items() if pair not in self.spared}
+        self.places = []
 
     def blow(self, c: Contact, change: float) -> None:
         """Raise the speed at which A and B part by change (px/s), at once."""

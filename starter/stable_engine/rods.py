@@ -3,8 +3,9 @@
 from math import hypot
 
 from .body import Body
+from .contacts import Contacts
 from .joint import Joint, Joints
-from .soft import softness
+from .soft import SAME_WAY, softness
 from .validate import require
 
 STIFFNESS = 0.25  # frequency of a rod, per substep
@@ -31,6 +32,12 @@ class Rods(Joints[Rod]):
 
     rank = 2
 
+    def take(self, rod: Rod) -> None:
+        super().take(rod)
+        contacts = self.world.effects.get("Contacts")
+        if isinstance(contacts, Contacts) and rod.length < rod.a.radius + rod.b.radius:
+            contacts.spare(rod.a, rod.b)
+
     def prepare(self, h: float) -> None:
         self.spring = softness(STIFFNESS / h, ZETA, h)
 
@@ -52,7 +59,10 @@ class Rods(Joints[Rod]):
 
     def relax(self, h: float) -> None:
         for rod in self.awake:
+            nx, ny = rod.nx, rod.ny
             rod.measure()
+            if nx * rod.nx + ny * rod.ny < SAME_WAY:
+                rod.j = 0.0
             j = rod.j - rod.m * rod.speed()
             rod.push(j - rod.j)
             rod.j = j

@@ -2,6 +2,8 @@
 
 import math
 
+SAME_WAY = 0.9  # cosine; an impulse is not kept along a direction that has turned further
+
 
 def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
     """Make a constraint a damped spring of this frequency and damping ratio, stable at any h.
