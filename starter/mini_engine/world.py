@@ -24,6 +24,7 @@ class World:
         self.bodies = []
         self.joints = []
         self.contacts = []
+        self.iterations = ITERATIONS  # passes of the solver per step
         require(self.gravity.length() < math.inf, "World.gravity", self.gravity, "finite")
         for field in ("linear_damping", "angular_damping"):
             rate = getattr(self, field)
@@ -94,7 +95,7 @@ class World:
             contact.target = target_speed(contact, dt)
         for joint in self.joints:
             joint.prepare(dt)
-        for _ in range(ITERATIONS):
+        for _ in range(self.iterations):
             for contact in self.contacts:
                 self.solve_contact(contact, dt)
             for joint in self.joints:

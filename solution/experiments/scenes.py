@@ -1,0 +1,328 @@
+"""Every scene of the experiments, as plain data. Lengths in px, times in s, masses in kg, y down.
+
+A scene names the effects it calls for and, where one is known, the exact answer to what is asked
+of it. The builders in engines.py make it for each engine.
+"""
+
+import math
+import random
+from dataclasses import dataclass, field
+
+from mini_engine import STEP, Box, make_world
+
+G = 980.0  # px/s²
+DT = STEP  # s
+SEED = 12
+
+TOUCH = ("Contacts", "Friction")
+BOUNCE = ("Contacts", "Friction", "Bounce")
+BULLETS = ("Contacts", "Friction", "Bounce", "Bullets")
+
+
+@dataclass
+class Ball:
+    """A disc. Mass 0 makes it static."""
+
+    pos: tuple
+    radius: float = 10.0
+    mass: float = 1.0
+    vel: tuple = (0.0, 0.0)
+    omega: float = 0.0
+    restitution: float = 0.0
+    friction: float = 0.6
+    bullet: bool = False
+
+
+@dataclass
+class Block:
+    """A static box."""
+
+    pos: tuple
+    half: tuple
+    restitution: float = 0.0
+    friction: float = 0.6
+
+
+@dataclass
+class Spring:
+    """A spring between the bodies at places a and b of the scene's list."""
+
+    a: int
+    b: int
+    stiffness: float  # kg/s²
+    damping: float = 0.0  # kg/s
+    length: float = 0.0  # px
+
+
+@dataclass
+class Scene:
+    """Bodies and what ties them; a rod names two bodies by their place in the list."""
+
+    bodies: list
+    effects: tuple = TOUCH
+    rods: list = field(default_factory=list)  # (a, b)
+    springs: list = field(default_factory=list)
+    gravity: tuple = (0.0, G)
+    damping: tuple = (0.0, 0.0)  # rates per second: of velocity, of spin
+    exact: dict = field(default_factory=dict)  # what is asked: the exact answer
+
+    def moving(self):
+        """The places in the list of the bodies that can move."""
+        return [i for i, body in enumerate(self.bodies) if isinstance(body, Ball) and body.mass > 0]
+
+
+# ---------------------------------------------------------------- the lesson's scene
+
+
+def lab():
+    """The scene of the lesson's window: pegs, a ledge, a pendulum and eight balls."""
+    world = make_world(random.Random(SEED))
+    place = {body: i for i, body in enumerate(world.bodies)}
+    return Scene(
+        [as_data(body) for body in world.bodies],
+        effects=("Contacts", "Friction", "Bounce", "Rods", "Damping"),
+        rods=[(place[joint.a], place[joint.b]) for joint in world.joints],
+        damping=(world.linear_damping, world.angular_damping),
+        exact={"stretch": 0.0},
+    )
+
+
+def as_data(body):
+    """A body of the lesson's engine as plain data."""
+    pos, surface = tuple(body.pos), (body.restitution, body.friction)
+    if isinstance(body.shape, Box):
+        return Block(pos, tuple(body.shape.half), *surface)
+    mass = 0.0 if body.is_static else 1 / body.inv_mass
+    return Ball(pos, body.shape.radius, mass, tuple(body.vel), body.omega, *surface)
+
+
+# ---------------------------------------------------------------- stacks and piles
+
+
+def floor(**surface):
+    """A floor with its surface at y = 0."""
+    return Block((0, 500), (5000, 500), **surface)
+
+
+def slot(width, height, thick=20.0):
+    """A floor with its surface at y = 0, and two walls around x = 0."""
+    side = width / 2 + thick
+    return [
+        Block((0, thick), (width / 2 + 2 * thick, thick)),
+        Block((-side, -height / 2), (thick, height / 2)),
+        Block((side, -height / 2), (thick, height / 2)),
+    ]
+
+
+def tower(count=20, radius=10.0):
+    """Equal balls on top of each other, in a slot as wide as they are."""
+    balls = [Ball((0, -radius * (2 * i + 1)), radius) for i in range(count)]
+    walls = slot(2 * radius, 2 * radius * (count + 5))
+    return Scene([*walls, *balls], exact={"sink": 0.0, "speed": 0.0})
+
+
+def stack(*masses):
+    """Equally large balls of these masses, from the lowest up, in a slot as wide as they are."""
+    balls = [Ball((0, -20 * (2 * i + 1)), 20, mass) for i, mass in enumerate(masses)]
+    walls = slot(40, 40 * (len(masses) + 8))
+    return Scene([*walls, *balls], exact={"sink": 0.0, "speed": 0.0, "rise": 0.0})
+
+
+def pile(count=200, width=600.0, seed=1):
+    """Balls of several sizes rained into a bin."""
+    rng = random.Random(seed)
+    columns = int(width // 26)
+    balls = []
+    for i in range(count):
+        row, column = divmod(i, columns)
+        radius = rng.uniform(8, 12)
+        pos = (26 * (column + 0.5) - width / 2 + rng.uniform(-0.5, 0.5), -26 * row - 14)
+        balls.append(Ball(pos, radius, mass=radius**2 / 100))
+    walls = slot(width, 26 * (count / columns + 5), 50)
+    return Scene([*walls, *balls], exact={"overlap": 0.0})
+
+
+def silo(count=60, width=60.0):
+    """A pile in a bin that is much taller than wide."""
+    return pile(count, width)
+
+
+# ---------------------------------------------------------------- bad starts
+
+
+def overlapping(overlap=30.0, mass=1.0):
+    """Two balls of radius 20 that overlap, the second of another mass, with no gravity."""
+    balls = [Ball((0, 0), 20), Ball((40 - overlap, 0), 20, mass)]
+    return Scene(balls, gravity=(0, 0), exact={"speed": 0.0})
+
+
+def squeezed(by=8.0, mass=1.0):
+    """Two balls, the upper one of another mass, between a floor and a ceiling too low for them."""
+    low = [Ball((0, -20 + by / 4), 20), Ball((0, -60 + 3 * by / 4), 20, mass)]
+    return Scene([floor(), Block((0, -100 + by), (100, 20)), *low], exact={"speed": 0.0})
+
+
+def coincident(count=10):
+    """Balls with one and the same centre, with no gravity."""
+    return Scene([Ball((0, 0)) for _ in range(count)], gravity=(0, 0), exact={"overlap": 0.0})
+
+
+def inside_ledge(pos=(0, 0)):
+    """A ball with its centre somewhere in the ledge, with no gravity."""
+    return Scene([LEDGE, Ball(pos)], gravity=(0, 0), exact={"overlap": 0.0})
+
+
+def closed_box(seed=1, half=150.0, thick=50.0):
+    """A box filled by 55 % with balls of up to 1000:1 in mass, some on rods, all of them flying."""
+    rng = random.Random(seed)
+    out, long = half + thick, half + 2 * thick
+    walls = [Block((0, y), (long, thick)) for y in (-out, out)]
+    walls += [Block((x, 0), (thick, long)) for x in (-out, out)]
+    balls = []
+    filled = 0.0
+    while filled < 0.55 * (2 * half) ** 2:
+        radius = rng.uniform(6, 22)
+        reach = half - radius
+        pos = (rng.uniform(-reach, reach), rng.uniform(-reach, reach))
+        vel = (rng.uniform(-400, 400), rng.uniform(-400, 400))
+        mass, bounce = 10 ** rng.uniform(-1.5, 1.5), rng.uniform(0, 0.9)
+        balls.append(Ball(pos, radius, mass, vel, 0.0, bounce, rng.uniform(0, 1)))
+        filled += math.pi * radius**2
+    rods = [(len(walls) + 2 * i, len(walls) + 2 * i + 1) for i in range(4)]
+    return Scene([*walls, *balls], (*BOUNCE, "Rods"), rods, exact={"escapes": 0.0})
+
+
+# ---------------------------------------------------------------- bouncing and fast balls
+
+
+def drop(height=290.0, restitution=1.0):
+    """One ball high above a floor, both with the same restitution."""
+    ball = Ball((0, -10 - height), restitution=restitution)
+    bodies = [floor(restitution=restitution), ball]
+    return Scene(bodies, BOUNCE, exact={"rebound": restitution**2})
+
+
+def cradle(gap=0.0, count=5, speed=300.0):
+    """Newton's cradle without strings: equal balls in a row, the first on its way to the others."""
+    ideal = {"restitution": 1.0, "friction": 0.0}
+    row = [Ball((i * (20 + gap), 0), **ideal) for i in range(count - 1)]
+    bodies = [Ball((-60, 0), vel=(speed, 0), **ideal), *row]
+    return Scene(bodies, ("Contacts", "Bounce"), gravity=(0, 0), exact={"last": speed})
+
+
+LEDGE = Block((0, 0), (150, 10))
+
+
+def shot(speed=2448.0, start=100.0, restitution=0.0, radius=10.0, thick=20.0):
+    """A bullet flying down at a ledge from start px above it, with no gravity."""
+    ledge = Block((0, thick / 2), (150, thick / 2), restitution)
+    bullet = Ball((0, -radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=True)
+    return Scene([ledge, bullet], BULLETS, gravity=(0, 0), exact={"tunnels": 0.0})
+
+
+def near_miss(speed=10_000.0, start=100.0, miss=0.5):
+    """A bullet that flies past the right upper corner of the ledge at 45°, miss px away from it."""
+    way = math.sqrt(0.5)
+    off = (10 + miss) * way - start * way, -(10 + miss) * way - start * way
+    pos = (150 + off[0], -10 + off[1])
+    bullet = Ball(pos, vel=(speed * way, speed * way), bullet=True)
+    return Scene([LEDGE, bullet], BULLETS, gravity=(0, 0), exact={"deflection": 0.0})
+
+
+# ---------------------------------------------------------------- rolling and sliding
+
+
+def on_floor(radius=10.0, **ball):
+    """One ball that touches the floor."""
+    return Scene([floor(), Ball((0, -radius), radius, **ball)], exact={"drift": 0.0})
+
+
+def slide(speed=300.0, radius=10.0):
+    """A ball that slides and ends up rolling, at two thirds of its speed."""
+    scene = on_floor(radius, vel=(speed, 0.0))
+    scene.exact = {"speed": speed * 2 / 3}
+    return scene
+
+
+def incline(degrees=20.0, friction=0.6):
+    """A ball on a slope: gravity is tilted instead of the floor. Rolls, or slides if too steep."""
+    angle = math.radians(degrees)
+    scene = on_floor(friction=friction)
+    scene.bodies[0].friction = friction
+    scene.gravity = (G * math.sin(angle), G * math.cos(angle))
+    rolls = math.tan(angle) <= 3 * friction
+    pull = G * math.sin(angle)
+    scene.exact = {"acceleration": 2 / 3 * pull if rolls else pull - friction * G * math.cos(angle)}
+    return scene
+
+
+def seams(speed=300.0):
+    """A ball rolling over a floor made of many boxes."""
+    boxes = [Block((-200 + 100 * i, 50), (50, 50)) for i in range(40)]
+    ball = Ball((-200, -10), vel=(speed, 0), omega=speed / 10)
+    return Scene([*boxes, ball], exact={"hop": 0.0})
+
+
+# ---------------------------------------------------------------- rods and springs
+
+
+def pendulum(length=140.0, degrees=90.0):
+    """A bob on a rod, let go at an angle from the vertical."""
+    angle = math.radians(degrees)
+    bob = Ball((length * math.sin(angle), length * math.cos(angle)), 24, mass=6)
+    return Scene(
+        [Ball((0, 0), 6, mass=0), bob],
+        effects=("Rods",),
+        rods=[(0, 1)],
+        exact={"stretch": 0.0, "energy": 0.0, "period": pendulum_period(length, degrees)},
+    )
+
+
+def pendulum_period(length, degrees):
+    """The exact period in s: 2 pi sqrt(l/g) / agm(1, cos(angle/2))."""
+    a, b = 1.0, math.cos(math.radians(degrees) / 2)
+    for _ in range(8):  # the arithmetic-geometric mean doubles its digits each time
+        a, b = (a + b) / 2, math.sqrt(a * b)
+    return 2 * math.pi * math.sqrt(length / G) / a
+
+
+def chain(links=20, step=(0.0, 20.0), bob=1.0):
+    """Balls on rods from a peg, each a step further; the last one has mass bob."""
+    balls = [Ball((step[0] * i, step[1] * i), 4) for i in range(1, links + 1)]
+    balls[-1].mass = bob
+    rods = [(i, i + 1) for i in range(links)]
+    return Scene([Ball((0, 0), 4, mass=0), *balls], ("Rods",), rods, exact={"stretch": 0.0})
+
+
+def dumbbell(length=50.0, speed=1000.0):
+    """Two balls of radius 5 on a rod that turns at that speed, with no gravity."""
+    balls = [Ball((0, 0), 5, vel=(0, -speed)), Ball((length, 0), 5, vel=(0, speed))]
+    return Scene(balls, ("Rods",), [(0, 1)], gravity=(0, 0), exact={"stretch": 0.0, "energy": 0.0})
+
+
+def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0):
+    """A ball of 1 kg on a spring of 100 px, pulled out by stretch px, with no gravity."""
+    balls = [Ball((0, 0), mass=0), Ball((100 + stretch, 0))]
+    springs = [Spring(0, 1, stiffness, length=100)]
+    exact = {"energy": 0.0, "swing": stretch}
+    return Scene(balls, ("Springs",), springs=springs, gravity=(0, 0), exact=exact)
+
+
+# ---------------------------------------------------------------- by name
+
+NAMED = {
+    "lab": lab,
+    "tower": tower,
+    "stack": lambda: stack(1, 100),
+    "pile": lambda: pile(60, 300),
+    "silo": silo,
+    "pendulum": pendulum,
+    "chain": lambda: chain(20, (20, 0)),
+    "cradle": cradle,
+    "squeeze": squeezed,
+    "overlap": overlapping,
+    "coincident": coincident,
+    "bullet": shot,
+    "spring": oscillator,
+    "box": closed_box,
+}

@@ -1,0 +1,197 @@
+"""One builder per engine. All three then answer to the same few names.
+
+An engine here is a scene in motion: step(dt) advances it by dt seconds, read(i) tells the state of
+the body at place i of the scene's list, and contacts() and asleep() count.
+"""
+
+import math
+from collections import namedtuple
+
+import pymunk
+from pygame import Vector2
+
+import mini_engine
+import stable_engine
+from mini_engine import ITERATIONS
+
+from .edits import AimedRod, EditedWorld
+from .scenes import Ball
+
+SUBSTEPS = 4  # of the stable engine
+PASSES = 10  # of pymunk, its own choice
+
+STATIC = pymunk.Body.STATIC
+State = namedtuple("State", "x y vx vy angle omega")
+
+
+class Lesson:
+    """The lesson's engine: the one in this folder, yours. It has no springs."""
+
+    name = "lesson"
+
+    def __init__(self, scene, passes=ITERATIONS, substeps=1, edits=()):
+        self.scene, self.substeps = scene, substeps
+        rates = scene.damping if "Damping" in scene.effects else (0.0, 0.0)
+        self.world = EditedWorld(edits, scene.gravity, *rates)
+        self.world.iterations = passes
+        self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
+        rod = AimedRod if "rods" in edits else mini_engine.DistanceJoint
+        if "Rods" in scene.effects:
+            self.world.joints += [rod(self.bodies[a], self.bodies[b]) for a, b in scene.rods]
+
+    def body(self, data):
+        effects = self.scene.effects
+        friction = data.friction if "Friction" in effects else 0.0
+        restitution = data.restitution if "Bounce" in effects else 0.0
+        if not isinstance(data, Ball):
+            shape = mini_engine.Box(Vector2(data.half))
+            return mini_engine.Body(shape, data.pos, 0.0, restitution, friction)
+        shape = mini_engine.Circle(data.radius)
+        body = mini_engine.Body(shape, data.pos, data.mass, restitution, friction)
+        body.vel, body.omega = Vector2(data.vel), data.omega
+        return body
+
+    def step(self, dt):
+        for _ in range(self.substeps):
+            self.world.step(dt / self.substeps)
+
+    def read(self, i):
+        body = self.bodies[i]
+        return State(*body.pos, *body.vel, body.angle, body.omega)
+
+    def lag(self, dt):
+        """How long (s) velocities lag behind places: half a step of semi-implicit Euler."""
+        return dt / self.substeps / 2
+
+    def contacts(self):
+        return len(self.world.contacts)
+
+    def asleep(self):
+        return 0
+
+
+class Stable:
+    """The stable engine, with the effects the scene calls for."""
+
+    name = "stable"
+
+    def __init__(self, scene, substeps=SUBSTEPS):
+        self.scene, self.substeps = scene, substeps
+        effects = [self.effect(name) for name in scene.effects]
+        self.world = stable_engine.World(scene.gravity, substeps, effects)
+        self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
+        if "Rods" in scene.effects:
+            for a, b in scene.rods:
+                self.world.add(stable_engine.Rod(self.bodies[a], self.bodies[b]))
+        if "Springs" in scene.effects:
+            for s in scene.springs:
+                a, b = self.bodies[s.a], self.bodies[s.b]
+                self.world.add(stable_engine.Spring(a, b, s.stiffness, s.damping, s.length))
+
+    def effect(self, name):
+        make = getattr(stable_engine, name)
+        return make(*self.scene.damping) if name == "Damping" else make()
+
+    def body(self, data):
+        surface = {"restitution": data.restitution, "friction": data.friction}
+        if not isinstance(data, Ball):
+            return stable_engine.Body(stable_engine.Box(data.half), data.pos, **surface)
+        bullet = data.bullet and "Bullets" in self.scene.effects
+        shape = stable_engine.Circle(data.radius)
+        body = stable_engine.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
+        body.vel, body.omega = data.vel, data.omega
+        return body
+
+    def step(self, dt):
+        self.world.step(dt)
+
+    def read(self, i):
+        body = self.bodies[i]
+        return State(body.x, body.y, body.vx, body.vy, body.angle, body.w)
+
+    def lag(self, dt):
+        return dt / self.substeps / 2
+
+    def contacts(self):
+        effect = self.world.effects.get("Contacts")
+        return len(effect.touching) if effect else 0
+
+    def asleep(self):
+        return sum(body.asleep for body in self.bodies)
+
+
+class Pymunk:
+    """The same scene in pymunk.
+
+    pymunk multiplies what two surfaces have; the other engines take the root of the product of
+    their friction and the smaller restitution. So each surface gets the root of its own: the same
+    friction for any pair, and the same restitution where both surfaces are alike.
+    """
+
+    name = "pymunk"
+
+    def __init__(self, scene, passes=PASSES, substeps=1):
+        self.scene, self.substeps = scene, substeps
+        self.space = pymunk.Space()
+        self.space.gravity = scene.gravity
+        self.space.iterations = passes
+        if "Damping" in scene.effects:
+            self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
+        self.bodies = [self.body(data) for data in scene.bodies]
+        if "Rods" in scene.effects:
+            for a, b in scene.rods:
+                self.tie(pymunk.PinJoint(self.bodies[a], self.bodies[b]))
+        if "Springs" in scene.effects:
+            for s in scene.springs:
+                ends = self.bodies[s.a], self.bodies[s.b], (0, 0), (0, 0)
+                self.tie(pymunk.DampedSpring(*ends, s.length, s.stiffness, s.damping))
+
+    def body(self, data):
+        if isinstance(data, Ball) and data.mass > 0:
+            moment = pymunk.moment_for_circle(data.mass, 0, data.radius)
+            body = pymunk.Body(data.mass, moment)
+        else:
+            body = pymunk.Body(body_type=STATIC)
+        body.position = data.pos
+        if isinstance(data, Ball):
+            shape = pymunk.Circle(body, data.radius)
+            body.velocity, body.angular_velocity = data.vel, data.omega
+        else:
+            shape = pymunk.Poly.create_box(body, (2 * data.half[0], 2 * data.half[1]))
+        effects = self.scene.effects
+        shape.friction = math.sqrt(data.friction) if "Friction" in effects else 0.0
+        shape.elasticity = math.sqrt(data.restitution) if "Bounce" in effects else 0.0
+        if "Contacts" not in effects:
+            shape.filter = pymunk.ShapeFilter(group=1)
+        self.space.add(body, shape)
+        return body
+
+    def tie(self, joint):
+        """Add a joint; what it holds overlapping must not collide."""
+        joint.collide_bodies = False
+        self.space.add(joint)
+
+    def step(self, dt):
+        for _ in range(self.substeps):
+            self.space.step(dt / self.substeps)
+
+    def read(self, i):
+        body = self.bodies[i]
+        return State(*body.position, *body.velocity, body.angle, body.angular_velocity)
+
+    def lag(self, dt):
+        """pymunk moves first and changes velocities then: they run half a step ahead."""
+        return -dt / self.substeps / 2
+
+    def contacts(self):
+        pairs = set()
+        for body in self.bodies:
+            if body.body_type != STATIC:
+                body.each_arbiter(lambda arbiter: pairs.add(frozenset(arbiter.bodies)))
+        return len(pairs)
+
+    def asleep(self):
+        return sum(body.is_sleeping for body in self.bodies)
+
+
+ENGINES = {engine.name: engine for engine in (Lesson, Stable, Pymunk)}
