@@ -357,17 +357,21 @@ class ChannelTimeout(Exception):
 
 
 class Channel:
-    """Framed messages over a connected socket."""
+    """Framed messages over a connected socket.
 
-    def __init__(self, sock: socket.socket) -> None:
+    An eager one reads as much as there is; one over which file descriptors travel must not.
+    """
+
+    def __init__(self, sock: socket.socket, eager: bool = True) -> None:
         self.sock = sock
+        self.eager = eager
+        self.ahead = bytearray()  # read already, not asked for yet
 
     def send(self, message: object) -> None:
         body = msgspec.msgpack.encode(message)
         if len(body) > MAX_MESSAGE:
             raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
         try:
-            self.sock.settimeout(None)
             self.sock.sendall(HEADER.pack(len(body)) + body)
         except OSError as error:
             raise ChannelClosed(str(error)) from error
@@ -375,32 +379,35 @@ class Channel:
     def receive(self, timeout: float | None = None) -> bytes:
         """The body of the next message; `timeout` in seconds is for the whole of it."""
         deadline = None if timeout is None else time.monotonic() + timeout
-        (length,) = HEADER.unpack(self._read(HEADER.size, deadline))
+        self._read(HEADER.size, deadline)
+        (length,) = HEADER.unpack_from(self.ahead)
         if length > MAX_MESSAGE:
             raise ProtocolError(f"a message of {length} bytes is longer than {MAX_MESSAGE}")
-        return self._read(length, deadline)
+        end = HEADER.size + length
+        self._read(end, deadline)
+        body = bytes(self.ahead[HEADER.size : end])
+        del self.ahead[:end]
+        return body
 
     def wait(self, seconds: float) -> bool:
         """Whether something is there to be read, at the latest after so many seconds."""
-        return bool(select.select([self.sock], [], [], seconds)[0])
+        return bool(self.ahead or select.select([self.sock], [], [], seconds)[0])
 
     def close(self) -> None:
         self.sock.close()
 
-    def _read(self, count: int, deadline: float | None) -> bytes:
-        data = bytearray()
-        while len(data) < count:
-            left = None if deadline is None else deadline - time.monotonic()
-            if left is not None and left <= 0:
+    def _read(self, count: int, deadline: float | None) -> None:
+        """Read on until so many bytes are there."""
+        while len(self.ahead) < count:
+            if deadline is not None and not self._ready(deadline - time.monotonic()):
                 raise ChannelTimeout
             try:
-                self.sock.settimeout(left)
-                chunk = self.sock.recv(min(count - len(data), 1 << 16))
-            except TimeoutError as error:
-                raise ChannelTimeout from error
+                chunk = self.sock.recv(1 << 16 if self.eager else count - len(self.ahead))
             except OSError as error:
                 raise ChannelClosed(str(error)) from error
             if not chunk:
                 raise ChannelClosed("end of stream")
-            data += chunk
-        return bytes(data)
+            self.ahead += chunk
+
+    def _ready(self, seconds: float) -> bool:
+        return seconds > 0 and bool(select.select([self.sock], [], [], seconds)[0])

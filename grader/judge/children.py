@@ -160,7 +160,7 @@ class WarmWorker:
                 start_new_session=True,
                 env=clean_environment(),
             )
-        self.control = Channel(ours)
+        self.control = Channel(ours, eager=False)
         self.layers: list[str] = msgspec.msgpack.decode(
             self.control.receive(START_SECONDS), type=list[str]
         )

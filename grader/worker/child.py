@@ -36,6 +36,8 @@ from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import NotThere, Subject
 
+pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
+
 decoder = msgspec.msgpack.Decoder(Asked)
 
 
@@ -43,7 +45,6 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
     """Answer until the judge closes the channel. Whatever the submission raises is an answer."""
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
-    pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
     channel.send(Ready(os.getpid(), confine(setup)))
     output, clock = Output(), ScriptedClock()
     output.install()
@@ -100,11 +101,15 @@ def answer(subject: Subject, clock: ScriptedClock, output: Output, request: Requ
 
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
-    keep = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
-    os.environ.clear()
-    os.environ.update(keep, HOME=scratch, TMPDIR=scratch, TEMP=scratch, TMP=scratch)
-    os.environ.update(SDL_VIDEODRIVER="dummy", SDL_AUDIODRIVER="dummy", PYTHONHASHSEED="0")
-    os.environ.update(PYGAME_HIDE_SUPPORT_PROMPT="1", LANG="C.UTF-8", TZ="UTC")
+    wanted = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
+    wanted |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
+    wanted |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONHASHSEED": "0"}
+    wanted |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "LANG": "C.UTF-8", "TZ": "UTC"}
+    for name in set(os.environ) - set(wanted):
+        del os.environ[name]
+    for name in wanted:
+        if os.environ.get(name) != wanted[name]:
+            os.environ[name] = wanted[name]
     tempfile.tempdir = scratch
     with contextlib.suppress(OSError):
         os.chdir(scratch)

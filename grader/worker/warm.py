@@ -13,16 +13,20 @@ from contextlib import suppress
 
 import msgspec
 import psutil
+import pygame
+import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
-from grader.worker.child import serve
+from grader.worker.child import serve, tidy_environment
 from grader.worker.confinement import prepare_server, readable
 
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
 def main(control_fd: int) -> None:
-    control = Channel(socket.socket(fileno=control_fd))
+    control = Channel(socket.socket(fileno=control_fd), eager=False)
+    tidy_environment("")
+    warm_up()
     control.send(prepare_server())
     gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
@@ -33,6 +37,18 @@ def main(control_fd: int) -> None:
                 case End(pid, gone):
                     control.send(end(pid, gone))
     end_strays()
+
+
+def warm_up() -> None:
+    """Use once what every child uses, so that none has to load it by itself."""
+    pygame.init()
+    pygame.display.set_mode((1, 1))
+    pygame.font.Font(None, 26).render("0", True, "white")
+    pygame.display.flip()
+    pygame.quit()
+    space = pymunk.Space()
+    space.add(pymunk.Body(1, 1))
+    space.step(0.01)
 
 
 def fork(control: Channel, setup: ChildSetup) -> None:

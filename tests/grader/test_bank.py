@@ -8,6 +8,7 @@ from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Member, members
 from grader.maintain.verify import grade_member, kit_complaints, trees
+from grader.todo_regions import python_files, read_source, regions_in
 
 MEMBERS = [*trees(), *members(KIT)]
 
@@ -18,6 +19,29 @@ def test_a_member_gets_the_marks_it_must(member: Member):
     assert not verdict.complaint
     if member.kind == "wrong" and verdict.result is not None:
         assert member.misnamed(verdict.result) != "wrong"
+
+
+@pytest.mark.parametrize("name", ["tells-the-reference", "harvests-the-reference"])
+def test_no_line_of_the_reference_gets_into_the_result(name: str):
+    (member,) = [each for each in MEMBERS if each.name == name]
+    result = grade_member(member).result
+    assert result is not None
+    words = [
+        getattr(check, field)
+        for todo in result.todos
+        for check in todo.checks
+        for field in ("ran", "expected", "got", "meaning")
+    ]
+    shown = " ".join(" ".join(words).split())
+    lines = {
+        " ".join(line.split())
+        for path in python_files(KIT / "solution")
+        for region in regions_in(read_source(path))
+        for line in region.lines
+    }
+    telling = {line for line in lines if len(line) > 12}
+    assert len(telling) > 30
+    assert not {line for line in telling if line in shown}
 
 
 def test_the_bank_is_as_large_as_it_must_be():
