@@ -304,7 +304,9 @@ class Answered(Struct, frozen=True):
 class Limits(Struct, frozen=True):
     cpu_seconds: int = 10
     memory_mb: int = 1024
-    file_mb: int = 16
+    file_mb: int = 16  # each
+    scratch_mb: int = 64  # all files together
+    scratch_files: int = 2000
     open_files: int = 128
     processes: int = 64
 
@@ -346,6 +348,10 @@ class Ended(Struct, frozen=True):
 
 class ProtocolError(Exception):
     """The other side sent something that is not a message of ours."""
+
+
+# What decoding can raise: text that is not UTF-8 is no DecodeError to msgspec.
+NOT_A_MESSAGE = (ProtocolError, msgspec.DecodeError, UnicodeDecodeError, RecursionError)
 
 
 class ChannelClosed(Exception):

@@ -1,6 +1,7 @@
 """Starting, asking and ending the worker's children, from the judge's side of the wall."""
 
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import psutil
 
 import grader
 from grader.protocol import (
+    NOT_A_MESSAGE,
     Answered,
     Asked,
     Channel,
@@ -57,7 +59,7 @@ class Child:
         self.over = ""
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
-        except (ChannelClosed, ChannelTimeout, ProtocolError, msgspec.DecodeError) as error:
+        except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request) -> Answered:
@@ -76,7 +78,7 @@ class Child:
             self._give_up(str(error) or "it did not answer in time", gone=False)
         except ChannelClosed:
             self._give_up("", gone=True)
-        except (ProtocolError, msgspec.DecodeError, RecursionError) as error:
+        except NOT_A_MESSAGE as error:
             self._give_up(f"what it sent is not an answer ({error})", gone=False)
         else:
             return answered
@@ -88,7 +90,7 @@ class Child:
         for _ in range(int(self.wall_seconds)):
             if self.channel.wait(1.0):
                 return self.channel.receive(self.wall_seconds)
-            sleeping, used = activity(self.ready.pid)
+            sleeping, used = activity(self.worker.pid_of(self))
             asleep = asleep + 1 if sleeping and used == cpu else 0
             cpu = used
             if asleep >= ASLEEP_SECONDS:
@@ -121,6 +123,8 @@ class Worker(Protocol):
     """Where children come from."""
 
     def open(self, setup: ChildSetup) -> Child: ...
+
+    def pid_of(self, child: Child) -> int: ...
 
     def end(self, child: Child, gone: bool) -> str: ...
 
@@ -168,7 +172,7 @@ class WarmWorker:
     def open(self, setup: ChildSetup) -> Child:
         try:
             return self._open(Open(setup), setup)
-        except ChannelClosed:  # something killed the warm process: a new one serves as well
+        except (ChannelClosed, ChildEnded):  # something killed the warm process: a new one serves
             self.close()
             self._start()
             return self._open(Open(setup), setup)
@@ -182,6 +186,16 @@ class WarmWorker:
             except OSError as error:
                 raise ChannelClosed(str(error)) from error
         return Child(Channel(ours), self, setup.limits.cpu_seconds)
+
+    def pid_of(self, child: Child) -> int:
+        """Its number here: in a namespace of its own it goes by another one."""
+        for process in psutil.Process(self.process.pid).children(recursive=True):
+            with suppress(OSError):
+                status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+                numbers = re.search(r"^NSpid:(.*)$", status, re.MULTILINE)
+                if numbers and int(numbers[1].split()[-1]) == child.ready.pid:
+                    return process.pid
+        return child.ready.pid
 
     def end(self, child: Child, gone: bool) -> str:
         child.channel.close()
@@ -241,6 +255,9 @@ class SpawnWorker:
             start_new_session=True,
             env=clean_environment(),
         )
+
+    def pid_of(self, child: Child) -> int:
+        return child.ready.pid
 
     def end(self, child: Child, gone: bool) -> str:
         child.channel.close()

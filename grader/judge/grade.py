@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import hypothesis
 import msgspec
@@ -16,6 +15,7 @@ import pytest
 
 from grader.judge import misconceptions
 from grader.judge.children import Child, SpawnWorker, WarmWorker, start_worker
+from grader.judge.isolation import STRICT, Isolation, unconfined
 from grader.judge.lab import Broke, Lab, NotYet
 from grader.judge.plugin import GradingPlugin
 from grader.judge.reference import Reference
@@ -25,7 +25,6 @@ from grader.judge.submission import CannotGrade, Submission, take_in
 from grader.protocol import ChildSetup, Limits
 from grader.todo_regions import shape_of
 
-Isolation = Literal["auto", "strict", "none"]
 KIT = Path(__file__).parents[2]
 
 
@@ -133,12 +132,10 @@ class Grading:
         layers = ["processes", *child.ready.layers, *self.worker.layers]
         if self.options.isolation == "none":
             return ["processes"]
-        files = "landlock-files" in layers
-        network = "network-namespace" in layers or "landlock-tcp" in layers
-        if self.options.isolation == "strict" and not (files and network):
-            missing = [n for n, held in (("files", files), ("network", network)) if not held]
+        open_to_it = [what for what in unconfined(layers) if what in STRICT]
+        if self.options.isolation == "strict" and open_to_it:
             raise CannotGrade(
-                f"--isolation=strict: this machine cannot confine {' and '.join(missing)} "
+                f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} "
                 f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
             )
         return layers

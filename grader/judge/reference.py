@@ -7,7 +7,14 @@ from pathlib import Path
 from types import CodeType
 
 from grader.judge.rubric import Rubric, Todo
-from grader.judge.submission import CannotGrade, Submission, function_named, source_of, statements
+from grader.judge.submission import (
+    CannotGrade,
+    Submission,
+    function_named,
+    module_of,
+    source_of,
+    statements,
+)
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
 
@@ -47,7 +54,7 @@ class Reference:
 def cut_out(folder: Path, todo: Todo) -> Piece:
     path = todo.function.partition(":")[2]
     for file in python_files(folder):
-        if file.relative_to(folder).parts[0].removesuffix(".py") != todo.module:
+        if module_of(file.relative_to(folder)) != todo.module:
             continue
         text = read_source(file)
         found = function_named(statements(text), path)

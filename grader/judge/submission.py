@@ -96,7 +96,12 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         for region in regions:
             submission.where.setdefault(region.id, Where(file, region.start + 1))
             submission.begun[region.id] = region.shape != stubs.get(region.id)
-    trees = {path: statements(text) for path, text in sources.items()}
+    modules = {todo.module for todo in rubric.todos}
+    trees = {
+        path: statements(text)
+        for path, text in sources.items()
+        if module_of(path.relative_to(submission.folder)) in modules
+    }
     for todo in rubric.todos:
         if todo.function:
             look_at_function(submission, todo, stubs, sources, trees)
@@ -110,18 +115,24 @@ def look_at_function(
     trees: dict[Path, list[ast.stmt]],
 ) -> None:
     """What stands in the function that the TODO is about; it says enough where no marker does."""
-    for path, text in sources.items():
-        file = path.relative_to(submission.folder).as_posix()
-        if file.split("/")[0].removesuffix(".py") != todo.module:
+    for path, tree in trees.items():
+        inside = path.relative_to(submission.folder)
+        if module_of(inside) != todo.module:
             continue
-        found = function_named(trees[path], todo.function.partition(":")[2])
+        file = inside.as_posix()
+        found = function_named(tree, todo.function.partition(":")[2])
         if found is not None:
-            shape = shape_of(source_of(text, found))
+            shape = shape_of(source_of(sources[path], found))
             submission.functions[todo.id] = shape
             submission.where.setdefault(todo.id, Where(file, found.lineno))
             submission.begun.setdefault(todo.id, shape != stubs.get(f"def {todo.id}"))
             return
     submission.begun.setdefault(todo.id, True)
+
+
+def module_of(inside: Path) -> str:
+    """The module or package that a file, named from the submission's folder, belongs to."""
+    return inside.parts[0].removesuffix(".py")
 
 
 def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:

@@ -3,6 +3,7 @@
 from rich.console import Console
 from rich.text import Text
 
+from grader.judge.isolation import unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
 
 LABELS = {
@@ -23,7 +24,14 @@ def show(result: Result, console: Console) -> None:
     if result.bonus:
         line.append(f"  and {result.bonus} bonus")
     console.print(line)
+
+
+def show_isolation(result: Result, console: Console) -> None:
+    """Print what held the submission in, and what did not."""
     console.print(Text(f"isolation: {', '.join(result.isolation)}", style="bright_black"))
+    if lacking := unconfined(result.isolation):
+        words = f"not confined here: {', '.join(lacking)}. Grade only submissions you trust."
+        console.print(Text(words, style="yellow"))
 
 
 def show_todo(todo: TodoResult, console: Console) -> None:

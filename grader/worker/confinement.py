@@ -5,6 +5,7 @@ Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(
 
 import ctypes
 import os
+import signal
 import sys
 import sysconfig
 from contextlib import suppress
@@ -16,9 +17,13 @@ from grader.protocol import ChildSetup, Limits
 LANDLOCK_CREATE_RULESET, LANDLOCK_ADD_RULE, LANDLOCK_RESTRICT_SELF = 444, 445, 446
 LANDLOCK_CREATE_RULESET_VERSION = 1
 LANDLOCK_RULE_PATH_BENEATH = 1
+PR_SET_PDEATHSIG = 1
 PR_SET_NO_NEW_PRIVS = 38
 PR_SET_CHILD_SUBREAPER = 36
-CLONE_NEWIPC, CLONE_NEWUSER, CLONE_NEWNET = 0x08000000, 0x10000000, 0x40000000
+CLONE_NEWNS, CLONE_NEWIPC, CLONE_NEWUSER = 0x00020000, 0x08000000, 0x10000000
+CLONE_NEWPID, CLONE_NEWNET = 0x20000000, 0x40000000
+MS_NOSUID, MS_NODEV, MS_NOEXEC = 1 << 1, 1 << 2, 1 << 3
+MS_REC, MS_SLAVE = 1 << 14, 1 << 19
 
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
@@ -42,15 +47,27 @@ class PathBeneathAttr(ctypes.Structure):
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
-def prepare_server() -> list[str]:
-    """Once for the warm process: adopt stray grandchildren, and leave the network behind."""
+def prepare_server(keep: int) -> list[str]:
+    """Once for the warm process: leave the network and other processes behind.
+
+    The call may return in a child, the first process of a namespace, with which all others of it
+    die; this one then only waits for it. The descriptor `keep` is the child's alone.
+    """
     if not sys.platform.startswith("linux"):
         return []
     libc = ctypes.CDLL(None, use_errno=True)
-    libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back to this process
+    layers = []
     if libc.unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
-        return ["network-namespace"]
-    return []
+        layers.append("network-namespace")
+    if libc.unshare(CLONE_NEWPID) == 0:
+        layers.append("pid-namespace")
+        first = os.fork()
+        if first:
+            os.close(keep)
+            os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
+        libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+    return layers
 
 
 def confine(setup: ChildSetup) -> list[str]:
@@ -64,16 +81,25 @@ def confine(setup: ChildSetup) -> list[str]:
         layers.append("process-group")
     layers += limit(setup.limits)
     if sys.platform.startswith("linux"):
-        layers += leave_shared_memory()
+        layers += own_namespaces(setup)
         layers += landlock(setup)
     return layers
 
 
-def leave_shared_memory() -> list[str]:
-    """A namespace of its own for shared memory and for keys, so that no child tells another."""
-    if enter_user_namespace(CLONE_NEWIPC):
-        return ["user-namespace", "ipc-namespace"]
-    return []
+def own_namespaces(setup: ChildSetup) -> list[str]:
+    """Shared memory, keys and the scratch folder for this child alone: none tells another.
+
+    The folder becomes a small file system in memory, which ends with the child.
+    """
+    if not enter_user_namespace(CLONE_NEWIPC | CLONE_NEWNS):
+        return []
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mount(None, b"/", None, MS_REC | MS_SLAVE, None)
+    size = f"size={setup.limits.scratch_mb}m,nr_inodes={setup.limits.scratch_files}"
+    flags = MS_NOSUID | MS_NODEV | MS_NOEXEC
+    mounted = libc.mount(b"tmpfs", os.fsencode(setup.scratch), b"tmpfs", flags, size.encode()) == 0
+    os.chdir(setup.scratch)
+    return ["user-namespace", "ipc-namespace"] + ["mount-namespace"] * mounted
 
 
 def enter_user_namespace(others: int) -> bool:

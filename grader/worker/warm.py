@@ -24,10 +24,11 @@ decoder = msgspec.msgpack.Decoder(Open | End)
 
 
 def main(control_fd: int) -> None:
+    layers = prepare_server(keep=control_fd)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
-    control.send(prepare_server())
+    control.send(layers)
     gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
         while True:
@@ -94,8 +95,8 @@ def end(pid: int, gone: bool) -> Ended:
 
 def wait_for_exit(pid: int) -> None:
     for _ in range(100):
-        with suppress(psutil.NoSuchProcess):
-            if psutil.Process(pid).status() != psutil.STATUS_ZOMBIE:
+        with suppress(ChildProcessError):
+            if os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
                 time.sleep(0.002)
                 continue
         return
@@ -105,13 +106,19 @@ def end_strays() -> int:
     """Kill every process that a child started and left behind; returns how many there were."""
     ended = set()
     while has_children():
-        for stray in psutil.Process().children(recursive=True):
-            ended.add(stray.pid)
-            with suppress(psutil.NoSuchProcess):
-                stray.kill()
-            with suppress(ChildProcessError):
-                os.waitpid(stray.pid, 0)
+        for stray in strays():
+            with suppress(ProcessLookupError):
+                os.kill(stray, signal.SIGKILL)
+        with suppress(ChildProcessError):
+            ended.add(os.wait()[0])
     return len(ended)
+
+
+def strays() -> list[int]:
+    """Whom to kill: all, where a namespace holds nobody else, or else all descendants."""
+    if os.getpid() == 1:
+        return [-1]
+    return [process.pid for process in psutil.Process().children(recursive=True)]
 
 
 def has_children() -> bool:
