@@ -6,6 +6,7 @@
 - `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
 """
 
+import os
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -181,9 +182,52 @@ def link_out(folder: Path) -> None:
     (folder / "passwords.txt").symlink_to("/etc/passwd")
 
 
+def many_files(folder: Path) -> None:
+    (folder / "data").mkdir()
+    for number in range(10_000):
+        (folder / "data" / f"{number:05}.txt").write_bytes(b"x")
+    (folder / "\x1b[2Jgone\n::error::.py").write_text("raise SystemExit\n", encoding="utf-8")
+
+
+def add_video(folder: Path) -> None:
+    with open(folder / "gameplay.mp4", "wb") as file:
+        file.truncate(200 * 1024**2)  # no bytes on the disk
+
+
+def add_environment(folder: Path) -> None:
+    packages = folder / "env" / "lib" / "site-packages"
+    packages.mkdir(parents=True)
+    (folder / "env" / "pyvenv.cfg").write_text("home = /usr/bin\n", encoding="utf-8")
+    for name in ("integrators.py", "mini_engine.py", "pygame.py"):
+        (packages / name).write_text("raise SystemExit\n", encoding="utf-8")
+
+
+def add_stale_bytecode(folder: Path) -> None:
+    for source in python_files(folder):
+        cache = source.parent / "__pycache__"
+        cache.mkdir(exist_ok=True)
+        for tag in ("cpython-311", "cpython-313", "cpython-38"):
+            (cache / f"{source.stem}.{tag}.pyc").write_bytes(b"\xa7\r\r\n" + bytes(40))
+    (folder / "mini_engine.pyc").write_bytes(b"\xa7\r\r\n" + bytes(40))
+
+
+def add_odd_names(folder: Path) -> None:
+    for name in (b"notes \xe4\xf6.txt", b"\xff\xfe.py"):
+        try:
+            with open(os.path.join(os.fsencode(folder), name), "wb") as file:
+                file.write(b"x")
+        except OSError:  # a file system that knows text only
+            return
+
+
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),
     "tabs": rewrite(lambda data: data.replace(b"    ", b"\t")),
     "symlink": link_out,
+    "many-files": many_files,
+    "video": add_video,
+    "virtual-environment": add_environment,
+    "stale-bytecode": add_stale_bytecode,
+    "odd-names": add_odd_names,
 }

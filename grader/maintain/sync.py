@@ -11,7 +11,14 @@ from grader.judge.rubric import CHECKS, load_rubric
 from grader.judge.submission import function_named, source_of, statements
 from grader.todo_regions import python_files, regions_in, replaced
 
-SKIPPED = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache", ".mypy_cache", ".ruff_cache"}
+SKIPPED = {
+    "build",
+    "__pycache__",
+    ".ipynb_checkpoints",
+    ".pytest_cache",
+    ".mypy_cache",
+    ".ruff_cache",
+}
 
 
 class OutOfStep(Exception):

@@ -20,6 +20,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Entry, Member, members
 from grader.maintain.sync import sync
+from grader.maintain.traces import watched
 
 
 @dataclass
@@ -88,15 +89,17 @@ def grade_member(member: Member) -> Verdict:
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         member.build(KIT, submission)
+        options, worker = Options(shipped_reference(), only=member.judged_by), shared_worker()
         start = time.monotonic()
         try:
-            options = Options(shipped_reference(), only=member.judged_by)
-            result = grade(submission, options, shared_worker())
+            with watched(Path(folder, "temporary")) as traces:
+                result = grade(submission, options, worker)
         except Exception as error:  # a judge that falls over is the worst verdict of all
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
-        return Verdict(member, result, seconds, member.complaint(result, seconds))
+        complaint = member.complaint(result, seconds) or traces.complaint
+        return Verdict(member, result, seconds, complaint)
 
 
 @cache

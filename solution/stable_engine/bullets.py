@@ -53,10 +53,9 @@ class Bullets(Effect):
     def first_hit(self, radius: float, x: float, y: float, dx: float, dy: float) -> float:
         """The share of its way (dx, dy) from (x, y) that a ball flies freely, or NEVER."""
         share = NEVER
-        for s in self.world.bodies:
-            if s.is_static:
-                hit = hit_circle if s.radius else hit_box
-                share = min(share, hit(s, radius, x - s.x, y - s.y, dx, dy))
+        for s in self.world.statics:
+            hit = hit_circle if s.radius else hit_box
+            share = min(share, hit(s, radius, x - s.x, y - s.y, dx, dy))
         return share
 
 

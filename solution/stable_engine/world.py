@@ -33,6 +33,7 @@ class World:
         self.substeps = substeps
         self.bodies: list[Body] = []
         self.awake: list[Body] = []  # the balls that can move now
+        self.statics: list[Body] = []
         self.effects: dict[str, Effect] = {}
         for effect in effects:
             name = type(effect).__name__
@@ -85,8 +86,7 @@ class World:
             self.need("Bullets", body).take(body)
         self.bodies.append(body)
         body.id = -len(self.bodies) if body.is_static else len(self.bodies)
-        if not body.is_static:
-            self.awake.append(body)
+        (self.statics if body.is_static else self.awake).append(body)
 
     def add_joint(self, joint: Joint) -> None:
         effect = self.need(joint.effect, joint)

@@ -1,0 +1,260 @@
+"""Each layer around a submission holds, and none can stop working without being noticed."""
+
+import ctypes
+import os
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from grader.judge.children import Child, WarmWorker, start_worker
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.isolation import unconfined
+from grader.judge.submission import CannotGrade
+from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
+from grader.worker import confinement
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux's layers")
+
+PROBES = """
+import ctypes, os, resource, socket, subprocess
+libc = ctypes.CDLL(None, use_errno=True)
+def limit(name): return resource.getrlimit(getattr(resource, name))[1]
+def session(): return os.getsid(0) == os.getpid()
+def own_number(): return os.getpid()
+def parents_number(): return os.getppid()
+def visible(path): return os.path.exists(path) and bool(os.listdir(path))
+def read(path): return open(path, "rb").read(100).decode("latin-1")
+def send(port):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        return out.sendto(b"x", ("127.0.0.1", port))
+def listen():
+    with socket.socket() as server:
+        server.bind(("127.0.0.1", 0))
+        return True
+def abstract(name): socket.socket(socket.AF_UNIX).connect("\\0" + name); return True
+def keep(key): return libc.shmget(key, 4096, 0o1666) >= 0
+def kept(key): return libc.shmget(key, 0, 0) >= 0
+def keep_key(name): return libc.syscall(248, b"user", name.encode(), b"x", 1, -4) >= 0
+def kept_key(name): return libc.syscall(250, 10, -4, b"user", name.encode(), 0) >= 0
+def run(program): return subprocess.run([program], capture_output=True).returncode
+def fill(megabytes):
+    for number in range(megabytes):
+        with open(f"part{number}", "wb") as file: file.write(bytes(1024 * 1024))
+    return True
+def many(files):
+    for number in range(files): open(f"file{number}", "w").close()
+    return True
+def signal_all():
+    os.kill(-1, 0)
+    return True
+"""
+
+
+class Prober:
+    """Calls one of the probes in a fresh child."""
+
+    def __init__(self, tmp_path: Path) -> None:
+        self.worker = start_worker()
+        folders = [tmp_path / name for name in ("submission", "scratch", "bytecode")]
+        for folder in folders:
+            folder.mkdir()
+        (folders[0] / "probes.py").write_text(PROBES, encoding="utf-8")
+        submission, scratch, bytecode = map(str, folders)
+        hidden = [str(KIT / "grader"), str(KIT / "solution")]
+        self.setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, True)
+        self.children: list[Child] = []
+
+    def __call__(self, name: str, *args: int | str) -> object:
+        child = self.worker.open(self.setup)
+        self.children.append(child)
+        child.ask(Import("probes"))
+        reply = child.ask(Call(f"probes:{name}", list(args))).reply
+        return reply.value if isinstance(reply, Returned) else reply
+
+    @property
+    def layers(self) -> set[str]:
+        child = self.worker.open(self.setup)
+        self.children.append(child)
+        return {*child.ready.layers, *self.worker.layers}
+
+
+@pytest.fixture
+def probe(tmp_path: Path) -> Iterator[Prober]:
+    prober = Prober(tmp_path)
+    yield prober
+    for child in prober.children:
+        child.end()
+    prober.worker.close()
+
+
+def refused(reply: object, *errors: str) -> bool:
+    return isinstance(reply, Raised) and reply.error in errors
+
+
+# ---------------------------------------------------------------- what this machine has
+
+
+def can(flags: int) -> bool:
+    """Whether a process of this user may enter such namespaces, found out by another one."""
+    program = f"import ctypes; exit(ctypes.CDLL(None).unshare({flags}) != 0)"
+    return subprocess.run([sys.executable, "-c", program]).returncode == 0
+
+
+def landlock_version() -> int:
+    return ctypes.CDLL(None).syscall(444, None, 0, 1)
+
+
+def expected_layers() -> set[str]:
+    layers = {"process-group", "rlimits"}
+    if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWIPC | confinement.CLONE_NEWNS):
+        layers |= {"user-namespace", "ipc-namespace", "mount-namespace"}
+    if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWNET | confinement.CLONE_NEWPID):
+        layers |= {"network-namespace", "pid-namespace"}
+    since = {1: "landlock-files", 4: "landlock-tcp", 6: "landlock-scope"}
+    return layers | {name for version, name in since.items() if landlock_version() >= version}
+
+
+def test_every_layer_this_machine_has_is_used(probe: Prober):
+    assert probe.layers == expected_layers()
+
+
+@pytest.fixture
+def layer(request: pytest.FixtureRequest) -> None:
+    """Skips a test of a layer that this machine does not have."""
+    if request.param not in expected_layers():
+        pytest.skip(f"no {request.param} here")
+
+
+def needs(name: str) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("layer", [name], indirect=True)
+
+
+# ---------------------------------------------------------------- always
+
+
+def test_limits_hold_and_cannot_be_lifted(probe: Prober):
+    limits = Limits()
+    assert probe("limit", "RLIMIT_CPU") == limits.cpu_seconds + 1
+    assert probe("limit", "RLIMIT_AS") == limits.memory_mb * 1024**2
+    assert probe("limit", "RLIMIT_FSIZE") == limits.file_mb * 1024**2
+    assert probe("limit", "RLIMIT_NOFILE") == limits.open_files
+    assert probe("limit", "RLIMIT_NPROC") == limits.processes
+    assert probe("limit", "RLIMIT_CORE") == 0
+
+
+def test_a_child_leads_a_session_of_its_own(probe: Prober):
+    assert probe("session") is True
+
+
+# ---------------------------------------------------------------- namespaces
+
+
+@needs("pid-namespace")
+def test_no_other_process_has_a_number_in_there(layer, probe: Prober):
+    assert isinstance(number := probe("own_number"), int) and number < 1000
+    assert probe("parents_number") == 1
+
+
+@needs("pid-namespace")
+def test_a_signal_to_everybody_reaches_nobody_outside(layer, probe: Prober):
+    probe("signal_all")
+    assert isinstance(probe.worker, WarmWorker) and probe.worker.process.poll() is None
+
+
+@needs("network-namespace")
+def test_no_packet_gets_out(layer, probe: Prober):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+        receiver.bind(("127.0.0.1", 0))
+        receiver.settimeout(0.3)
+        assert isinstance(probe("send", receiver.getsockname()[1]), Raised | int)
+        with pytest.raises(TimeoutError):
+            receiver.recv(10)
+
+
+@needs("network-namespace")
+def test_no_abstract_socket_of_the_machine_is_there(layer, probe: Prober):
+    name = f"physics-grader-{os.getpid()}"
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind("\0" + name)
+        server.listen()
+        assert refused(probe("abstract", name), "ConnectionRefusedError", "PermissionError")
+
+
+@needs("ipc-namespace")
+def test_shared_memory_ends_with_the_child(layer, probe: Prober):
+    assert probe("keep", 77_123) is True
+    assert probe("kept", 77_123) is False
+    assert ctypes.CDLL(None).shmget(77_123, 0, 0) < 0
+
+
+@needs("user-namespace")
+def test_no_key_is_kept_for_another_child(layer, probe: Prober):
+    probe("keep_key", "physics-grader")
+    assert probe("kept_key", "physics-grader") is False
+
+
+@needs("mount-namespace")
+def test_the_scratch_folder_is_small_and_ends_with_the_child(layer, probe: Prober):
+    limits = Limits()
+    assert refused(probe("fill", limits.scratch_mb + 1), "OSError")
+    assert refused(probe("many", limits.scratch_files + 1), "OSError")
+    assert probe("fill", limits.scratch_mb // 2) is True
+    assert list(Path(probe.setup.scratch).iterdir()) == []
+
+
+# ---------------------------------------------------------------- Landlock
+
+
+@needs("landlock-files")
+@pytest.mark.parametrize(
+    "path", ["/proc/self/environ", "/etc/hostname", "/root", "/home", "/tmp", "/var", str(KIT)]
+)
+def test_neither_the_machine_nor_the_kit_can_be_read(layer, probe: Prober, path: str):
+    asked = probe("visible" if Path(path).is_dir() else "read", path)
+    assert asked is False or refused(asked, "PermissionError", "FileNotFoundError")
+
+
+@needs("landlock-files")
+def test_another_submission_is_out_of_sight(layer, probe: Prober, tmp_path: Path):
+    other = tmp_path / "other" / "integrators.py"
+    other.parent.mkdir()
+    other.write_text("x = 1\n", encoding="utf-8")
+    assert refused(probe("read", str(other)), "PermissionError")
+
+
+@needs("landlock-files")
+def test_no_program_of_the_machine_can_be_run(layer, probe: Prober):
+    assert refused(probe("run", "/bin/true"), "PermissionError", "FileNotFoundError")
+
+
+@needs("landlock-tcp")
+def test_no_port_can_be_opened(layer, probe: Prober):
+    assert refused(probe("listen"), "PermissionError")
+
+
+# ---------------------------------------------------------------- without
+
+
+def test_strict_refuses_where_files_or_network_are_open(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(WarmWorker, "open", without_layers(WarmWorker.open))
+    with pytest.raises(CannotGrade, match="cannot confine files and network"):
+        grade(KIT / "starter", Options(shipped_reference(), isolation="strict"))
+
+
+def without_layers(usual):
+    def open_child(self: WarmWorker, setup: ChildSetup) -> Child:
+        child = usual(self, setup)
+        child.ready.layers.clear()
+        self.layers = []
+        return child
+
+    return open_child
+
+
+def test_what_is_open_is_named():
+    assert unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
+    assert unconfined(sorted(expected_layers())) == []
