@@ -212,25 +212,37 @@ def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
     return msgspec.structs.replace(check, meaning=meaning) if check.state == "not yet" else check
 
 
+@contextmanager
+def settled_environment() -> Iterator[None]:
+    """Our hypothesis profile, and no option or plugin of pytest that this machine happens to have."""
+    profile = hypothesis.settings.get_current_profile_name()
+    usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
+    for name in usual:
+        del os.environ[name]
+    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
+    hypothesis.settings.load_profile("judge")
+    try:
+        yield
+    finally:
+        hypothesis.settings.load_profile(profile)
+        del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]
+        os.environ.update(usual)
+
+
 def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
     """Run the checks in this process. The submission's folder is no part of it."""
     files = dict.fromkeys(
         str(CHECKS / f"{todo.file}.py") for todo in rubric.todos if plugin.wanted(todo)
     )
-    before = hypothesis.settings.get_current_profile_name()
-    hypothesis.settings.load_profile("judge")
-    try:
+    with settled_environment():
         status = pytest.main(
             [
                 *("-c", str(CHECKS / "pytest.ini"), "--rootdir", str(CHECKS)),
                 *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:faulthandler"),
-                *("-p", "no:hypothesispytest"),
                 *("--import-mode", "importlib", "--noconftest", "--assert=plain", *files),
             ],
             plugins=[plugin],
         )
-    finally:
-        hypothesis.settings.load_profile(before)
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
         raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
     for todo in filter(plugin.wanted, rubric.todos):

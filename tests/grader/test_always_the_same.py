@@ -1,12 +1,18 @@
-"""The same submission gives the same JSON, on an idle machine and a busy one (`make soak`)."""
+"""The same submission gives the same JSON, whatever the machine is like (`make soak`)."""
 
 import multiprocessing
+import os
+import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.maintain.bank import Member, members
 from grader.report.files import as_json
 
 
@@ -38,3 +44,81 @@ def test_twenty_grades_are_one(tree: str):
     with busy_machine():
         busy = {as_json(grade(KIT / tree, options)) for _ in range(10)}
     assert len(idle | busy) == 1
+
+
+@pytest.fixture(scope="module")
+def submission(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One that gets some of the points, with words about the others."""
+    return built("4-clamps-the-increment", tmp_path_factory.mktemp("bank") / "submission")
+
+
+def built(name: str, folder: Path) -> Path:
+    member: Member = next(each for each in members(KIT) if each.name == name)
+    member.build(KIT, folder)
+    return folder
+
+
+def graded(submission: Path, python: str = sys.executable, **environment: str) -> bytes:
+    """The JSON of a grader of its own, in another environment."""
+    target = submission.parent / "result.json"
+    command = [python, "-m", "grader", "grade", str(submission), "--json", str(target)]
+    environment = {**os.environ, "PYTHONPATH": str(KIT), **environment}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 1, done.stdout + done.stderr
+    return target.read_bytes()
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    "environment",
+    [
+        {"COLUMNS": "20"},
+        {"COLUMNS": "400", "NO_COLOR": "1", "TERM": "dumb"},
+        {"TZ": "Pacific/Kiritimati"},
+        {"LC_ALL": "tr_TR.UTF-8", "LANG": "tr_TR.UTF-8"},
+        {"PYTHONUTF8": "0", "LC_ALL": "C"},
+        {"PYTHONHASHSEED": "4711"},
+        {
+            "SDL_VIDEODRIVER": "x11",
+            "HYPOTHESIS_PROFILE": "ci",
+            "PYTEST_ADDOPTS": "-x --collect-only",
+        },
+    ],
+    ids=lambda names: ",".join(names),
+)
+def test_the_environment_changes_nothing(submission: Path, environment: dict[str, str]):
+    assert graded(submission, **environment) == graded(submission)
+
+
+@pytest.mark.soak
+def test_the_order_of_files_changes_nothing(submission: Path, tmp_path: Path):
+    backwards = tmp_path / "submission"
+    for path in sorted(submission.rglob("*"), reverse=True):
+        if path.is_file():
+            target = backwards / path.relative_to(submission)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, target)
+    assert graded(backwards) == graded(submission)
+
+
+@pytest.mark.soak
+def test_the_number_of_cores_changes_nothing(submission: Path):
+    program = [shutil.which("taskset") or pytest.skip("no taskset here"), "-c", "0"]
+    target = submission.parent / "one-core.json"
+    command = [*program, sys.executable, "-m", "grader", "grade", str(submission), "--json", target]
+    subprocess.run(command, env=os.environ | {"PYTHONPATH": str(KIT)}, capture_output=True)
+    assert target.read_bytes() == graded(submission)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14"])
+def test_the_version_of_python_changes_nothing(submission: Path, tmp_path: Path, version: str):
+    found = shutil.which(f"python{version}")
+    if found is None or subprocess.run([found, "-c", ""], capture_output=True).returncode:
+        pytest.skip(f"no Python {version} here")
+    subprocess.run([found, "-m", "venv", tmp_path / "venv"], check=True)
+    folder = "Scripts" if sys.platform == "win32" else "bin"
+    python = str(tmp_path / "venv" / folder / "python")
+    install = [python, "-m", "pip", "install", "--quiet", "-r", str(KIT / "requirements.txt")]
+    subprocess.run(install, check=True)
+    assert graded(submission, python) == graded(submission)
