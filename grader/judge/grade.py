@@ -214,7 +214,7 @@ def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
 
 @contextmanager
 def settled_environment() -> Iterator[None]:
-    """Our hypothesis profile, and no option or plugin of pytest that this machine happens to have."""
+    """Our hypothesis profile, and no option or plugin of pytest that is on this machine."""
     profile = hypothesis.settings.get_current_profile_name()
     usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
     for name in usual:
