@@ -29,7 +29,8 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade run verify sync test soak lint format bench lock clean venv
+.PHONY: help setup grade run dials accuracy effects cases compiled verify mutants sync test soak \
+	lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
@@ -47,10 +48,31 @@ grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a 
 run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solution
 	@cd $(WHERE) && ../$(PY) -m mini_engine
 
+##@ The engines, measured
+
+dials: $(CORE) ## Open the window with dials: any scene in each of the three engines
+	@cd $(WHERE) && ../$(PY) -m experiments.window
+
+accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minutes; QUICK=1 for less)
+	@cd solution && ../$(PY) accuracy.py --out ../build/accuracy $(if $(QUICK),--quick)
+
+effects: $(DEV) ## What each effect of the stable engine costs (QUICK=1 for less)
+	@cd solution && ../$(PY) -m experiments.effects --out ../build/effects $(if $(QUICK),--quick)
+
+cases: $(CORE) ## The hard cases in three engines, and the published test set (QUICK=1 for less)
+	@cd solution && ../$(PY) -m experiments.hard_cases $(if $(QUICK),--quick)
+	@cd solution && ../$(PY) -m experiments.published $(if $(QUICK),--quick)
+
+compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
+	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
+
 ##@ Looking after the kit
 
 verify: $(CORE) ## Prove the marks: starter 0, solution all, each wrong submission its own
 	@$(PY) -m grader verify
+
+mutants: $(CORE) ## Change the solution in small ways, and see whether the checks notice
+	@$(PY) -m grader mutants
 
 sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
@@ -75,10 +97,10 @@ bench: $(CORE) ## Measure how fast the grader is
 
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
-	$(LOCK) -o requirements-dev.txt --extra dev -c requirements.txt
+	$(LOCK) -o requirements-dev.txt --extra dev --extra plots -c requirements.txt
 
 clean: ## Remove .venv and everything else that can be made again
-	rm -rf .venv build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv build solution/build starter/build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
 # ---------------------------------------------------------------- setting up

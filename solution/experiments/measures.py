@@ -8,6 +8,10 @@ import math
 from .scenes import DT, Ball, G
 
 
+class GaveUp(Exception):
+    """An engine did not get to what is measured; the message is one word that says how."""
+
+
 def run(engine, seconds, dt=DT):
     """Step an engine on."""
     for _ in range(round(seconds / dt)):

@@ -1,4 +1,16 @@
 """Experiments with three engines: the lesson's, the stable one, and pymunk.
 
-Read in this order: scenes (plain data), engines (one builder each), measures, then any program.
+Programs, each started with python -m experiments.NAME:
+    window        any scene in any engine, with dials
+    hard_cases    where engines give up, side by side
+    published     the tests of Boeing and Bräunl, side by side
+    effects       what each effect of the stable engine costs
+    compiled      the stable engine as machine code
+and accuracy.py in the folder above: what accuracy costs in time.
+
+What they share: scenes (plain data), engines (one builder each), edits (of the lesson's engine),
+measures, opcodes (counting them), table (printing and writing).
+What one alone uses: drawing for window; battery and trials for hard_cases and published;
+effects_report for effects; smooth, dials, answers, costs, race, accuracy_tables and figures for
+accuracy.py.
 """

@@ -6,7 +6,7 @@ of it. The builders in engines.py make it for each engine.
 
 import math
 import random
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mini_engine import STEP, Box, make_world
 
@@ -172,8 +172,12 @@ def inside_ledge(pos=(0, 0)):
     return Scene([LEDGE, Ball(pos)], gravity=(0, 0), exact={"overlap": 0.0})
 
 
-def closed_box(seed=1, half=150.0, thick=50.0):
-    """A box filled by 55 % with balls of up to 1000:1 in mass, some on rods, all of them flying."""
+def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=4):
+    """A box filled by 55 % with balls of up to 1000:1 in mass, some on rods, all of them flying.
+
+    Their radii lie between these two, their speeds along x and y are at most fast (px/s), and
+    pairs of them are tied by a rod.
+    """
     rng = random.Random(seed)
     out, long = half + thick, half + 2 * thick
     walls = [Block((0, y), (long, thick)) for y in (-out, out)]
@@ -181,18 +185,23 @@ def closed_box(seed=1, half=150.0, thick=50.0):
     balls = []
     filled = 0.0
     while filled < 0.55 * (2 * half) ** 2:
-        radius = rng.uniform(6, 22)
+        radius = rng.uniform(*radii)
         reach = half - radius
         pos = (rng.uniform(-reach, reach), rng.uniform(-reach, reach))
-        vel = (rng.uniform(-400, 400), rng.uniform(-400, 400))
+        vel = (rng.uniform(-fast, fast), rng.uniform(-fast, fast))
         mass, bounce = 10 ** rng.uniform(-1.5, 1.5), rng.uniform(0, 0.9)
         balls.append(Ball(pos, radius, mass, vel, 0.0, bounce, rng.uniform(0, 1)))
         filled += math.pi * radius**2
-    rods = [(len(walls) + 2 * i, len(walls) + 2 * i + 1) for i in range(4)]
+    rods = [(len(walls) + 2 * i, len(walls) + 2 * i + 1) for i in range(pairs)]
     return Scene([*walls, *balls], (*BOUNCE, "Rods"), rods, exact={"escapes": 0.0})
 
 
 # ---------------------------------------------------------------- bouncing and fast balls
+
+
+def free_fall(seconds=2.0):
+    """One ball that falls from y = 0 for so long, and nothing to fall on."""
+    return Scene([Ball((0, 0))], effects=(), exact={"fallen": G * seconds**2 / 2})
 
 
 def drop(height=290.0, restitution=1.0):
@@ -235,6 +244,12 @@ def near_miss(speed=10_000.0, start=100.0, miss=0.5):
 def on_floor(radius=10.0, **ball):
     """One ball that touches the floor."""
     return Scene([floor(), Ball((0, -radius), radius, **ball)], exact={"drift": 0.0})
+
+
+def resting(radius=10.0, far=0.0):
+    """A ball that touches a floor many times its size, far px right and down from the origin."""
+    ground = Block((far, far + 50 * radius), (500 * radius, 50 * radius))
+    return Scene([ground, Ball((far, far - radius), radius)], exact={"depth": 0.0})
 
 
 def slide(speed=300.0, radius=10.0):
@@ -306,6 +321,20 @@ def oscillator(stiffness=(2 * math.pi) ** 2, stretch=50.0):
     springs = [Spring(0, 1, stiffness, length=100)]
     exact = {"energy": 0.0, "swing": stretch}
     return Scene(balls, ("Springs",), springs=springs, gravity=(0, 0), exact=exact)
+
+
+# ---------------------------------------------------------------- another order
+
+
+def shuffled(scene, seed=SEED):
+    """The same scene with its bodies in another order, and the old places of the new list."""
+    order = list(range(len(scene.bodies)))
+    random.Random(seed).shuffle(order)
+    place = {old: new for new, old in enumerate(order)}
+    rods = [(place[a], place[b]) for a, b in scene.rods]
+    springs = [replace(s, a=place[s.a], b=place[s.b]) for s in scene.springs]
+    bodies = [scene.bodies[i] for i in order]
+    return replace(scene, bodies=bodies, rods=rods, springs=springs), order
 
 
 # ---------------------------------------------------------------- by name

@@ -7,31 +7,27 @@ import sys
 from pathlib import Path
 
 import pytest
-from measures import run, state, watch
-from opcodes import count_opcodes, files_run
-from scenes import (
-    DT,
+from worlds_for_tests import (
     EFFECTS,
     NEED_CONTACTS,
-    Ball,
-    Scene,
     all_but,
     build,
     build_playground,
     flying,
     lying,
+    make,
+    state,
 )
 
 import stable_engine
-from stable_engine import Body, Circle, Contacts, Rod, Sleep, Spring, World
+from experiments.measures import run, watch
+from experiments.opcodes import count_opcodes, files_run
+from experiments.scenes import DT, Ball, Scene, Spring
+from stable_engine import Body, Circle, Contacts, Rod, Sleep, World
 
 HERE = Path(__file__).parent
 FILES = {name: {f"{name.lower()}.py"} for name in EFFECTS}
 FILES["Contacts"] |= {"contact.py", "broad_phase.py"}
-
-
-def make(names):
-    return [getattr(stable_engine, name)() for name in names]
 
 
 # ---------------------------------------------------------------- undeclared
@@ -87,9 +83,9 @@ def test_an_undeclared_effect_may_be_missing_and_costs_no_opcode(effect):
 
 
 def opcodes_without(*arguments):
-    """What opcodes.py prints, in a Python of its own."""
+    """What without_effect_for_tests.py prints, in a Python of its own."""
     path = os.pathsep.join([str(HERE), str(Path(stable_engine.__file__).parents[1])])
-    program = [sys.executable, str(HERE / "opcodes.py"), *arguments]
+    program = [sys.executable, str(HERE / "without_effect_for_tests.py"), *arguments]
     env = os.environ | {"PYTHONPATH": path}
     return int(subprocess.run(program, env=env, check=True, capture_output=True).stdout)
 
@@ -106,8 +102,8 @@ def test_a_declared_effect_without_users_costs_a_constant(effect):
 def price_of(effect, scene):
     """How many opcodes more a step costs when the effect is declared."""
     base = ["Contacts"]
-    with_it = build(scene, make([*base, effect]))
-    without = build(scene, make(base))
+    with_it = build(scene, *base, effect)
+    without = build(scene, *base)
     return opcodes_of_a_step(with_it) - opcodes_of_a_step(without)
 
 
@@ -126,7 +122,7 @@ def rods(count, others):
 
 def springs(count, others):
     scene = flying(2 * count + others)
-    scene.springs = [(2 * i, 2 * i + 1, 10.0) for i in range(count)]
+    scene.springs = [Spring(2 * i, 2 * i + 1, 10.0, length=100) for i in range(count)]
     return scene
 
 
@@ -147,7 +143,7 @@ def bullets(count, others):
 )
 def test_an_effect_costs_in_proportion_to_its_users_alone(scene, effects, files):
     def price(users, others):
-        return opcodes_of_a_step(build(scene(users, others), make(effects)), files)
+        return opcodes_of_a_step(build(scene(users, others), *effects), files)
 
     assert price(5, 0) == price(5, 50), "bodies that do not use it cost something"
     assert price(15, 0) - price(10, 0) == price(10, 0) - price(5, 0) > 0
@@ -159,7 +155,7 @@ def test_the_sleeping_cost_nothing(effects):
     for count in (5, 50):
         scene = lying(count, still=0)
         scene.gravity = scene.gravity if "Contacts" in effects else (0, 0)
-        world = build(scene, make(effects))
+        world = build(scene, *effects)
         run(world, 2)
         assert all(body.asleep for body in world.bodies[1:])
         prices.append(opcodes_of_a_step(world))
@@ -170,7 +166,7 @@ def test_a_tall_silo_costs_no_more_than_a_wide_bin():
     def price(across, down):
         """The broad phase's opcodes for 60 balls in a row, one diameter apart."""
         balls = [Ball((40 * i * across, 40 * i * down)) for i in range(60)]
-        return opcodes_of_a_step(build(Scene(balls), make(["Contacts"])), {"broad_phase.py"})
+        return opcodes_of_a_step(build(Scene(balls), "Contacts"), {"broad_phase.py"})
 
     assert price(0, 1) == pytest.approx(price(1, 0), rel=0.2)
     assert price(0.02, 1) < 2 * price(1, 0)
@@ -180,7 +176,7 @@ def test_a_tall_silo_costs_no_more_than_a_wide_bin():
 
 
 def test_a_rod_or_spring_without_its_effect_is_an_error():
-    for effect, joint in (("Rods", Rod), ("Springs", lambda a, b: Spring(a, b, 1.0))):
+    for effect, joint in (("Rods", Rod), ("Springs", lambda a, b: stable_engine.Spring(a, b, 1.0))):
         world = World()
         a, b = (world.add(Body(Circle(1), (x, 0), 1.0)) for x in (0, 9))
         with pytest.raises(ValueError, match=rf"needs {effect}\(\).*World\(effects="):
@@ -208,7 +204,7 @@ def test_effects_may_be_declared_in_any_order():
 
 
 def test_a_scene_without_effects_falls_freely():
-    world = build(Scene(flying(1).bodies), [])
+    world = build(Scene(flying(1).bodies, effects=()))
     ball = world.bodies[0]
     steps = watch(world, 1, lambda: ball.y)
     count = len(steps) * world.substeps

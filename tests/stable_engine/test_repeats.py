@@ -1,12 +1,10 @@
 """The same run twice gives identical bits, and the order of adding bodies changes none."""
 
-import random
-
 import pytest
-from measures import run, state
-from scenes import EFFECTS, Scene, build, build_playground, chain, closed_box, pile, stack
+from worlds_for_tests import EFFECTS, build, build_playground, state
 
-from stable_engine import Bounce, Contacts, Friction, Rods, Sleep, Springs
+from experiments.measures import run
+from experiments.scenes import BOUNCE, Scene, Spring, chain, closed_box, pile, shuffled, stack
 
 
 @pytest.mark.parametrize(
@@ -14,9 +12,9 @@ from stable_engine import Bounce, Contacts, Friction, Rods, Sleep, Springs
     [
         lambda: build(pile(40, 150)),
         lambda: build(closed_box(3)),
-        lambda: build(chain(20, (20, 0)), [Rods()]),
+        lambda: build(chain(20, (20, 0))),
         lambda: build_playground(EFFECTS),
-        lambda: build(pile(40, 150), [Contacts(), Friction(), Bounce(), Sleep()]),
+        lambda: build(pile(40, 150), *BOUNCE, "Sleep"),
     ],
     ids=["pile", "closed box", "chain", "playground", "sleepers"],
 )
@@ -30,20 +28,20 @@ def test_the_same_run_twice_gives_identical_bits(make):
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("scene", [pile(40, 150), stack(1, 100)], ids=["pile", "stack"])
 def test_the_order_of_adding_bodies_changes_no_bit(scene, seed):
-    order = list(range(len(scene.bodies)))
-    random.Random(seed).shuffle(order)
-    straight, shuffled = build(scene), build(Scene([scene.bodies[i] for i in order]))
+    other, order = shuffled(scene, seed)
+    straight, shuffled_world = build(scene), build(other)
     run(straight, 2)
-    run(shuffled, 2)
-    for i, body in zip(order, shuffled.bodies, strict=True):
+    run(shuffled_world, 2)
+    for i, body in zip(order, shuffled_world.bodies, strict=True):
         twin = straight.bodies[i]
         assert (body.x, body.y, body.w) == (twin.x, twin.y, twin.w)
 
 
 def test_momentum_is_kept_without_gravity_and_walls():
-    scene = Scene(closed_box(7).bodies[4:], rods=[(0, 1), (2, 3)], gravity=(0, 0))
-    scene.springs = [(4, 5, 100.0)]
-    world = build(scene, [Contacts(), Friction(), Bounce(), Rods(), Springs()])
+    effects = (*BOUNCE, "Rods", "Springs")
+    springs = [Spring(4, 5, 100.0, length=100)]
+    scene = Scene(closed_box(7).bodies[4:], effects, [(0, 1), (2, 3)], springs, gravity=(0, 0))
+    world = build(scene)
 
     def momentum(axis):
         return sum(getattr(body, axis) / body.inv_mass for body in world.bodies)

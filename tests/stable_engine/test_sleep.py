@@ -1,14 +1,14 @@
 """When islands fall asleep, and what wakes them."""
 
 import pytest
-from measures import balls, deepest_overlap, run, speed, watch
-from scenes import DT, Ball, Scene, build, chain, floor, oscillator, pile, tower
+from worlds_for_tests import balls, build
 
-from stable_engine import Body, Bounce, Circle, Contacts, Friction, Rod, Rods, Sleep, Springs
+from experiments.engines import Stable
+from experiments.measures import deepest_overlap, run, speed, watch
+from experiments.scenes import BOUNCE, DT, Ball, Scene, chain, floor, oscillator, pile, tower
+from stable_engine import Body, Circle, Rod
 
-
-def effects():
-    return [Contacts(), Friction(), Bounce(), Sleep()]
+SLEEPY = (*BOUNCE, "Sleep")
 
 
 def asleep(world, most=10):
@@ -24,7 +24,7 @@ def asleep(world, most=10):
 def test_a_tower_wakes_as_calm_as_it_fell_asleep():
     scene = tower(20)
     scene.bodies.append(Ball((0, -1e6)))
-    world = build(scene, effects())
+    world = build(scene, *SLEEPY)
     tall, flying = balls(world)[:-1], balls(world)[-1]
     run(world, 3)
     assert world.awake == [flying]
@@ -38,7 +38,7 @@ def test_a_tower_wakes_as_calm_as_it_fell_asleep():
 
 
 def test_a_touch_wakes_a_tower_calmly():
-    world = asleep(build(tower(5), effects()))
+    world = asleep(build(tower(5), *SLEEPY))
     tall = balls(world)
     world.add(Body(Circle(5), (0, tall[-1].y - 15.5), 0.01))
     assert max(watch(world, 0.2, lambda: max(map(speed, tall)))) < 1
@@ -46,20 +46,27 @@ def test_a_touch_wakes_a_tower_calmly():
 
 
 def test_a_falling_ball_wakes_the_pile_it_hits():
-    world = asleep(build(pile(60, 150), effects()))
-    ball = world.add(Body(Circle(10), (0, -600), 1.0))
-    highest = min(other.y - other.radius for other in balls(world)[:-1])
+    scene = pile(60, 150)
+    scene.bodies.append(Ball((0, -1e6)))
+    scene.effects = SLEEPY
+    engine = Stable(scene)
+    world, ball = engine.world, engine.bodies[-1]
+    others = balls(world)[:-1]
+    run(engine, 5)
+    assert world.awake == [ball]
+    ball.pos, ball.vel = (0, -600), (0, 0)
+    highest = min(other.y - other.radius for other in others)
     while ball.y + ball.radius < highest:
         assert world.awake == [ball]
         world.step(DT)
-    run(world, 0.5)
+    run(engine, 0.5)
     assert len(world.awake) > 1
     asleep(world)
-    assert deepest_overlap(world) < 0.5
+    assert deepest_overlap(engine) < 0.5
 
 
 def test_a_ball_far_away_sleeps_on():
-    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((200, -10))]), effects()))
+    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((200, -10))]), *SLEEPY))
     near, far = balls(world)
     world.add(Body(Circle(10), (0, -60), 1.0))
     run(world, 0.5)
@@ -71,7 +78,7 @@ def test_a_ball_far_away_sleeps_on():
     ("field", "value"), [("pos", (0.0, -10.5)), ("vel", (1.0, 0.0)), ("omega", 5.0)]
 )
 def test_setting_a_ball_wakes_its_island(field, value):
-    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), effects()))
+    world = asleep(build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), *SLEEPY))
     lower, upper = balls(world)
     setattr(lower, field, value)
     assert not lower.asleep
@@ -79,8 +86,9 @@ def test_setting_a_ball_wakes_its_island(field, value):
 
 
 def test_joints_sleep_with_their_bodies_and_wake_them():
-    for scene, effect in ((chain(5, (0, 20)), Rods()), (oscillator(10.0), Springs())):
-        world = asleep(build(scene, [effect, Sleep()]))
+    for scene, name in ((chain(5, (0, 20)), "Rods"), (oscillator(10.0, 0.0), "Springs")):
+        world = asleep(build(scene, name, "Sleep"))
+        effect = world.effects[name]
         assert effect.awake == []
         balls(world)[-1].vel = (50, 0)
         assert world.awake == balls(world)
@@ -89,12 +97,12 @@ def test_joints_sleep_with_their_bodies_and_wake_them():
 
 def test_a_new_rod_wakes_its_bodies():
     scene = Scene([floor(), Ball((0, -10)), Ball((100, -10))])
-    world = asleep(build(scene, [*effects(), Rods()]))
+    world = asleep(build(scene, *SLEEPY, "Rods"))
     world.add(Rod(*balls(world)))
     assert len(world.awake) == 2
 
 
 def test_a_swinging_pendulum_does_not_fall_asleep():
     scene = chain(1, (100, 0))
-    world = build(scene, [Rods(), Sleep()])
+    world = build(scene, "Rods", "Sleep")
     assert all(watch(world, 10, lambda: bool(world.awake)))

@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from scenes import DT
 
+from experiments.scenes import DT
 from stable_engine import (
     Body,
     Box,

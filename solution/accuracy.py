@@ -1,0 +1,185 @@
+"""What accuracy costs in time: your engine and integrators, the stable engine, and pymunk.
+
+Every scene has an exact answer. The program turns each dial of each engine, and tells how far the
+answer is off and what the run costs. It prints tables and writes them with figures into a folder:
+
+    python accuracy.py            takes some minutes
+    python accuracy.py --quick    takes half a minute; shorter runs and fewer values of each dial
+
+Figures need matplotlib; everything else works without it.
+"""
+
+import argparse
+import json
+import platform
+import re
+import shutil
+import sys
+from pathlib import Path
+
+from experiments import accuracy_tables, figures, race, smooth
+from experiments.answers import Effort, study
+from experiments.dials import QUESTIONS, dials
+from experiments.table import Progress, write_markdown
+
+BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)
+SINKING = ("tower", "stack")  # where the stable engine and pymunk race at equal accuracy
+WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03}  # of a solve, roughly
+SMOOTH_WEIGHT = 4e5  # of one system of the integrators
+FIGURES = "To draw the figures, install matplotlib: python -m pip install matplotlib"
+
+
+# ---------------------------------------------------------------- measuring
+
+
+def measure(effort, balls, progress):
+    """All results, as plain lists and dictionaries."""
+    return {
+        "about": about(effort),
+        "smooth": measure_smooth(effort, progress),
+        "dials": {name: measure_dials(name, effort, progress) for name in QUESTIONS},
+        "equal": [measure_race(name, effort, progress) for name in SINKING],
+        "piles": [measure_pile(count, effort, progress) for count in balls],
+    }
+
+
+def measure_smooth(effort, progress):
+    most = effort.scale * 1e6  # steps
+    systems = []
+    for make in smooth.SYSTEMS:
+        system = make()
+        progress.step(SMOOTH_WEIGHT, f"integrators, {system.title}")
+        systems.append(smooth.study(system, most=most))
+    return {"systems": systems, "energy": smooth.energy_study(), "fall": smooth.fall_study()}
+
+
+def measure_dials(name, effort, progress):
+    question = QUESTIONS[name]
+
+    def tick(setting):
+        progress.step(weight(question, setting, effort), f"{question.title}, {setting.engine}")
+
+    return study(name, effort, tick)
+
+
+def measure_race(name, effort, progress):
+    def tick(setting):
+        progress.step(race_weight(effort), f"{QUESTIONS[name].title}, equal accuracy")
+
+    return race.equal_accuracy(name, effort, tick)
+
+
+def measure_pile(count, effort, progress):
+    def tick(who):
+        progress.step(pile_weight(count), f"pile of {count} balls, {who}")
+
+    return race.pile_row(count, effort, tick)
+
+
+def about(effort):
+    """What was run, so that two results can be told apart."""
+    return {
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+        "quick": effort.quick,
+        "scale": effort.scale,
+    }
+
+
+# ---------------------------------------------------------------- how long it takes
+
+
+def weight(question, setting, effort):
+    """Roughly how much work a run is, in passes over one ball."""
+    moving = len(effort.scene(question).moving())
+    steps = effort.seconds(question) * setting.rate * setting.substeps
+    return steps * (moving + 1) * (setting.passes + 10) * WEIGHTS[setting.engine]
+
+
+def race_weight(effort):
+    return 3e4 if effort.quick else 3e5
+
+
+def pile_weight(count):
+    return 2e3 * count
+
+
+def total_weight(effort, balls):
+    """The whole program's work."""
+    work = SMOOTH_WEIGHT * len(smooth.SYSTEMS)
+    for question in QUESTIONS.values():
+        settings = {setting for _, _, row in dials(effort.quick) for _, setting in row}
+        work += sum(weight(question, setting, effort) for setting in settings)
+    rivals = len(race.SLOPS) * len(race.RATES) * len(race.PASSES) // (4 if effort.quick else 1)
+    return work + len(SINKING) * rivals * race_weight(effort) + 5 * sum(map(pile_weight, balls))
+
+
+# ---------------------------------------------------------------- the program
+
+
+def main(arguments=None):
+    options = read(arguments)
+    effort = Effort(options.quick, options.scale)
+    balls = QUICK_BALLS if options.quick else BALLS
+    balls = balls[:1] if options.scale < 1 else balls
+    options.out.mkdir(parents=True, exist_ok=True)
+    progress = Progress(total_weight(effort, balls))
+    results = measure(effort, balls, progress)
+    progress.end()
+    text = json.dumps(results, indent=1, allow_nan=False)
+    (options.out / "results.json").write_text(text, encoding="utf-8")
+    for table in accuracy_tables.all_tables(results):
+        print(table.text())
+    if options.no_figures:
+        print(f"Results are in {options.out}.")
+    else:
+        draw(results, options.out, progress)
+    if options.markdown:
+        write_markdown(options.markdown, accuracy_tables.short_tables(results))
+        copy_figures(options.out, options.markdown)
+
+
+def draw(results, folder, progress):
+    """Draw the figures, or say what they need."""
+    try:
+        names = figures.draw_all(results, folder, lambda name: progress.step(0, f"drawing {name}"))
+    except ImportError:
+        print(f"Results are in {folder}. {FIGURES}")
+        return
+    progress.end()
+    print(f"Results and {len(names)} figures are in {folder}.")
+
+
+def copy_figures(folder, handout):
+    """Bring the figures that a handout shows to where it shows them."""
+    for name in figures_shown(handout):
+        if (folder / name).exists():
+            place = handout.parent / "figures" / f"accuracy-{name}"
+            place.parent.mkdir(exist_ok=True)
+            shutil.copyfile(folder / name, place)
+
+
+def figures_shown(handout):
+    """The names of this program's SVG figures that a handout shows, as in the results' folder."""
+    return re.findall(r"figures/accuracy-([\w-]+\.svg)", handout.read_text(encoding="utf-8"))
+
+
+def read(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="shorter runs, fewer values per dial")
+    parser.add_argument("--no-figures", action="store_true", help="tables and results only")
+    parser.add_argument("--out", type=Path, default=Path("build/accuracy"), metavar="DIR")
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="put tables between the markers of FILE"
+    )
+    parser.add_argument(
+        "--scale", type=float, default=1.0, help="share of the simulated time to run, for a trial"
+    )
+    options = parser.parse_args(arguments)
+    if not 0 < options.scale <= 1:
+        parser.error(f"--scale is {options.scale}, but it must be above 0 and at most 1.")
+    return options
+
+
+if __name__ == "__main__":
+    sys.exit(main())

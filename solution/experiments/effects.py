@@ -1,0 +1,326 @@
+"""What each effect costs: `python -m experiments.effects [--quick] [--markdown FILE]`.
+
+Takes a pile of balls at rest, declares one effect after the other, and counts what one step takes:
+opcodes, milliseconds, and what the engine did (pairs, contacts, solves ...). The price of an effect
+is the difference between two such runs. Prints the tables, and writes them with their figures to
+build/effects. How tables and figures look is in effects_report.py.
+"""
+
+import argparse
+import gc
+import json
+import math
+import platform
+import time
+from dataclasses import dataclass, replace
+from itertools import combinations
+from pathlib import Path
+
+from mini_engine import contacts as lesson_contacts
+from mini_engine import joints, solver, world
+from stable_engine import bullets, contact, contacts, friction, rods, springs
+
+from . import effects_report
+from .engines import Lesson, Stable, State
+from .measures import overlap, run, states
+from .opcodes import count_calls, count_opcodes
+from .scenes import BOUNCE, DT, TOUCH, Ball, Scene, Spring, pile
+from .table import Progress, write_markdown
+
+SIZES = (10, 40, 200)  # balls
+USERS = 10  # rods, springs, bullets
+WARM_UP = 20  # steps before anything is counted
+TIMED = 10  # steps in one round of the clock
+ROUNDS, QUICK_ROUNDS = 60, 3  # for 40 balls; fewer for more
+DAMPING = (0.05, 0.3)  # 1/s
+# The processor's own time leaves other programs out. On Windows it is too coarse.
+FINE = time.get_clock_info("thread_time").resolution < 1e-6  # s
+seconds_now = time.thread_time if FINE else time.perf_counter
+OUT = Path("build/effects")
+
+EFFECTS = ("Contacts", "Friction", "Bounce", "Rods", "Springs", "Damping", "Bullets", "Sleep")
+NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
+FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
+FILES["Contacts"] += ["contact.py", "broad_phase.py"]
+
+
+@dataclass
+class Row:
+    """One line of the price list: a scene with these effects, less the same scene with base."""
+
+    title: str
+    effects: tuple
+    base: tuple | None = TOUCH  # None: less nothing
+    scene: str = "pile"
+
+
+TOGETHER = "all of them together"
+ROWS = [
+    Row("move only", (), None),
+    Row("contacts", ("Contacts",), ()),
+    Row("contacts, nobody moves", ("Contacts",), (), "still"),
+    Row("friction", TOUCH, ("Contacts",)),
+    Row("bounce", BOUNCE),
+    Row("10 rods", (*TOUCH, "Rods")),
+    Row("10 springs", (*TOUCH, "Springs")),
+    Row("damping", (*TOUCH, "Damping")),
+    Row("10 bullets, slow", (*TOUCH, "Bullets")),
+    Row("10 bullets, fast", (*TOUCH, "Bullets"), TOUCH, "flying"),
+    Row("sleep, all awake", (*TOUCH, "Sleep")),
+    Row(TOGETHER, EFFECTS, None),
+    Row("all asleep", (*TOUCH, "Sleep"), None, "asleep"),
+]
+APART = ("contacts, nobody moves", "10 bullets, fast", TOGETHER, "all asleep")
+STACKED = [row.title for row in ROWS if row.title not in APART]  # these add up to all together
+
+
+# ---------------------------------------------------------------- scenes
+
+
+def settled(count):
+    """A pile at rest. What is tied or flagged in it counts only where that effect is declared."""
+    width = 26.0 * max(4, round(math.sqrt(2.5 * count)))
+    engine = Stable(replace(pile(count, width), effects=(*TOUCH, "Damping"), damping=(1.0, 1.0)))
+    run(engine, 4)
+    bodies = [
+        replace(body, pos=(now.x, now.y), restitution=0.3)
+        for body, now in zip(engine.scene.bodies, states(engine), strict=True)
+    ]
+    pairs = neighbours(bodies)
+    for i in engine.scene.moving()[:USERS]:
+        bodies[i].bullet = True
+    ties = [Spring(a, b, 50.0, length=math.dist(bodies[a].pos, bodies[b].pos)) for a, b in pairs]
+    return Scene(bodies, TOUCH, pairs, ties, damping=DAMPING)
+
+
+def neighbours(bodies):
+    """The closest pairs of balls that do not touch: tied, they lie as they lay before."""
+    balls = [
+        (i, body, State(*body.pos, 0, 0, 0, 0))
+        for i, body in enumerate(bodies)
+        if isinstance(body, Ball)
+    ]
+    gaps = [
+        (-overlap(a, at, b, there), i, j) for (i, a, at), (j, b, there) in combinations(balls, 2)
+    ]
+    return [(i, j) for gap, i, j in sorted(gaps) if gap > 1][:USERS]
+
+
+def with_fliers(scene):
+    """That pile, and bullets far above it that move more than their radius in a step."""
+    pile_of_them = [replace(body) for body in scene.bodies]
+    for i in scene.moving():
+        pile_of_them[i].bullet = False
+    places = [(100.0 * i, -5000.0 - 100.0 * i) for i in range(USERS)]
+    fliers = [Ball(place, vel=(3000.0, 0.0), bullet=True) for place in places]
+    return replace(scene, bodies=[*pile_of_them, *fliers])
+
+
+def row_of_balls(count):
+    """Balls far apart, and nothing else."""
+    return Scene([Ball((100.0 * i, 0.0)) for i in range(count)], ())
+
+
+class Held:
+    """An engine that starts every step from the scene's places: each step costs the same.
+
+    kind "still": the engine may know that nobody has moved since the last step. "asleep": it runs
+    freely until all sleep.
+    """
+
+    def __init__(self, engine, kind="pile"):
+        self.engine = engine
+        self.kind = kind
+        if kind == "asleep":
+            run(engine, 2)
+        for _ in range(WARM_UP):
+            self.hold()
+            engine.step(DT)
+
+    def hold(self):
+        """Put every body back, and do not let it grow tired."""
+        if self.kind == "asleep":
+            return
+        for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
+            if isinstance(data, Ball) and data.mass > 0:
+                put_back(body, data)
+        stable = getattr(self.engine.world, "effects", {})
+        if "Contacts" in stable and self.kind != "still":
+            stable["Contacts"].places = []  # it looks for contacts anew
+
+
+def put_back(body, data):
+    """Give a body of either engine the place and velocity that the scene says."""
+    if hasattr(body, "still"):
+        (body.x, body.y), (body.vx, body.vy) = data.pos, data.vel
+        body.w = body.still = 0.0
+    else:
+        body.pos.update(data.pos)
+        body.vel.update(data.vel)
+        body.omega = 0.0
+
+
+# ---------------------------------------------------------------- counting
+
+
+def one(_):
+    return 1
+
+
+def rows_of(effect):
+    """How many contacts one pass of contacts or friction goes over."""
+    return len(effect.ball_rows) + len(effect.wall_rows)
+
+
+def awake(effect):
+    """How many joints one pass goes over."""
+    return len(effect.awake)
+
+
+STABLE_WORK = [
+    ("pairs", contact.collide, one),
+    ("contact solves", contacts.Contacts.solve, rows_of),
+    ("contact solves", contacts.Contacts.relax, rows_of),
+    ("friction solves", friction.Friction.relax, rows_of),
+    ("rod solves", rods.Rods.solve, awake),
+    ("rod solves", rods.Rods.relax, awake),
+    ("spring forces", springs.Springs.force, awake),
+    ("sweeps", bullets.Bullets.first_hit, one),
+]
+LESSON_WORK = [
+    ("pairs", lesson_contacts.collide, one),
+    ("solver runs", world.World.solve, one),
+    ("contact solves", solver.solve_normal, one),
+    ("friction solves", solver.solve_friction, one),
+    ("rod solves", joints.DistanceJoint.solve, one),
+    ("damping runs", world.World.apply_damping, one),
+]
+
+
+def count(held, work):
+    """What one step takes: opcodes, in which files, and what was done."""
+    engine = held.engine
+    held.hold()
+    by_file = count_opcodes(lambda: engine.world.step(DT))
+    held.hold()
+    done = count_calls(lambda: engine.world.step(DT), work)
+    done = {"contacts": engine.contacts() if done["contact solves"] else 0, **done}
+    return {"opcodes": sum(by_file.values()), "by_file": dict(by_file), "done": done}
+
+
+def clock(cases, rounds):
+    """The least milliseconds per step of each case; they take turns, so that all meet the noise."""
+    least = dict.fromkeys(cases, math.inf)
+    gc.disable()
+    for _ in range(rounds):
+        for name, held in cases.items():
+            for _ in range(TIMED):
+                held.hold()
+                start = seconds_now()
+                held.engine.world.step(DT)
+                least[name] = min(least[name], (seconds_now() - start) * 1000)
+    gc.enable()
+    return least
+
+
+# ---------------------------------------------------------------- the three lists
+
+
+def price_list(balls, rounds):
+    """Rows of the price list for a pile of so many balls."""
+    heap = settled(balls)
+    scenes = {"pile": heap, "still": heap, "asleep": heap, "flying": with_fliers(heap)}
+    cases = {}
+    for row in ROWS:
+        for effects in (row.effects, row.base):
+            if effects is not None and (row.scene, effects) not in cases:
+                scene = replace(scenes[row.scene], effects=effects)
+                cases[row.scene, effects] = Held(Stable(scene), row.scene)
+    counted = {key: count(held, STABLE_WORK) for key, held in cases.items()}
+    times = clock(cases, max(1, rounds * 40 // max(balls, 40)))
+    listed = []
+    for row in ROWS:
+        key, base = (row.scene, row.effects), (row.scene, row.base)
+        less = counted[base]["opcodes"] if row.base is not None else 0
+        now = {"title": row.title, "effects": row.effects, "base": row.base, **counted[key]}
+        listed.append(now | {"price": now["opcodes"] - less, "ms": times[key]})
+    return listed
+
+
+def undeclared_list(balls):
+    """For each effect, the opcodes in its own files with all declared, and with all others."""
+    heap = settled(balls)
+    listed = []
+    for effect in EFFECTS:
+        left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
+        others = tuple(name for name in EFFECTS if name not in left_out)
+        spent = []
+        for effects in (EFFECTS, others):
+            by_file = count(Held(Stable(replace(heap, effects=effects))), STABLE_WORK)["by_file"]
+            spent.append(sum(by_file.get(name, 0) for name in FILES[effect]))
+        found = {"effect": effect, "files": FILES[effect]}
+        listed.append({**found, "declared": spent[0], "undeclared": spent[1]})
+    return listed
+
+
+def lesson_list(balls, rounds):
+    """The lesson's engine on the same pile: what it leaves out where a scene has no use for it."""
+    heap = settled(balls)
+    scenes = {
+        "balls far apart": row_of_balls(balls),
+        "a pile without friction": replace(heap, effects=("Contacts",)),
+        "with friction": heap,
+        "with friction and 10 rods": replace(heap, effects=(*TOUCH, "Rods")),
+        "with friction and damping": replace(heap, effects=(*TOUCH, "Damping")),
+    }
+    cases = {title: Held(Lesson(scene)) for title, scene in scenes.items()}
+    counted = {title: count(held, LESSON_WORK) for title, held in cases.items()}
+    times = clock(cases, rounds)
+    return [{"title": title, **counted[title], "ms": times[title]} for title in cases]
+
+
+def measure(sizes=SIZES, rounds=ROUNDS):
+    """All lists, as plain data."""
+    middle = sizes[len(sizes) // 2]
+    progress = Progress(sum(sizes) + 2 * middle)
+    prices = {}
+    for balls in sizes:
+        progress.step(balls, f"{balls} balls")
+        prices[str(balls)] = price_list(balls, rounds)
+    progress.step(middle, "effects that are not declared")
+    undeclared = undeclared_list(middle)
+    progress.step(middle, "the lesson's engine")
+    lesson = lesson_list(middle, rounds)
+    progress.end()
+    return {
+        "python": platform.python_version(),
+        "middle": str(middle),
+        "stacked": STACKED,
+        "prices": prices,
+        "undeclared": undeclared,
+        "lesson": lesson,
+    }
+
+
+def main(arguments=None):
+    """Run from the command line."""
+    parser = argparse.ArgumentParser(prog="python -m experiments.effects", description="Prices.")
+    parser.add_argument("--quick", action="store_true", help="fewer rounds of the clock")
+    parser.add_argument("--balls", type=int, nargs="+", default=SIZES, help="sizes of the pile")
+    parser.add_argument("--out", type=Path, default=OUT, help="folder for results and figures")
+    parser.add_argument("--markdown", type=Path, help="file whose block of tables is renewed")
+    options = parser.parse_args(arguments)
+    if min(options.balls) < USERS:
+        parser.error(f"--balls is {min(options.balls)}, but it must be {USERS} or more.")
+    results = measure(tuple(options.balls), QUICK_ROUNDS if options.quick else ROUNDS)
+    options.out.mkdir(parents=True, exist_ok=True)
+    (options.out / "results.json").write_text(json.dumps(results, indent=1) + "\n", "utf-8")
+    tables = effects_report.tables(results)
+    print("\n".join(table.text() for table in tables))
+    print(effects_report.figures(results, options.out))
+    if options.markdown:
+        write_markdown(options.markdown, tables)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,140 @@
+"""Every question put to every setting, with what each answer cost and which dials help."""
+
+import math
+
+from .costs import opcodes_per_second, wall_times
+from .dials import LESSON, QUESTIONS, dials
+
+EXACT = 1e-9  # errors below this need no dial
+HELPS = 0.05  # a dial whose whole range changes the error by a smaller share cannot help
+
+
+class Effort:
+    """How much work a study may do."""
+
+    def __init__(self, quick=False, scale=1.0, rounds=None):
+        self.quick, self.scale = quick, scale
+        self.rounds = rounds or (15 if quick else 40)
+        self.opcode_steps = 1 if quick else 2
+
+    def seconds(self, question):
+        return self.scale * (question.quick_seconds if self.quick else question.seconds)
+
+    def scene(self, question):
+        quick = self.quick and question.quick_scene is not None
+        return question.quick_scene() if quick else question.scene()
+
+
+def study(name, effort, tick=lambda setting: None):
+    """The answers to one question: its runs, and what each dial does to each error."""
+    question, rows = QUESTIONS[name], dials(effort.quick)
+    settings = list(dict.fromkeys(setting for _, _, row in rows for _, setting in row))
+    runs = []
+    for setting in settings:
+        tick(setting)
+        runs.append(answer(question, setting, effort))
+    price(runs, settings, effort)
+    for run in runs:
+        del run["in motion"]
+    return {
+        "title": question.title,
+        "seconds": effort.seconds(question),
+        "units": question.units,
+        "runs": runs,
+        "dials": [
+            dial_row(engine, dial, row, runs, settings, question.units)
+            for engine, dial, row in rows
+        ],
+    }
+
+
+def answer(question, setting, effort):
+    """One run: its setting, its errors by name, and the engine in motion."""
+    engine = setting.build(effort.scene(question))
+    try:
+        errors = question.ask(engine, effort.seconds(question), setting.dt)
+    except ValueError:  # the engines refuse to go on with NaN
+        errors = dict.fromkeys(question.units, "NaN")
+    except Exception as problem:  # a student's code
+        errors = dict.fromkeys(question.units, type(problem).__name__)
+    known = {name: error if usable(error) else "NaN" for name, error in errors.items()}
+    return {
+        "engine": setting.engine,
+        "rate": setting.rate,
+        "passes": None if setting.engine == "stable" else setting.passes,
+        "substeps": setting.substeps,
+        "edits": list(setting.edits),
+        "default": setting == LESSON,
+        "errors": known,
+        "in motion": engine,
+    }
+
+
+def usable(error):
+    return isinstance(error, str) or math.isfinite(error)
+
+
+def price(runs, settings, effort):
+    """Add to each run what it costs from its last state on, per simulated second."""
+    going = [(run["in motion"], s.dt) for run, s in zip(runs, settings, strict=True)]
+    taken = wall_times(going, effort.rounds)
+    unit = taken[settings.index(LESSON)]
+    for run, setting, seconds in zip(runs, settings, taken, strict=True):
+        engine = run["in motion"]
+        run["ms"] = None if seconds is None else 1000 * seconds
+        run["ratio"] = seconds / unit if seconds and unit else None
+        run["solves"] = setting.solves(engine)
+        python = setting.engine != "pymunk"
+        run["opcodes"] = (
+            opcodes_per_second(engine, setting.dt, effort.opcode_steps) if python else None
+        )
+
+
+# ---------------------------------------------------------------- what a dial does
+
+
+def dial_row(engine, dial, row, runs, settings, units):
+    """The runs of one dial, by their place, and its verdict for each error."""
+    places = [settings.index(setting) for _, setting in row]
+    return {
+        "engine": engine,
+        "dial": dial,
+        "values": [str(value) for value, _ in row],
+        "runs": places,
+        "verdicts": {name: verdict(name, [runs[i] for i in places]) for name in units},
+    }
+
+
+def work(run):
+    """What a run costs to compare within one engine: opcodes, which repeat, or time in pymunk."""
+    return run["opcodes"] or run["ratio"]
+
+
+def verdict(name, runs):
+    """What the dial does to that error, and what one more digit costs: a factor of work, or None.
+
+    The factor is that between the first and the last value of the dial, carried on (or back) to
+    an error ten times smaller.
+    """
+    known = [(run["errors"][name], work(run)) for run in runs]
+    known = [pair for pair in known if not isinstance(pair[0], str) and pair[1]]
+    if len(known) < 2:
+        return {"says": "gives up", "digit": None}
+    errors = [max(error, 1e-16) for error, _ in known]
+    if max(errors) < EXACT:
+        return {"says": "exact already", "digit": None}
+    if (max(errors) - min(errors)) / max(errors) < HELPS:
+        return {"says": "cannot help", "digit": None}
+    if errors[-1] > errors[0] * (1 - HELPS):
+        return {"says": "no steady gain", "digit": None}
+    digits = math.log10(errors[0] / errors[-1])
+    return {"says": "helps", "digit": (known[-1][1] / known[0][1]) ** (1 / digits)}
+
+
+def best_dial(found, name, engine="lesson"):
+    """The dial of an engine with the cheapest digit for that error, and those that cannot help."""
+    rows = [row for row in found["dials"] if row["engine"] == engine]
+    helping = [row for row in rows if row["verdicts"][name]["says"] == "helps"]
+    best = min(helping, key=lambda row: row["verdicts"][name]["digit"], default=None)
+    useless = [row["dial"] for row in rows if row["verdicts"][name]["says"] == "cannot help"]
+    return best, useless

@@ -1,0 +1,53 @@
+"""What a run costs: wall time, and counts that no other program on the machine can move."""
+
+import gc
+import time
+
+from .opcodes import count_opcodes
+
+SLICE = 1 / 30  # simulated s: whole steps at every rate, and short, to fit between other programs
+COUNTED = 2  # steps whose opcodes are counted
+
+
+def wall_times(runs, rounds, slice_seconds=SLICE):
+    """Seconds of wall time per simulated second, one for each (engine, dt) of runs.
+
+    Rounds are interleaved: each gives every engine a slice, so that a busy moment of the machine
+    hits all alike. Of each engine the fastest slice counts. None where an engine raises.
+    """
+    best = [None] * len(runs)
+    gc.disable()
+    try:
+        for _ in range(rounds):
+            for i, (engine, dt) in enumerate(runs):
+                taken = time_slice(engine, dt, slice_seconds)
+                if taken is not None:
+                    best[i] = taken if best[i] is None else min(best[i], taken)
+    finally:
+        gc.enable()
+    return best
+
+
+def time_slice(engine, dt, slice_seconds):
+    """Seconds of wall time per simulated second over one slice, or None if the engine raises."""
+    steps = max(1, round(slice_seconds / dt))
+    start = time.perf_counter()
+    try:
+        for _ in range(steps):
+            engine.step(dt)
+    except Exception:  # NaN, or a student's code
+        return None
+    return (time.perf_counter() - start) / (steps * dt)
+
+
+def opcodes_per_second(engine, dt, steps=COUNTED):
+    """Opcodes per simulated second, or None if the engine raises. pymunk runs hardly any."""
+
+    def call():
+        for _ in range(steps):
+            engine.step(dt)
+
+    try:
+        return sum(count_opcodes(call).values()) / (steps * dt)
+    except Exception:
+        return None

@@ -1,0 +1,429 @@
+"""accuracy.py: exact answers, measured orders, costs, verdicts, and the program as a whole."""
+
+import json
+import math
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy
+import pytest
+from scipy.integrate import solve_ivp
+
+import accuracy
+import integrators
+from experiments import answers, costs, race, smooth
+from experiments.dials import LESSON, PYMUNK, QUESTIONS, STABLE, dials, hit
+from experiments.engines import State
+from experiments.scenes import G, drop, pendulum
+from experiments.table import BEGIN, END, Table, number, times, write_markdown
+
+ROOT = Path(__file__).parents[2]
+HANDOUT = ROOT / "handouts" / "accuracy.md"
+TINY = ["--quick", "--scale", "0.05"]
+SYSTEMS = pytest.mark.parametrize("make", smooth.SYSTEMS)
+
+# ---------------------------------------------------------------- integrators
+
+
+@SYSTEMS
+def test_the_exact_end_agrees_with_a_reference_solution(make):
+    system = make()
+
+    def rates(_, state):
+        x, v = state
+        return [v, system.accel(x)]
+
+    start = numpy.array(system.start, dtype=complex)
+    if isinstance(system.start[0], float):  # math.sin takes no complex number
+        start = start.real
+    span = (0, system.seconds)
+    found = solve_ivp(rates, span, start, method="DOP853", rtol=1e-13, atol=1e-13)
+    x, v = found.y[:, -1]
+    assert smooth.distance(system, x, v) < 1e-8 * system.size
+
+
+@SYSTEMS
+def test_every_method_has_its_order(make):
+    study = smooth.study(make())
+    for row in study["methods"]:
+        if (study["title"], row["method"]) == ("orbit", "explicit_euler"):
+            assert row["order"] is None  # still far off at 1/4096 s
+        else:
+            assert row["order"] == pytest.approx(row["expected"], abs=0.2), row["method"]
+
+
+def verlet_with_one_force(x, v, dt, accel):
+    a = accel(x)
+    return x + v * dt + 0.5 * a * dt**2, v + a * dt
+
+
+def rk4_with_equal_weights(x, v, dt, accel):
+    v1, a1 = v, accel(x)
+    v2, a2 = v + 0.5 * dt * a1, accel(x + 0.5 * dt * v1)
+    v3, a3 = v + 0.5 * dt * a2, accel(x + 0.5 * dt * v2)
+    v4, a4 = v + dt * a3, accel(x + dt * v3)
+    return x + dt / 4 * (v1 + v2 + v3 + v4), v + dt / 4 * (a1 + a2 + a3 + a4)
+
+
+@pytest.mark.parametrize(
+    ("place", "wrong"), [(2, verlet_with_one_force), (3, rk4_with_equal_weights)]
+)
+def test_a_wrong_method_misses_its_order(place, wrong):
+    methods = list(smooth.METHODS)
+    methods[place] = wrong
+    row = smooth.study(smooth.spring(), methods)["methods"][place]
+    assert row["order"] is None or abs(row["order"] - row["expected"]) > 0.2
+
+
+def test_calls_of_the_force_are_counted():
+    calls = [smooth.measure(smooth.spring(), m, 100)["calls"] for m in smooth.METHODS]
+    assert calls == [100, 100, 200, 400]
+
+
+def test_a_method_that_raises_or_blows_up_is_named_and_does_not_end_the_study():
+    def raises(x, v, dt, accel):
+        raise TypeError
+
+    assert smooth.measure(smooth.spring(), raises, 10)["error"] == "TypeError"
+    grows = smooth.measure(smooth.spring(), lambda x, v, dt, accel: (x * 1e9, v), 100)
+    assert grows["error"] == "blown up"
+    assert smooth.energy_peaks(raises)[-1] == "TypeError"
+
+
+def test_only_symplectic_methods_keep_the_energy_of_an_orbit_bounded():
+    bounded = {row["method"]: row["bounded"] for row in smooth.energy_study()}
+    assert bounded == {
+        "explicit_euler": False,
+        "semi_implicit_euler": True,
+        "velocity_verlet": True,
+        "rk4": False,
+    }
+
+
+def test_every_engine_falls_as_its_integrator_does():
+    rows = smooth.fall_study()
+    assert len(rows) == 7
+    for row in rows:
+        assert abs(row["off the sum"]) < 1e-9, row["name"]
+    errors = {row["name"]: row["error"] for row in rows}
+    assert errors["explicit_euler"] == pytest.approx(-G / 240)  # first order: g t dt / 2
+    assert errors["semi_implicit_euler"] == pytest.approx(G / 240)
+    assert errors["stable"] == pytest.approx(G / 960)
+
+
+def test_a_wrong_method_does_not_fall_as_it_should():
+    methods = [integrators.explicit_euler] * 4
+    off = [abs(row["off the sum"]) < 1e-9 for row in smooth.fall_study(methods)[:4]]
+    assert off == [True, False, False, False]
+
+
+# ---------------------------------------------------------------- questions
+
+
+class Exact:
+    """An engine that knows the answer: at(t) gives the states."""
+
+    def __init__(self, scene, at):
+        self.scene, self.at, self.time = scene, at, 0.0
+
+    def step(self, dt):
+        self.time += dt
+
+    def read(self, i):
+        return self.at(self.time)[i]
+
+    def lag(self, dt):
+        return 0.0
+
+
+def rest(x=0.0, y=0.0):
+    return State(x, y, 0.0, 0.0, 0.0, 0.0)
+
+
+def test_an_exact_bounce_has_no_error():
+    def at(t):
+        speed, start = math.sqrt(2 * G * 290), -math.sqrt(2 * 290 / G)
+        while t >= start + 2 * speed / G:
+            start, speed = start + 2 * speed / G, speed / 2
+        t -= start
+        return rest(), State(0.0, -10 - speed * t + G * t**2 / 2, 0.0, G * t - speed, 0.0, 0.0)
+
+    errors = QUESTIONS["rebounds"].ask(Exact(drop(restitution=0.5), at), 2.2, 1 / 120)
+    assert max(errors.values()) < 1e-9
+
+
+def test_an_exact_pendulum_has_no_error():
+    system = smooth.pendulum()
+    motion = [system.start]
+    for _ in range(4 * 480):
+        motion.append(integrators.rk4(*motion[-1], 1 / 480, system.accel))
+
+    def at(t):
+        angle, turn = motion[round(480 * t)]
+        x, y = 140 * math.sin(angle), 140 * math.cos(angle)
+        return rest(), State(x, y, y * turn, -x * turn, 0.0, 0.0)
+
+    errors = QUESTIONS["pendulum"].ask(Exact(pendulum(), at), 4, 1 / 480)
+    assert errors["stretch"] < 1e-9
+    assert errors["energy"] < 1e-6
+    assert errors["period"] < 1e-5  # the crossing lies on a chord between two steps
+
+
+def test_a_sliding_ball_that_never_grips_is_far_off():
+    scene = QUESTIONS["slide"].scene()
+    engine = Exact(scene, lambda t: (rest(), State(300 * t, -10, 300, 0, 0, 0)))
+    errors = QUESTIONS["slide"].ask(engine, 1, 1 / 120)
+    assert errors["speed"] == pytest.approx(0.5)
+    assert errors["time"] == math.inf
+
+
+def test_what_falls_through_the_floor_is_no_answer():
+    engine = Exact(drop(), lambda t: (rest(), rest(y=50.0)))
+    assert QUESTIONS["bounce"].ask(engine, 1, 1 / 120) == {"apex": "falls through"}
+
+
+def test_the_two_ball_hit_keeps_momentum_and_restitution():
+    first, second = hit(speed=300, e=0.8).exact["speeds"]
+    assert first + 3 * second == pytest.approx(300)
+    assert second - first == pytest.approx(0.8 * 300)
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_every_dial_goes_through_its_engine_as_it_is(quick):
+    defaults = {"lesson": LESSON, "stable": STABLE, "pymunk": PYMUNK}
+    for engine, dial, row in dials(quick):
+        settings = [setting for _, setting in row]
+        assert defaults[engine] in settings, (engine, dial)
+        assert len(set(settings)) == len(settings) >= (2 if dial == "edits" else 3)
+
+
+# ---------------------------------------------------------------- costs and verdicts
+
+
+def test_wall_times_are_the_least_of_interleaved_rounds(monkeypatch):
+    order, clock = [], SimpleNamespace(now=0.0)
+    monkeypatch.setattr(costs.time, "perf_counter", lambda: clock.now)
+
+    class Slow:
+        def __init__(self, name, taken):
+            self.name, self.taken = name, iter(taken)
+
+        def step(self, dt):
+            order.append(self.name)
+            clock.now += next(self.taken)
+
+    class Broken:
+        def step(self, dt):
+            raise ValueError
+
+    runs = [(Slow("a", [3, 1, 2]), 1.0), (Slow("b", [5, 7, 6]), 1.0), (Broken(), 1.0)]
+    assert costs.wall_times(runs, 3, 1.0) == [1, 5, None]
+    assert "".join(order) == "ababab"
+
+
+@pytest.mark.parametrize("setting", [LESSON, STABLE])
+def test_opcodes_are_the_same_from_run_to_run(setting):
+    def counted(setting):
+        engine = setting.build(QUESTIONS["stack"].scene())
+        for _ in range(30):
+            engine.step(setting.dt)
+        return costs.opcodes_per_second(engine, setting.dt)
+
+    assert counted(setting) == counted(setting) > 0
+    twice = replace(setting, passes=16) if setting is LESSON else replace(setting, substeps=8)
+    assert counted(twice) > counted(setting)
+
+
+def test_solves_follow_the_dials():
+    engine = LESSON.build(pendulum())  # one rod, no contacts
+    assert LESSON.solves(engine) == 120 * 8
+    assert replace(LESSON, passes=16, rate=60).solves(engine) == 60 * 16
+    assert STABLE.solves(STABLE.build(pendulum())) == 120 * 4 * 2
+
+
+def runs_of(*pairs):
+    return [{"errors": {"e": error}, "ratio": ratio, "opcodes": None} for error, ratio in pairs]
+
+
+@pytest.mark.parametrize(
+    ("runs", "says", "digit"),
+    [
+        (runs_of((1.0, 1), (0.1, 3)), "helps", 3),
+        (runs_of((1.0, 1), (0.5, 2), (0.01, 9)), "helps", 3),
+        (runs_of((1.0, 1), (0.96, 8)), "cannot help", None),
+        (runs_of((0.1, 1), (1.0, 2)), "no steady gain", None),
+        (runs_of((1e-12, 1), (0.0, 2)), "exact already", None),
+        (runs_of(("launched", 1), (1.0, 2)), "gives up", None),
+        (runs_of(("launched", 1), (1.0, 2), (0.1, 4)), "helps", 2),
+    ],
+)
+def test_a_verdict_tells_what_one_digit_costs(runs, says, digit):
+    found = answers.verdict("e", runs)
+    assert found["says"] == says
+    assert found["digit"] == (None if digit is None else pytest.approx(digit))
+
+
+def test_work_is_counted_in_opcodes_where_there_are_any():
+    assert answers.work({"opcodes": 5e6, "ratio": 1.0}) == 5e6
+    assert answers.work({"opcodes": None, "ratio": 2.0}) == 2.0
+
+
+def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
+    question, effort = QUESTIONS["pendulum"], answers.Effort(quick=True)
+
+    def asked(**dial):
+        run = answers.answer(question, replace(LESSON, **dial), effort)
+        return {**run, "ratio": 1.0, "opcodes": None}
+
+    passes = [asked(passes=n) for n in (4, 8, 64)]
+    steps = [asked(rate=rate) for rate in (60, 120, 240)]
+    for error in question.units:
+        assert answers.verdict(error, passes)["says"] == "cannot help"
+        assert answers.verdict(error, steps)["says"] == "helps"
+
+
+@pytest.mark.parametrize(
+    ("problem", "word"), [(ValueError("NaN"), "NaN"), (TypeError("student"), "TypeError")]
+)
+def test_an_engine_that_meets_nan_or_raises_gives_up(problem, word):
+    def ask(engine, seconds, dt):
+        raise problem
+
+    question = replace(QUESTIONS["slide"], ask=ask)
+    run = answers.answer(question, LESSON, answers.Effort(quick=True))
+    assert set(run["errors"].values()) == {word}
+
+
+def test_a_race_is_won_by_the_fastest_that_is_as_accurate(monkeypatch):
+    def one(sink, rate):
+        return {"sink": sink, "engine": None, "setting": race.Rival(rate, 10, None)}
+
+    monkeypatch.setattr(race, "wall_times", lambda runs, rounds: [2.0, 1.0, 4.0, 3.0])
+    stable, rivals = one(0.5, 120), [one(2.0, 120), one(0.4, 240), one(-0.3, 480)]
+    row = race.cheapest(stable, rivals, None, answers.Effort())
+    assert (row["reached"], row["best"]["rate"], row["best"]["ratio"]) == (True, 480, 1.5)
+    row = race.cheapest(one(0.1, 120), rivals, None, answers.Effort())
+    assert (row["reached"], row["best"], row["closest"]["sink"]) == (False, None, 0.3)
+
+
+# ---------------------------------------------------------------- the program
+
+
+@pytest.fixture(scope="module")
+def tiny(tmp_path_factory):
+    """One run of the whole program in this process, with a tiny budget."""
+    out = tmp_path_factory.mktemp("accuracy")
+    accuracy.main([*TINY, "--out", str(out), "--no-figures", "--markdown", str(out / "t.md")])
+    return out
+
+
+def test_the_results_are_complete(tiny):
+    results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
+    assert set(results) == {"about", "smooth", "dials", "equal", "piles"}
+    assert set(results["dials"]) == set(QUESTIONS)
+    for name, found in results["dials"].items():
+        assert len(found["dials"]) == len(dials(quick=True))
+        assert sum(run["default"] for run in found["runs"]) == 1
+        for run in found["runs"]:
+            assert set(run["errors"]) == set(QUESTIONS[name].units)
+            assert run["ms"] > 0
+            assert (run["opcodes"] is None) == (run["engine"] == "pymunk")
+        for row in found["dials"]:
+            assert set(row["verdicts"]) == set(QUESTIONS[name].units)
+    assert [len(row["methods"]) for row in results["smooth"]["systems"]] == [4, 4, 4]
+    assert [len(row["rows"]) for row in results["equal"]] == [2, 2]
+    assert results["piles"][0]["asleep"]["asleep"] == 8
+    assert results["piles"][0]["stable"]["overlap"] < results["piles"][0]["lesson"]["overlap"]
+
+
+def test_the_handout_gets_its_tables(tiny):
+    text = (tiny / "t.md").read_text(encoding="utf-8")
+    assert text.startswith(BEGIN) and text.endswith(f"{END}\n")
+    assert "| tower of 20 balls |" in text
+
+
+def test_figures_of_every_result_are_drawn(tiny):
+    pytest.importorskip("matplotlib")
+    from experiments import figures
+
+    results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
+    results["dials"] = {name: results["dials"][name] for name in ("pendulum", "tower")}
+    names = figures.draw_all(results, tiny)
+    assert {"smooth-spring", "smooth-energy", "dials-pendulum-stretch"} <= set(names)
+    for name in names:
+        assert (tiny / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert "<svg" in (tiny / f"{name}.svg").read_text(encoding="utf-8")
+
+
+def test_without_matplotlib_one_sentence_says_how_to_get_figures(tiny, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
+    accuracy.draw(results, tiny, SimpleNamespace(step=print, end=print))
+    assert "install matplotlib" in capsys.readouterr().out
+
+
+def test_it_runs_in_the_unfinished_starter(tmp_path):
+    command = [sys.executable, "-B", "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
+    done = subprocess.run(
+        command, cwd=ROOT / "starter", capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
+    methods = results["smooth"]["systems"][0]["methods"]
+    assert len({json.dumps(row["points"][-1]["error"]) for row in methods[1:]}) == 1
+    assert results["piles"][0]["lesson"]["overlap"] == "falls through"
+
+
+@pytest.mark.parametrize("scale", ["0", "2", "-1", "nan"])
+def test_a_bad_scale_gets_a_sentence(scale, capsys):
+    with pytest.raises(SystemExit):
+        accuracy.read(["--scale", scale])
+    assert "must be above 0 and at most 1" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------- tables and the handout
+
+
+def test_tables_go_between_the_markers_and_nowhere_else(tmp_path):
+    path, table = tmp_path / "a.md", Table("One", ["a"], [[1]])
+    path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n", encoding="utf-8")
+    write_markdown(path, [table])
+    write_markdown(path, [table])
+    assert path.read_text(encoding="utf-8") == (
+        f"before\n{BEGIN}\n**One**\n\n| a |\n| --- |\n| 1 |\n{END}\nafter\n"
+    )
+    path.write_text("no markers\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="put them where the tables go"):
+        write_markdown(path, [table])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0"), (1234.5, "1234"), (0.05, "0.05"), (3.14159, "3.14"), (9.87e-4, "9.9e-4"),
+     (2e9, "2.0e9"), (None, "-"), ("launched", "launched")],
+)  # fmt: skip
+def test_numbers_have_three_digits(value, text):
+    assert number(value) == text
+    assert times(2.5) == "2.5x"
+
+
+def test_the_figures_of_the_handout_exist():
+    shown = accuracy.figures_shown(HANDOUT)
+    assert len(shown) >= 4
+    for name in shown:
+        assert (HANDOUT.parent / "figures" / f"accuracy-{name}").exists(), name
+
+
+@pytest.mark.parametrize("name", ["stack", "pendulum"])
+def test_the_handout_says_what_a_run_gives(name):
+    question = QUESTIONS[name]
+    error, unit = next(iter(question.units.items()))
+    text = HANDOUT.read_text(encoding="utf-8")
+    table = text.split(f"**{question.title}: {error} ({unit})**")[1].split("**")[0]
+    for setting in (LESSON, STABLE, PYMUNK):
+        run = answers.answer(question, setting, answers.Effort())
+        assert number(run["errors"][error]) in table

@@ -1,0 +1,249 @@
+"""The price list of effects: what is counted is what runs, and what is not declared is free."""
+
+import builtins
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from experiments import effects, effects_report
+from experiments.effects import EFFECTS, LESSON_WORK, ROWS, STABLE_WORK, Held, count
+from experiments.engines import Lesson, Stable
+from experiments.measures import deepest_overlap, top_speed
+from experiments.opcodes import count_calls, count_opcodes, files_run
+from experiments.scenes import DT, TOUCH, Ball
+
+KIT = Path(__file__).parents[2]
+SUBSTEPS = 4
+SOLVES = 2 * SUBSTEPS  # a contact or rod is solved and relaxed once in each substep
+SMALL, LARGE = 10, 25
+
+
+@pytest.fixture(scope="module")
+def results():
+    return effects.measure((SMALL, LARGE), rounds=1)
+
+
+@pytest.fixture(scope="module")
+def heap():
+    return effects.settled(SMALL)
+
+
+def lines_of(results, size):
+    return {line["title"]: line for line in results["prices"][str(size)]}
+
+
+# ---------------------------------------------------------------- the counter
+
+
+def three_opcodes():
+    return 1
+
+
+def busy(times):
+    for _ in range(times):
+        three_opcodes()
+
+
+def test_opcodes_are_counted_by_file_and_grow_with_the_work():
+    here = Path(__file__).name
+    few, more, most = (count_opcodes(lambda n=n: busy(n))[here] for n in (1, 2, 3))
+    assert most - more == more - few > 3
+
+
+def test_the_count_is_the_same_from_run_to_run(heap):
+    counts = [count(Held(Stable(replace(heap, effects=EFFECTS))), STABLE_WORK) for _ in range(2)]
+    assert counts[0] == counts[1]
+
+
+def test_calls_are_counted_by_what_they_go_over():
+    watched = [("calls", busy, lambda _: 1), ("rounds", busy, lambda times: times)]
+    counts = count_calls(lambda: [busy(5), busy(7)], watched)
+    assert counts == {"calls": 2, "rounds": 12}
+
+
+def test_counting_leaves_no_trace_behind():
+    for counter in (count_opcodes, files_run):
+        before = sys.gettrace(), sys.getprofile()
+        counter(lambda: busy(1))
+        with pytest.raises(ZeroDivisionError):
+            counter(lambda: 1 / 0)
+        assert (sys.gettrace(), sys.getprofile()) == before
+
+
+def test_counting_does_not_change_the_run(heap):
+    plain, counted = (Stable(replace(heap, effects=TOUCH)) for _ in range(2))
+    plain.step(DT)
+    count_opcodes(lambda: count_calls(lambda: counted.step(DT), STABLE_WORK))
+    assert [plain.read(i) for i in heap.moving()] == [counted.read(i) for i in heap.moving()]
+
+
+# ---------------------------------------------------------------- the pile
+
+
+def test_the_pile_is_at_rest(heap):
+    engine = Stable(heap)
+    assert deepest_overlap(engine) < 0.1
+    for _ in range(120):
+        engine.step(DT)
+    assert top_speed(engine) < 3.0
+
+
+def test_rods_and_springs_tie_ten_pairs_that_do_not_touch(heap):
+    assert len(heap.rods) == len(heap.springs) == 10
+    for a, b in heap.rods:
+        there = [heap.bodies[i] for i in (a, b)]
+        apart = sum((p - q) ** 2 for p, q in zip(there[0].pos, there[1].pos, strict=True)) ** 0.5
+        assert apart > there[0].radius + there[1].radius
+
+
+# ---------------------------------------------------------------- the price list
+
+
+def test_every_effect_is_on_the_list():
+    assert {name for row in ROWS for name in row.effects} == set(EFFECTS)
+
+
+@pytest.mark.parametrize("size", [SMALL, LARGE])
+def test_what_was_done_is_what_the_scene_holds(results, size):
+    for title, line in lines_of(results, size).items():
+        done = line["done"]
+        if title == "all asleep":
+            assert not any(done.values())
+            continue
+        touching = done["contacts"] if "Contacts" in line["effects"] else 0
+        assert done["contact solves"] == SOLVES * touching
+        assert done["friction solves"] == (
+            SUBSTEPS * touching if "Friction" in line["effects"] else 0
+        )
+        assert done["rod solves"] == (SOLVES * 10 if "Rods" in line["effects"] else 0)
+        assert done["spring forces"] == (SUBSTEPS * 10 if "Springs" in line["effects"] else 0)
+        assert done["sweeps"] == (10 if title == "10 bullets, fast" else 0)
+        looks = "Contacts" in line["effects"] and title != "contacts, nobody moves"
+        assert (done["pairs"] >= done["contacts"] > 0) if looks else done["pairs"] == 0
+
+
+def test_prices_are_differences_and_add_up(results):
+    """The sum of the parts is the whole, to 1 %: no effect makes another one dearer."""
+    for size in (SMALL, LARGE):
+        lines = lines_of(results, size)
+        parts = sum(lines[title]["price"] for title in results["stacked"])
+        assert parts == pytest.approx(lines["all of them together"]["price"], rel=0.01)
+        bounce, friction = lines["bounce"], lines["friction"]
+        assert bounce["price"] == bounce["opcodes"] - friction["opcodes"] > 0
+
+
+def test_ten_rods_cost_the_same_among_many_balls(results):
+    few, many = lines_of(results, SMALL), lines_of(results, LARGE)
+    for title in ("10 rods", "10 springs"):
+        assert many[title]["price"] == pytest.approx(few[title]["price"], rel=0.05)
+    assert many["contacts"]["price"] > 2 * few["contacts"]["price"]
+
+
+def test_sleepers_cost_next_to_nothing_however_many(results):
+    asleep = [lines_of(results, size)["all asleep"]["opcodes"] for size in (SMALL, LARGE)]
+    assert asleep[0] == asleep[1] < 100
+
+
+def test_an_undeclared_effect_runs_no_opcode(results):
+    assert [line["effect"] for line in results["undeclared"]] == list(EFFECTS)
+    for line in results["undeclared"]:
+        assert line["declared"] > 100, line["effect"]
+        assert line["undeclared"] == 0, line["effect"]
+
+
+def test_time_is_measured_for_every_row(results):
+    assert all(line["ms"] > 0 for line in results["prices"][str(SMALL)])
+
+
+# ---------------------------------------------------------------- the lesson's engine
+
+
+def test_the_lessons_engine_leaves_out_what_a_scene_has_no_use_for(results):
+    lines = {line["title"]: line["done"] for line in results["lesson"]}
+    balls = int(results["middle"])
+    apart = dict(lines["balls far apart"])
+    assert apart.pop("pairs") == balls * (balls - 1) / 2
+    assert not any(apart.values())
+    smooth, rough = lines["a pile without friction"], lines["with friction"]
+    assert smooth["friction solves"] == smooth["damping runs"] == smooth["rod solves"] == 0
+    assert rough["friction solves"] == rough["contact solves"] == 8 * rough["contacts"] > 0
+    assert lines["with friction and 10 rods"]["rod solves"] == 8 * 10
+    assert lines["with friction and damping"]["damping runs"] == 1
+
+
+def test_the_lessons_engine_looks_at_every_pair_that_can_move(heap):
+    pairs = list(combinations(heap.bodies, 2))
+    static = [a for a, b in pairs if not (isinstance(a, Ball) or isinstance(b, Ball))]
+    done = count(Held(Lesson(heap)), LESSON_WORK)["done"]
+    assert done["pairs"] == len(pairs) - len(static)
+
+
+# ---------------------------------------------------------------- what comes out
+
+
+def test_everything_is_written(results, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(effects, "measure", lambda *_: results)
+    page = tmp_path / "page.md"
+    page.write_text("Before.\n<!-- tables: begin -->\nold\n<!-- tables: end -->\nAfter.\n")
+    effects.main(["--quick", "--out", str(tmp_path), "--markdown", str(page)])
+    printed = capsys.readouterr().out
+    kept = json.loads((tmp_path / "results.json").read_text())
+    assert [line["title"] for line in kept["prices"]["10"]] == [row.title for row in ROWS]
+    text = page.read_text()
+    assert text.startswith("Before.\n")
+    assert text.endswith("After.\n")
+    assert "old" not in text
+    for row in ROWS:
+        assert f"| {row.title} |" in text
+        assert row.title in printed
+
+
+def test_figures_show_every_effect(results, tmp_path):
+    pytest.importorskip("matplotlib")
+    said = effects_report.figures(results, tmp_path)
+    for name in ("effects-stacked", "effects-growth"):
+        drawn = (tmp_path / f"{name}.svg").read_text()
+        assert all(title in drawn for title in effects_report.COLOURS)
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert name in said
+
+
+def test_without_matplotlib_a_sentence_says_how_to_get_it(results, tmp_path, monkeypatch):
+    real = builtins.__import__
+
+    def without(name, *rest):
+        if name.startswith("matplotlib"):
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    assert "pip install matplotlib" in effects_report.figures(results, tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_too_small_a_pile_gets_a_sentence(capsys):
+    with pytest.raises(SystemExit):
+        effects.main(["--balls", "3"])
+    assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
+
+
+def test_it_runs_in_the_starter_with_nothing_done(tmp_path):
+    program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
+    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    program += ["--out", str(tmp_path)]
+    subprocess.run(
+        program, cwd=KIT / "starter", env=env, check=True, capture_output=True, timeout=60
+    )
+    assert (tmp_path / "results.json").exists()
+
+
+def test_the_handout_has_a_line_for_every_row():
+    text = (KIT / "handouts" / "effects.md").read_text("utf-8")
+    for row in ROWS:
+        assert f"| {row.title} |" in text, f"{row.title}: run experiments.effects --markdown anew"

@@ -1,0 +1,68 @@
+"""What the tests of the stable engine need beyond the experiments' scenes and measures."""
+
+from dataclasses import replace
+
+import stable_engine
+from experiments.engines import Stable
+from experiments.scenes import Ball, Scene, Spring, floor
+
+EFFECTS = ("Damping", "Springs", "Rods", "Contacts", "Sleep", "Friction", "Bounce", "Bullets")
+NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
+
+
+def build(scene, *effects, substeps=4):
+    """The scene in a world, with the effects of these names or, without any, its own.
+
+    world.bodies has the scene's order.
+    """
+    return Stable(replace(scene, effects=effects or scene.effects), substeps).world
+
+
+def make(names):
+    return [getattr(stable_engine, name)() for name in names]
+
+
+def balls(world):
+    """The bodies that can move."""
+    return [body for body in world.bodies if not body.is_static]
+
+
+def state(world):
+    """Every number of every body, as raw bits."""
+    return [
+        number.hex()
+        for body in world.bodies
+        for number in (body.x, body.y, body.vx, body.vy, body.angle, body.w)
+    ]
+
+
+def all_but(effect):
+    """The names of all effects but one, and but those that need it."""
+    left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
+    return [name for name in EFFECTS if name not in left_out]
+
+
+def playground(names):
+    """A little of all that the effects of these names are for."""
+    row = [Ball((30 * i, -10 - 5 * i), restitution=0.5) for i in range(6)]
+    row[0].bullet = "Bullets" in names
+    springs = [Spring(4, 5, 50.0, length=30.0)]
+    return Scene(
+        [floor(restitution=0.5), *row], tuple(names), [(2, 3)], springs, damping=(0.05, 0.3)
+    )
+
+
+def build_playground(names):
+    """That scene in a world with these effects."""
+    return build(playground(names))
+
+
+def flying(count, bullets=0):
+    """Balls in free fall, far from each other; the first ones are bullets."""
+    return Scene([Ball((100 * i, 0), bullet=i < bullets) for i in range(count)])
+
+
+def lying(count, still):
+    """Balls on a floor, each by itself; still more fly far above them."""
+    row = [Ball((100 * i, -10)) for i in range(count)]
+    return Scene([floor(), *row, *(Ball((100 * i, -9000)) for i in range(still))])
