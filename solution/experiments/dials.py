@@ -270,7 +270,7 @@ SINK = {"sink": "px", "late speed": "px/s"}
 SHARE = "of the exact"
 
 QUESTIONS = {
-    "tower": Question("tower of 20 balls", tower, sink, SINK, 10, 1),
+    "tower": Question("tower of 20 balls", tower, sink, SINK, 10, 0.5),
     "stack": Question("100 kg on 1 kg", lambda: stack(1, 100), sink, SINK, 10, 1),
     "pendulum": Question(
         "pendulum let go at 90°",
@@ -285,7 +285,7 @@ QUESTIONS = {
         "swinging chain of 20", lambda: chain(20, (20, 0)), worst_link, {"worst link": "px"}, 10, 1
     ),
     "pile": Question(
-        "pile of balls", small_pile, settle, {"overlap": "px"}, 5, 2, lambda: pile(12, 130)
+        "pile of balls", small_pile, settle, {"overlap": "px"}, 5, 1.2, lambda: pile(12, 130)
     ),
     "bounce": Question(
         "ball that keeps all its speed", drop, keep_bouncing, {"apex": SHARE}, 60, 3

@@ -14,7 +14,7 @@ class Effort:
 
     def __init__(self, quick=False, scale=1.0, rounds=None):
         self.quick, self.scale = quick, scale
-        self.rounds = rounds or (15 if quick else 40)
+        self.rounds = rounds or (8 if quick else 40)
         self.opcode_steps = 1 if quick else 2
 
     def seconds(self, question):

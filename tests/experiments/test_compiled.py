@@ -3,6 +3,7 @@
 import shutil
 
 import pytest
+
 from experiments.compiled import build, compare
 
 
