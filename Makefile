@@ -11,6 +11,7 @@ endif
 PIP := $(PY) -m pip --quiet --disable-pip-version-check
 CORE := .venv/core-is-installed
 DEV := .venv/dev-is-installed
+SITE := .venv/site-is-installed
 WHERE ?= starter
 
 LOCK := $(PY) -m uv pip compile pyproject.toml --group build --quiet --upgrade --universal \
@@ -29,7 +30,7 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade run dials accuracy effects cases compiled verify mutants sync test soak \
+.PHONY: help setup grade run dials accuracy effects cases compiled handouts verify mutants sync test soak \
 	lint format bench lock clean venv
 
 help:
@@ -66,6 +67,12 @@ cases: $(CORE) ## The hard cases in three engines, and the published test set (Q
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
 
+##@ Handing out
+
+handouts: $(SITE) ## Make the handouts as web pages in build/handouts
+	@$(PY) handouts/make_hints.py
+	@$(PY) handouts/make_site.py
+
 ##@ Looking after the kit
 
 verify: $(CORE) ## Prove the marks: starter 0, solution all, each wrong submission its own
@@ -80,7 +87,7 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 test: $(DEV) ## Run the test suite
 	@$(PY) -m pytest tests -n 2
 
-soak: $(DEV) ## Run the long tests that `make test` leaves out
+soak: $(DEV) $(SITE) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak
 
 lint: $(DEV) ## Check style and types
@@ -97,6 +104,7 @@ bench: $(CORE) ## Measure how fast the grader is
 
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
+	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots -c requirements.txt
 
 clean: ## Remove .venv and everything else that can be made again
@@ -125,4 +133,9 @@ $(CORE): requirements.txt pyproject.toml
 $(DEV): $(CORE) requirements-dev.txt
 	@echo "Installing what tests and style checks need into .venv (less than a minute) ..."
 	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@touch $@
+
+$(SITE): $(CORE) requirements-site.txt
+	@echo "Installing what web pages need into .venv (less than a minute) ..."
+	@$(PIP) install --require-hashes -r requirements-site.txt
 	@touch $@

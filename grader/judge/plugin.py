@@ -132,7 +132,8 @@ class GradingPlugin:
         lab = Lab(check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces)
         with lab.opened():
             try:
-                function = hypothesis.seed(self.seed)(function) if self.seed else function
+                if self.seed is not None:
+                    function = hypothesis.seed(self.seed)(function)
                 function(lab=lab)
             except (NotYet, Broke) as failure:
                 lab.failure = failure

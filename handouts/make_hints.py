@@ -1,0 +1,72 @@
+"""Write hints.md from grader/checks/hints.toml, the file that the hint command reads.
+
+python handouts/make_hints.py
+"""
+
+import html
+import re
+import tomllib
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+CHECKS = HERE.parent / "grader" / "checks"
+LEVELS = {
+    "A question": "question",
+    "The idea": "tip",
+    "Nearly the code": "example",
+}  # with its icon
+HEAD = """---
+search:
+  exclude: true
+---
+
+# Hints
+
+Three hints for each TODO: a question, the idea, nearly the code. Open one at a time, and try again
+before you open the next. The command gives the same hints:
+
+```
+make hint TODO=4             # or: python -m grader hint --todo 4
+make hint TODO=4 LEVEL=2     # or: python -m grader hint --todo 4 --level 2
+```
+"""
+
+
+def read(name):
+    return tomllib.loads((CHECKS / name).read_text(encoding="utf-8"))
+
+
+def as_html(words):
+    """A hint as HTML: everything in it stands for itself, but for `code`."""
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(words, quote=False))
+
+
+def section(todo, hints):
+    """One TODO with its hints, each folded away."""
+    title = todo["title"][0].lower() + todo["title"][1:]
+    if todo["title"].startswith("RK"):
+        title = todo["title"]
+    name = todo["function"].partition(":")[2]
+    parts = [f"## TODO {todo['id']}: {title}", "", f"In `{name}`.", ""]
+    for (level, icon), words in zip(LEVELS.items(), hints, strict=True):
+        parts += [f'<details class="{icon}">', f"<summary>{level}</summary>"]
+        parts += [f"<p>{as_html(words)}</p>"]
+        parts += ["</details>", ""]
+    return "\n".join(parts)
+
+
+def page():
+    """The whole of hints.md."""
+    hints = read("hints.toml")
+    todos = [todo for todo in read("rubric.toml")["todos"] if todo["function"]]
+    return "\n".join([HEAD, *(section(todo, hints[todo["id"]]) for todo in todos)])
+
+
+def main():
+    target = HERE / "hints.md"
+    target.write_text(page(), encoding="utf-8", newline="\n")
+    print(f"{target} is up to date.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,380 @@
+"""What the handouts say is true, and students find no solution in them."""
+
+import ast
+import html
+import importlib.util
+import json
+import math
+import re
+import sys
+import tomllib
+import xml.etree.ElementTree as ElementTree
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import integrators
+import mini_engine
+from grader.cli import grade_command
+from grader.todo_regions import python_files, regions_in
+
+KIT = Path(__file__).parents[2]
+HANDOUTS, SOLUTION, STARTER = KIT / "handouts", KIT / "solution", KIT / "starter"
+STUDENTS = sorted(HANDOUTS.glob("*.md"))
+PAGES = sorted(HANDOUTS.rglob("*.md"))
+CHECKS = KIT / "grader" / "checks"
+RUBRIC = tomllib.loads((CHECKS / "rubric.toml").read_text(encoding="utf-8"))
+TODOS = {todo["id"]: todo for todo in RUBRIC["todos"] if todo["function"]}
+
+# The course's plan, in minutes: the engine, pymunk, the integrators.
+MINUTES = {"1": 10, "2": 4, "3": 6, "4": 3, "5": 3, "6": 5}
+PYMUNK_MINUTES = 20
+
+
+def name_of(page: Path) -> str:
+    return page.relative_to(HANDOUTS).as_posix()
+
+
+def text_of(name: str) -> str:
+    return (HANDOUTS / name).read_text(encoding="utf-8")
+
+
+def without_code(text: str) -> str:
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^ *```.*?^ *```", "", text, flags=re.M | re.S))
+
+
+def script(name: str) -> ModuleType:
+    """One of the programs that make a part of the handouts."""
+    spec = importlib.util.spec_from_file_location(name, HANDOUTS / f"{name}.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    before = list(sys.path)
+    spec.loader.exec_module(module)
+    sys.path[:] = before
+    return module
+
+
+def table_below(text: str, heading: str) -> list[list[str]]:
+    """The cells of the first table after a heading, its two head rows left out."""
+    rows = []
+    for line in text.partition(heading)[2].splitlines():
+        if line.startswith("|"):
+            rows.append([cell.strip() for cell in line.strip("|").split("|")])
+        elif rows:
+            break
+    return rows[2:]
+
+
+# ---------------------------------------------------------------- links and pictures
+
+
+def anchors(page: Path) -> set[str]:
+    """What a link to a heading of the page may name."""
+    found = set()
+    for heading in re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.M):
+        words = re.sub(r"[^\w\s-]", "", heading.replace("`", "")).strip().lower()
+        found.add(re.sub(r"[\s-]+", "-", words))
+    return found
+
+
+def links(text: str) -> list[str]:
+    return re.findall(r"\]\(([^)\s]+)\)", without_code(text))
+
+
+def trouble_with(page: Path, link: str) -> str:
+    """What is wrong with a link, or nothing."""
+    target, _, anchor = link.partition("#")
+    place = (page.parent / target).resolve() if target else page
+    if not place.is_file():
+        return f"{link}: there is no such file"
+    if anchor and anchor not in anchors(place):
+        return f"{link}: no such heading in {place.name}"
+    return ""
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_every_link_and_picture_is_there(page: Path) -> None:
+    found = [trouble_with(page, link) for link in links(page.read_text(encoding="utf-8"))]
+    assert not list(filter(None, found))
+
+
+@pytest.mark.parametrize("link", ["nowhere.md", "lesson.md#no-such-heading", "figures/none.png"])
+def test_a_broken_link_is_noticed(link: str) -> None:
+    assert links(f"see [there]({link}).") == [link]
+    assert trouble_with(HANDOUTS / "index.md", link)
+
+
+@pytest.mark.parametrize("page", STUDENTS, ids=name_of)
+def test_students_are_not_sent_to_the_instructors_pages(page: Path) -> None:
+    assert not [link for link in links(page.read_text(encoding="utf-8")) if "instructor" in link]
+
+
+def test_every_page_is_in_the_menu() -> None:
+    menu = (HANDOUTS / "site" / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:")[2]
+    assert set(re.findall(r": (\S+\.md)$", menu, re.M)) == {name_of(page) for page in PAGES}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_no_page_names_a_place_on_a_machine(page: Path) -> None:
+    assert not re.findall(r"(?:/work|/tmp|/home|/root)/\S*", page.read_text(encoding="utf-8"))
+
+
+def test_pictures_are_small() -> None:
+    for picture in (HANDOUTS / "figures").iterdir():
+        assert picture.stat().st_size < 60 * 1024, f"{picture.name} is too large for a page"
+
+
+# ---------------------------------------------------------------- what is made by programs
+
+
+def test_the_page_of_hints_says_what_the_command_says() -> None:
+    made = script("make_hints").page()
+    assert text_of("hints.md") == made, "run: python handouts/make_hints.py"
+    told = html.unescape(re.sub(r"</?code>", "`", made))
+    for hints in tomllib.loads((CHECKS / "hints.toml").read_text(encoding="utf-8")).values():
+        assert all(words in told for words in hints)
+
+
+def test_the_figures_are_those_of_the_solution(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figures = script("make_figures")
+    monkeypatch.setattr(figures, "FIGURES", tmp_path)
+    for draw in figures.ALL:
+        draw()
+    made = sorted(tmp_path.iterdir())
+    assert len(made) == len(figures.ALL)
+    for figure in made:
+        ElementTree.parse(figure)
+        there = text_of(f"figures/{figure.name}")
+        assert figure.read_text(encoding="utf-8") == there, "run: python handouts/make_figures.py"
+
+
+def test_every_task_with_a_picture_has_two() -> None:
+    sheet = text_of("lab-sheet.md")
+    for todo in script("make_pictures").SHOTS:
+        for when in ("before", "after"):
+            assert f"(figures/todo-{todo}-{when}.png)" in sheet
+
+
+# ---------------------------------------------------------------- the lab sheet
+
+
+def function_around(path: Path, line: int) -> str:
+    """The name of the last function, with its class, that begins above a line of a file."""
+    names = {}
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef):
+            names[node.lineno] = node.name
+        elif isinstance(node, ast.ClassDef):
+            inner = [each for each in node.body if isinstance(each, ast.FunctionDef)]
+            names |= {each.lineno: f"{node.name}.{each.name}" for each in inner}
+    return names[max(number for number in names if number <= line)]
+
+
+def places(tree: Path) -> dict[str, tuple[str, str]]:
+    """Where each TODO stands in a tree: its file and function."""
+    return {
+        region.id: (path.relative_to(tree).as_posix(), function_around(path, region.start + 1))
+        for path in python_files(tree)
+        for region in regions_in(path.read_text(encoding="utf-8"))
+    }
+
+
+@pytest.fixture(scope="module")
+def plan() -> dict[str, dict[str, Any]]:
+    """The lab sheet's table of tasks."""
+    return {
+        re.sub(r"\[(.+)\].*", r"\1", todo): {
+            "minutes": int(minutes),
+            "points": int(points),
+            "place": (file.strip("`"), function.strip("`")),
+        }
+        for todo, minutes, points, file, function in table_below(
+            text_of("lab-sheet.md"), "## The plan"
+        )
+    }
+
+
+def test_the_plan_names_every_todo_in_order(plan: dict[str, Any]) -> None:
+    assert list(plan) == list(TODOS)
+
+
+@pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=lambda tree: tree.name)
+def test_the_plan_says_where_each_todo_stands(plan: dict[str, Any], tree: Path) -> None:
+    assert {todo: row["place"] for todo, row in plan.items()} == places(tree)
+
+
+def test_the_plan_has_the_points_of_the_rubric(plan: dict[str, Any]) -> None:
+    for todo, row in plan.items():
+        assert row["points"] == sum(check["points"] for check in TODOS[todo]["checks"])
+    whole = 100 - sum(row["points"] for row in plan.values())
+    assert whole == 10
+    assert "Ten more points are for the program as a whole." in text_of("lab-sheet.md")
+
+
+def test_the_plan_has_the_minutes_of_the_course(plan: dict[str, Any]) -> None:
+    assert {todo: plan[todo]["minutes"] for todo in MINUTES} == MINUTES
+    in_pymunk = [row["minutes"] for todo, row in plan.items() if todo.startswith("7")]
+    assert sum(in_pymunk) == PYMUNK_MINUTES
+
+
+def test_every_section_says_the_same_as_the_plan(plan: dict[str, Any]) -> None:
+    sections = dict(re.findall(r"^## TODO (\w+): .*\n\n(.*)$", text_of("lab-sheet.md"), re.M))
+    assert list(sections) == list(plan)
+    for todo, line in sections.items():
+        file, function = plan[todo]["place"]
+        assert line == f"{plan[todo]['minutes']} minutes · `{file}` · `{function}`"
+
+
+def test_every_section_says_how_to_check_and_where_hints_are() -> None:
+    parts = re.split(r"^## ", text_of("lab-sheet.md"), flags=re.M)
+    sections = [part for part in parts if part.startswith("TODO ")]
+    assert len(sections) == len(TODOS)
+    for section, (todo, known) in zip(sections, TODOS.items(), strict=True):
+        assert section.lower().startswith(f"todo {todo}: {known['title'].lower()}\n")
+        assert f"- [ ] `make check TODO={todo}` says `PASSED`." in section
+        assert f"`make hint TODO={todo}`" in section
+        assert f"(hints.md#todo-{todo}-" in section
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def test_the_table_of_integrators_is_what_the_program_prints(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    integrators.main()
+    printed = [line.split() for line in capsys.readouterr().out.splitlines()[1:]]
+    assert table_below(text_of("lesson.md"), "<!-- integrators: begin -->") == printed
+    for todo, row in zip(("8a", "8b", "8c"), printed[1:], strict=True):
+        section = text_of("lab-sheet.md").partition(f"## TODO {todo}:")[2].partition("\n## ")[0]
+        assert f"prints {row[1]} in this row" in section
+
+
+def test_shares_that_are_left_after_many_steps_are_right() -> None:
+    found = re.findall(r"0\.99\^(\d+) ≈ ([\d.]+) %", text_of("lesson.md"))
+    assert [int(steps) for steps, _ in found] == [60, 120, 600]
+    for steps, share in found:
+        digits = len(share.partition(".")[2])
+        assert round(100 * 0.99 ** int(steps), digits) == float(share)
+
+
+def test_the_damping_of_the_lab_scene_is_right() -> None:
+    world = mini_engine.World()
+    text = " ".join(text_of("lesson.md").split())
+    rates = f"velocity at {world.linear_damping} per second and the spin at {world.angular_damping}"
+    assert rates in text
+    kept = round(100 * math.exp(-world.linear_damping))
+    assert f"At {world.linear_damping} about {kept} % of a speed is left after a second" in text
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        f"only above {mini_engine.RESTING_SPEED} px/s",
+        f"takes out 1/{round(1 / mini_engine.STEP)} s",
+        f"add {mini_engine.MAX_STEPS} steps at most",
+        f"where this engine has {mini_engine.ITERATIONS} passes",
+        {0.2: "a fifth"}[mini_engine.BETA] + " of the overlap per step (`BETA`)",
+        {0.5: "half a pixel"}[mini_engine.SLOP] + " that is left alone (`SLOP`)",
+        f"gravity is (0, {mini_engine.World().gravity.y:g}) px/s²",
+    ],
+)
+def test_the_lesson_names_the_constants_of_the_engine(words: str) -> None:
+    assert words in " ".join(text_of("lesson.md").split())
+
+
+def test_the_long_frame_of_the_drawing_is_described_right() -> None:
+    frames = script("make_figures").FRAMES
+    longest = frames.index(max(frames))
+    waiting = sum(frames[:longest]) % (1000 * mini_engine.STEP)
+    owed = int((waiting + frames[longest]) / (1000 * mini_engine.STEP))
+    words = f"could pay for {owed} steps. The cap allows {mini_engine.MAX_STEPS}."
+    assert words in text_of("lesson.md")
+
+
+# ---------------------------------------------------------------- no solution
+
+
+def squeezed(text: str) -> str:
+    return "".join(text.split())
+
+
+@cache
+def solution_lines() -> list[tuple[str, str]]:
+    """Each line that a TODO asks for, with its id; lines that stand in given code are left out."""
+    found = []
+    texts = [path.read_text(encoding="utf-8") for path in python_files(STARTER)]
+    given = {squeezed(line) for text in texts for line in text.splitlines()}
+    for path in python_files(SOLUTION):
+        for region in regions_in(path.read_text(encoding="utf-8")):
+            for line in region.lines:
+                code = squeezed(line)
+                if len(code) >= 12 and not code.startswith("#") and code not in given:
+                    found.append((region.id, code))
+    return found
+
+
+def solutions_in(text: str) -> list[tuple[str, str]]:
+    return [(todo, code) for todo, code in solution_lines() if code in squeezed(text)]
+
+
+@pytest.mark.parametrize("page", STUDENTS, ids=name_of)
+def test_no_line_of_a_solution_is_given_away(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    if page.name == "hints.md":  # its last level may be the code itself
+        text = re.sub(r"<summary>Nearly the code</summary>\n<p>.*</p>", "", text)
+    assert not solutions_in(text)
+
+
+def test_a_line_that_is_given_away_is_noticed() -> None:
+    given_away = dict(solution_lines())
+    assert set(given_away) == set(TODOS), "each TODO must have a line that can be looked for"
+    for todo, code in given_away.items():
+        assert (todo, code) in solutions_in(f"Write `{code}` there.")
+    assert "7a" in dict(solutions_in(text_of("hints.md")))
+
+
+def test_the_quiz_and_its_answers_belong_together() -> None:
+    quiz = text_of("quiz.md")
+    questions = re.findall(r"^\*\*(\d+)\. ", quiz, re.M)
+    assert len(questions) >= 5
+    assert re.findall(r"^- ([A-D])\. ", quiz, re.M) == [*"ABCD"] * len(questions)
+    answers = table_below(text_of("instructor/quiz-answers.md"), "## Quiz")
+    assert [row[0] for row in answers] == questions
+    assert all(row[1] in "ABCD" for row in answers)
+
+
+def test_the_journal_is_marked_as_in_its_notebook() -> None:
+    notebook = (STARTER / "notebooks" / "journal.ipynb").read_text(encoding="utf-8")
+    cells = ["".join(cell["source"]) for cell in json.loads(notebook)["cells"]]
+    rows = re.findall(r"^\| \d .*$", "\n".join(cells), re.M)
+    assert rows
+    assert re.findall(r"^\| \d .*$", text_of("journal.md"), re.M) == rows
+
+
+# ---------------------------------------------------------------- commands
+
+
+def test_the_guides_options_of_grade_exist() -> None:
+    guide = text_of("instructor/guide.md")
+    table = guide.partition("## Grade")[2].partition("## Read a report")[0]
+    told = set(re.findall(r"^\| `--(\w+)", table, re.M))
+    names = {name.rstrip("_") for name in grade_command.__annotations__}
+    assert told == names - {"path", "return"}
+
+
+def targets(makefile: Path) -> set[str]:
+    return set(re.findall(r"^([a-z]+):", makefile.read_text(encoding="utf-8"), re.M))
+
+
+def test_every_make_target_that_is_named_exists() -> None:
+    for pages, makefiles in ((STUDENTS, [STARTER]), (PAGES, [KIT, STARTER])):
+        known = set().union(*(targets(folder / "Makefile") for folder in makefiles))
+        for page in pages:
+            named = set(re.findall(r"(?:`|^ *)make ([a-z]+)", page.read_text("utf-8"), re.M))
+            assert named <= known, f"{page.name}: {named - known}"
