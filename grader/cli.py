@@ -8,12 +8,13 @@ import typer
 from rich.console import Console
 
 from grader.classroom.batch import grade_class, show_class
-from grader.judge.grade import KIT, Isolation, Options, grade, shipped_reference
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.isolation import Isolation
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS, load_rubric
 from grader.judge.submission import CannotGrade
 from grader.report.files import write_json
-from grader.report.terminal import show, show_next
+from grader.report.terminal import show, show_isolation, show_next
 
 app = typer.Typer(
     help="Grades submissions of the physics-engine assignment.",
@@ -60,6 +61,7 @@ def grade_command(
 def grade_one(path: Path, out: Path | None, json: Path | None, options: Options) -> NoReturn:
     result = graded(path, options)
     show(result, console)
+    show_isolation(result, console)
     if json is not None:
         write_json(result, json)
     if out is not None:
@@ -80,7 +82,9 @@ def demonstrate(options: Options) -> None:
     """The shipped trees, to show that the grader works here."""
     for name in ("solution", "starter"):
         console.rule(name)
-        show(graded(KIT / name, options), console)
+        result = graded(KIT / name, options)
+        show(result, console)
+    show_isolation(result, console)
 
 
 def graded(path: Path, options: Options) -> Result:
@@ -165,6 +169,23 @@ def verify_command(
     from grader.maintain.verify import verify
 
     raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+
+
+@app.command("mutants")
+def mutants_command(
+    count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
+    seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
+    jobs: Annotated[int, typer.Option(help="Mutants graded at a time; 0 for one per core.")] = 0,
+    todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+) -> None:
+    """Change the solution in small ways, and see whether the checks notice.
+
+    Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
+    """
+    from grader.maintain.mutants import campaign
+
+    only = known_todos(todo)
+    raise typer.Exit(0 if campaign(count, seed, jobs, only, console).sound else 1)
 
 
 @app.command("bench")

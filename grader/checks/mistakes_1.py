@@ -7,7 +7,8 @@ from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.judge.misconceptions import Undecided, mistake, truth
 
-Answer = Touch | None
+Answer = Touch | str | None  # a str is the name of an exception
+Right = Touch | None
 Model = Callable[[Disc, Rect], Answer]
 Change = Callable[[Touch, Disc, Rect], Touch]
 
@@ -20,7 +21,7 @@ def circle_first() -> tuple[bool, bool]:
     return True, True
 
 
-def right(disc: Disc, rect: Rect) -> Answer:
+def right(disc: Disc, rect: Rect) -> Right:
     answers = exact.circle_box(disc, rect)
     if len(answers) > 1:
         raise Undecided
@@ -174,6 +175,17 @@ def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
 @outside
 def point_on_circle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     return touch._replace(px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r)
+
+
+def fails_inside(error: str) -> Model:
+    return lambda disc, rect: error if is_inside(disc, rect) else right(disc, rect)
+
+
+for error in ("ValueError", "ZeroDivisionError"):  # of normalize(), and of a division
+    known(
+        "inside-normalises-zero",
+        "Inside, the closest point is the centre: the offset is 0 long and has no direction.",
+    )(fails_inside(error))
 
 
 @known("apart-is-not-noticed", "A circle apart from the box gets a contact; it must get None.")

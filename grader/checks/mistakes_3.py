@@ -1,6 +1,7 @@
 """Known mistakes in TODO 3, as models of what one solve does to a rod.
 
-A model gives the velocities of both ends; a pass leaves the places as they are.
+A model gives the velocities of both ends; a pass leaves the places as they are. Where neither end
+can move, one mistake alone is known: the division by 0.
 """
 
 import math
@@ -8,7 +9,7 @@ from collections.abc import Callable
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Rod
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import Undecided, mistake, truth
 
 Ends = tuple[Pair, Pair]
 Model = Callable[[Rod], Ends]
@@ -17,16 +18,31 @@ Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from 
 
 @truth("rod")
 def right(rod: Rod) -> Answer:
-    return (*exact.rod_solved(rod), rod.offset)
+    ends = exact.rod_solved(rod) if rod.k else (rod.vel_a, rod.vel_b)
+    return (*ends, rod.offset)
 
 
 def known(name: str, meaning: str) -> Callable[[Model], None]:
     """A mistake in the velocities."""
 
     def register(model: Model) -> None:
-        mistake("3", name, meaning, about="rod")(lambda rod: (*model(rod), rod.offset))
+        @mistake("3", name, meaning, about="rod")
+        def ends(rod: Rod) -> Answer:
+            if not rod.k:
+                raise Undecided
+            return (*model(rod), rod.offset)
 
     return register
+
+
+@mistake(
+    "3",
+    "divides-by-a-k-of-0",
+    "Where neither end can move, k is 0 and nothing can be divided by it: do nothing then.",
+    about="rod",
+)
+def divides_by_zero(rod: Rod) -> Answer | str:
+    return right(rod) if rod.k else "ZeroDivisionError"
 
 
 def right_impulse(rod: Rod) -> float:
@@ -131,4 +147,6 @@ def whole_velocity(rod: Rod) -> Ends:
     about="rod",
 )
 def placed(rod: Rod) -> Answer:
+    if not rod.k:
+        raise Undecided
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)

@@ -261,3 +261,12 @@ def says_what_ran(ran: int) -> int:
 )
 def not_counted(ran: int) -> int:
     return 0
+
+
+@fixed_step_mistake(
+    "steps-are-counted-down",
+    "Every step takes one from the count; it must add one.",
+    about="said",
+)
+def counted_down(ran: int) -> int:
+    return -ran

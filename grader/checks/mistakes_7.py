@@ -4,10 +4,11 @@ Those of 7d are the ones of TODO 6 and stand with them.
 """
 
 import math
+from collections.abc import Callable
 
 from grader.checks import exact
 from grader.judge.lab import STEP, Pair
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import Undecided, alike, mistake, truth
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 
@@ -178,6 +179,32 @@ def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
 @truth("rods")
 def right_rod() -> list[Rod]:
     return [pin(PIVOT)]
+
+
+def length_off(off: int) -> Callable[[list[Rod]], int]:
+    """A rod in the right place that is too long (1) or too short (-1)."""
+
+    def model(rods: list[Rod]) -> int:
+        if not alike(rods, right_rod()):
+            raise Undecided
+        return off
+
+    return model
+
+
+truth("length")(length_off(0))
+mistake(
+    "7c",
+    "rod-is-too-short",
+    "The rod is shorter than 140 px, the way from (700, 90) to the bob when it is joined.",
+    about="length",
+)(length_off(-1))
+mistake(
+    "7c",
+    "rod-is-too-long",
+    "The rod is longer than 140 px, the way from (700, 90) to the bob when it is joined.",
+    about="length",
+)(length_off(1))
 
 
 def wrong_rods(name: str, meaning: str, *rods: Rod) -> None:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import discs_near_boxes, pairs
-from grader.judge.lab import Lab
+from grader.judge.lab import Broke, Lab
 
 BOX = Rect(0, 0, 40, 20)
 
@@ -21,7 +21,12 @@ def touch(lab: Lab, disc: Disc, rect: Rect) -> Touch | None:
     )
     circle = lab.circle((disc.x, disc.y), disc.r)
     box = lab.box((rect.x, rect.y), (rect.hx, rect.hy))
-    contact = lab.contact_or_none(lab.call("circle_box", circle, box))
+    try:
+        contact = lab.contact_or_none(lab.call("circle_box", circle, box))
+    except Broke as failure:
+        if failure.raised is not None:
+            lab.saw("circle_box", (disc, rect), failure.raised.error)
+        raise
     answer = None
     if contact is not None:
         normal, point = contact.normal, contact.point
@@ -66,6 +71,8 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
         Disc(44, -5, 10),
         Disc(43, -24, 10),  # at two corners
         Disc(-46, 28, 15),
+        Disc(5, -20.125, 10),  # hardly outside a face and a corner
+        Disc(40.0625, 20.125, 10),
     ):
         want_exact(lab, disc, BOX)
 

@@ -184,6 +184,25 @@ def momentum(mass: Pair, bodies: tuple[BodyValue, BodyValue]) -> Pair:
     return mass[0] * a.x + mass[1] * b.x, mass[0] * a.y + mass[1] * b.y
 
 
+def every_contact_of_a_pile_keeps_within_its_friction(lab: Lab) -> None:
+    """In a pile every contact keeps within its friction, and none pulls"""
+    lab.ran("a ball with a spin of 40 rad/s on two others on a large static ball, for one second")
+    ground = lab.circle((0.0, 1000.0), 1000.0, 0.0, friction=0.2)
+    left = lab.circle((-10.0, -9.5), RADIUS, friction=0.3)
+    right = lab.circle((10.0, -9.5), RADIUS, 3.0, friction=0.1)
+    top = lab.circle((0.0, -26.5), RADIUS, 2.0, friction=0.5, omega=40.0)
+    world = lab.world(ground, left, right, top, gravity=(0.0, 980.0))
+    steps = lab.simulate(world, [top], 120, contacts=True).contacts
+    rows = [row for contacts in steps for row in contacts]
+    lab.want(any(row.jn > 0 for row in rows), "contacts that press", "none that does")
+    for row in rows:
+        lab.want(
+            row.jn >= 0 and abs(row.jt) <= row.limit * (1 + 1e-9),
+            "jn not negative, and jt at most sqrt(mu_a mu_b) jn either way, at every contact",
+            f"jn {row.jn:.4f}, jt {row.jt:.4f}, its limit {row.limit:.4f} kg px/s",
+        )
+
+
 def a_sliding_block_stops_when_friction_has_eaten_its_speed(lab: Lab) -> None:
     """A sliding block slows down evenly, stops, and stays where it is"""
     lab.ran("2 kg sliding at 150 px/s on a floor, friction 0.5 on both, gravity 980 px/s²")

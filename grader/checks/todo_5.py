@@ -108,3 +108,10 @@ def no_damping_loses_nothing(lab: Lab) -> None:
     speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120)
     left = f"{say(speed)} and {say(spin)}"
     lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)
+    # A world may leave damping out where both rates are 0: one at a time is asked of the student.
+    lab.ran("one ball, angular_damping = 0.5 and the other 0, for one second")
+    speed, _ = damp(lab, 0.0, 0.5, 1 / 120, 120)
+    lab.want(speed == 1.0, "all of its speed", say(speed))
+    lab.ran("one ball, linear_damping = 0.5 and the other 0, for one second")
+    _, spin = damp(lab, 0.5, 0.0, 1 / 120, 120)
+    lab.want(spin == 1.0, "all of its spin", say(spin))

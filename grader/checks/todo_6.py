@@ -16,6 +16,8 @@ from grader.checks.pacing import (
 from grader.checks.strategies import few, frame_lists
 from grader.judge.lab import STEP, Lab
 
+NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
+
 
 def paced_with_a_hiccup(lab: Lab, seconds: int) -> Pace:
     lab.ran(f"the lab scene at 60 frames a second, with one frame of {seconds} seconds in between")
@@ -89,7 +91,7 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
     played = lab.play([17] * 10, physics=False)
     want_a_proper_end(lab, played, 10)
     ran = sum(played.steps)
-    numbers = [int(number) for line in played.lines for number in re.findall(r"\d+", line)]
+    numbers = [int(number) for line in played.lines for number in NUMBER.findall(line)]
     said = ran if ran in numbers else next(iter(numbers), None)
     lab.saw("said", (ran,), said)
     lab.want(said == ran, f"{ran} in what it prints", f"{said}" if numbers else "no number")

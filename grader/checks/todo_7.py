@@ -155,7 +155,15 @@ def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
     lab.want(len(found) == 1, "the bob at (840, 90)", f"{len(found)} bodies there")
     rods = rods_of(space, found[0].ref, {body.ref for body in moving})
     lab.saw("rods", (), rods)
+    for joint in space.joints:
+        if joint.distance is not None and found[0].ref in (joint.a, joint.b):
+            lab.saw("length", (rods,), off(joint.distance))
     return lab.thing(space), lab.thing(found[0]), rods
+
+
+def off(length: float) -> int:
+    """Whether a rod is too short (-1), too long (1), or neither (0)."""
+    return 0 if math.isclose(length, LENGTH, abs_tol=STRETCH) else 1 if length > LENGTH else -1
 
 
 def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
@@ -197,7 +205,7 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
     rods = pendulum(lab)[2]
     lab.want(
         any(
-            near(rod.far_end, PIVOT, 1.0) and near(rod.bob_end, BOB, 1.0) and not rod.moves
+            near(rod.far_end, PIVOT, 1e-6) and near(rod.bob_end, BOB, 1e-6) and not rod.moves
             for rod in rods
         ),
         "a joint from (700, 90), on a body that stays put, to the bob's centre at (840, 90)",

@@ -26,6 +26,7 @@ from grader.protocol import ChildSetup, Limits
 from grader.todo_regions import shape_of
 
 KIT = Path(__file__).parents[2]
+FAILED = ("not yet", "error")  # what a known mistake may be the reason of
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,7 @@ class Grading:
                 continue
             checks = count_guards(todo, [plugin.results[todo.id, c.id] for c in todo.checks])
             mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
-            failed = any(check.state == "not yet" for check in checks)
+            failed = any(check.state in FAILED for check in checks)
             if mistake is not None and failed:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
             todos.append(
@@ -209,7 +210,7 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
 
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
-    return msgspec.structs.replace(check, meaning=meaning) if check.state == "not yet" else check
+    return msgspec.structs.replace(check, meaning=meaning) if check.state in FAILED else check
 
 
 @contextmanager

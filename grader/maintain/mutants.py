@@ -1,0 +1,343 @@
+"""Mutants: the solution with one small change, to see whether the checks notice.
+
+A mutant is built like a wrong member of the bank: one region of the solution, put in. It is killed
+if its own TODO loses points. No other TODO may lose any, and a mistake that is named must be the
+one that was made.
+"""
+
+import difflib
+import random
+import re
+import tempfile
+import textwrap
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from functools import cache
+from multiprocessing import get_context
+from os import cpu_count
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+from msgspec import Struct
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from grader.judge import misconceptions
+from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
+from grader.judge.lab import Observation
+from grader.judge.misconceptions import Undecided
+from grader.judge.plugin import GradingPlugin
+from grader.judge.reference import Reference
+from grader.judge.result import Result
+from grader.judge.rubric import Rubric, load_rubric
+from grader.judge.submission import function_named, statements, take_in
+from grader.maintain.bank import Entry, Member
+from grader.maintain.operators import changes, names_in, normal
+from grader.maintain.verify import shared_worker
+from grader.todo_regions import Region, python_files, read_source, regions_in
+
+CPU_SECONDS = 2  # budget of a mutant's child: many never end, and the solution needs a quarter
+OTHER_QUESTIONS = (7919, 104729)  # seeds of the questions that a name must stand up to
+WRONGLY_NAMED = 0.02  # the largest share of mutants that may be
+
+Verdict = Literal["killed", "survived", "equivalent"]
+Naming = Literal["right", "none", "wrong"]
+NAMINGS = ("named rightly", "not", "wrongly")  # heads of the table
+
+
+# ---------------------------------------------------------------- making them
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One changed region; `was` and `now` are the lines that differ."""
+
+    todo: str
+    number: int
+    operator: str
+    was: str
+    now: str
+    code: str
+
+    @property
+    def name(self) -> str:
+        return f"{self.todo}-mutant-{self.number}"
+
+    def patch(self) -> str:
+        return f"# TODO {self.todo}: {self.operator}\n{self.code}\n# END TODO {self.todo}\n"
+
+    def __str__(self) -> str:
+        return f"TODO {self.todo}: {self.was or 'nothing'}  ->  {self.now or 'nothing'}"
+
+
+@cache
+def all_mutants() -> tuple[Mutant, ...]:
+    """Every mutant of every TODO of the solution, in the order of the rubric."""
+    regions = {
+        region.id: (text, region)
+        for path in python_files(KIT / "solution")
+        for text in [read_source(path)]
+        for region in regions_in(text)
+    }
+    return tuple(
+        mutant
+        for todo in load_rubric().todos
+        if todo.function
+        for mutant in mutants_of(*regions[todo.id], todo.function.partition(":")[2])
+    )
+
+
+def mutants_of(text: str, region: Region, function: str) -> Iterator[Mutant]:
+    """The mutants of one region of a source text; `function` is the one it lives in."""
+    found = function_named(statements(text), function)
+    names = names_in(found) if found is not None else frozenset()
+    code = textwrap.dedent("\n".join(region.lines))
+    for number, (operator, change) in enumerate(changes(code, names), 1):
+        yield Mutant(region.id, number, operator, *difference(code, change), change)
+
+
+def difference(code: str, change: str) -> tuple[str, str]:
+    """The lines that differ, before and after; of an insertion, with the line below it."""
+    before, after = lines_of(normal(code)), lines_of(change)
+    was: list[str] = []
+    now: list[str] = []
+    for tag, i, j, k, m in difflib.SequenceMatcher(None, before, after, False).get_opcodes():
+        if tag != "equal":
+            more = 1 if tag == "insert" else 0
+            was += before[i : j + more]
+            now += after[k : m + more]
+    return "; ".join(map(str.strip, was)), "; ".join(map(str.strip, now))
+
+
+def lines_of(code: str) -> list[str]:
+    """The lines of some code, broken where one pair of brackets follows another."""
+    return re.split(r"\n|(?<=\)), (?=\()", code)
+
+
+def sample(mutants: Sequence[Mutant], count: int, seed: int) -> list[Mutant]:
+    """`count` of them, drawn from each TODO in turn; all of them if count is 0."""
+    if not count:
+        return list(mutants)
+    rng = random.Random(seed)
+    piles: dict[str, list[Mutant]] = {}
+    for mutant in mutants:
+        piles.setdefault(mutant.todo, []).append(mutant)
+    for pile in piles.values():
+        rng.shuffle(pile)
+    chosen: list[Mutant] = []
+    while len(chosen) < min(count, len(mutants)):
+        chosen += [pile.pop() for pile in piles.values() if pile]
+    return chosen[:count]
+
+
+# ---------------------------------------------------------------- the ones that change nothing
+
+
+class Equivalent(Struct, frozen=True, forbid_unknown_fields=True):
+    """Mutants that give the same results, up to rounding, for everything the contract allows."""
+
+    todo: str
+    why: str
+    changes: list[tuple[str, str]]  # the lines that differ, before and after
+
+
+class Equivalents(Struct, frozen=True, forbid_unknown_fields=True):
+    equivalent: list[Equivalent]
+
+
+@cache
+def equivalents() -> dict[tuple[str, str, str], str]:
+    """Why each of the listed mutants changes nothing; by TODO and the lines that differ."""
+    path = Path(__file__).with_name("equivalent.toml")
+    listed = msgspec.toml.decode(path.read_bytes(), type=Equivalents).equivalent
+    return {(each.todo, *lines): each.why for each in listed for lines in each.changes}
+
+
+def is_equivalent(mutant: Mutant) -> bool:
+    return (mutant.todo, mutant.was, mutant.now) in equivalents()
+
+
+# ---------------------------------------------------------------- grading one
+
+
+@dataclass
+class Outcome:
+    """What came of one mutant."""
+
+    mutant: Mutant
+    lost: dict[str, int]  # points, by TODO
+    mistake: str | None = None  # as it was named
+    naming: Naming = "none"
+    seconds: float = 0.0
+
+    @property
+    def verdict(self) -> Verdict:
+        if self.mutant.todo in self.lost:
+            return "killed"
+        return "equivalent" if is_equivalent(self.mutant) else "survived"
+
+    @property
+    def complaint(self) -> str:
+        """What is wrong with the grader, as this mutant shows; empty if nothing is."""
+        others = sorted(set(self.lost) - {self.mutant.todo})
+        if others:
+            return f"TODO {', '.join(others)} must not lose anything"
+        if self.lost and is_equivalent(self.mutant):
+            return "is listed as equivalent, and lost points"
+        return "survived" if self.verdict == "survived" else ""
+
+
+def grade_mutant(mutant: Mutant) -> Outcome:
+    """Grade it on all TODOs of its program, and ask again where a mistake was named."""
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
+        patch = Path(folder) / "patch.py"
+        patch.write_text(mutant.patch(), encoding="utf-8")
+        member = Member("wrong", mutant.name, "package", Entry(), patch)
+        submission = Path(folder).resolve() / mutant.name
+        member.build(KIT, submission)
+        result, _ = watched(submission, member.judged_by)
+        lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
+        outcome = Outcome(mutant, lost)
+        outcome.mistake = next((t.misconception for t in result.todos if t.misconception), None)
+        if outcome.mistake is not None:
+            holds = name_holds(submission, mutant.todo, outcome.mistake)
+            outcome.naming = "right" if holds else "wrong"
+    outcome.seconds = time.monotonic() - start
+    return outcome
+
+
+@dataclass
+class Watched(Grading):
+    """A run of the checks that keeps what was asked and answered."""
+
+    observations: dict[str, list[Observation]] = field(default_factory=dict)
+
+    def result(self, plugin: GradingPlugin, layers: list[str]) -> Result:
+        self.observations = plugin.observations
+        return super().result(plugin, layers)
+
+
+def watched(
+    path: Path, only: frozenset[str], seed: int | None = None
+) -> tuple[Result, dict[str, list[Observation]]]:
+    """The result for a submission, and every answer it gave, by TODO."""
+    rubric, options = hurried(load_rubric()), Options(shipped_reference(), only=only, seed=seed)
+    with work_folder() as work:
+        submission = take_in(path, work / "submission", rubric, load_stubs())
+        reference = Reference(options.reference, rubric)
+        grading = Watched(options, rubric, reference, submission, shared_worker(), work)
+        result = grading.run()
+    return result, grading.observations
+
+
+def hurried(rubric: Rubric) -> Rubric:
+    """The same rubric with a smaller budget."""
+    replace = msgspec.structs.replace
+    return Rubric(
+        [
+            replace(todo, checks=[replace(each, cpu_seconds=CPU_SECONDS) for each in todo.checks])
+            for todo in rubric.todos
+        ]
+    )
+
+
+# ---------------------------------------------------------------- whether a name is right
+
+
+def name_holds(submission: Path, todo: str, name: str) -> bool:
+    """Whether the mistake's model gives the same numbers for questions that it was not named by."""
+    return all(
+        foretold(todo, name, watched(submission, frozenset({todo}), seed)[1].get(todo, []))
+        for seed in OTHER_QUESTIONS
+    )
+
+
+def foretold(todo: str, name: str, seen: Sequence[Observation]) -> bool:
+    """Whether a model of this mistake gives every answer it speaks of, and all others are right."""
+    misconceptions.load_known()
+    models = [each for each in misconceptions.known if (each.todo, each.id) == (todo, name)]
+    return any(
+        misconceptions.explains(model, seen)
+        and all(is_right(each) for each in seen if each.about != model.about)
+        for model in models
+    )
+
+
+def is_right(seen: Observation) -> bool:
+    try:
+        return misconceptions.alike(misconceptions.right[seen.about](*seen.inputs), seen.answer)
+    except Undecided:
+        return True
+
+
+# ---------------------------------------------------------------- all of them
+
+
+@dataclass
+class Campaign:
+    outcomes: list[Outcome]
+
+    @property
+    def wrongly_named(self) -> list[Outcome]:
+        return [each for each in self.outcomes if each.naming == "wrong"]
+
+    @property
+    def sound(self) -> bool:
+        named_well = len(self.wrongly_named) <= WRONGLY_NAMED * len(self.outcomes)
+        return named_well and not any(each.complaint for each in self.outcomes)
+
+
+def campaign(count: int, seed: int, jobs: int, only: frozenset[str], console: Console) -> Campaign:
+    """Grade `count` mutants, of the TODOs in `only` if there are any; prints a table."""
+    mutants = [each for each in all_mutants() if not only or each.todo in only]
+    chosen = sample(mutants, count, seed)
+    outcomes: list[Outcome] = []
+    columns = (TextColumn("grading mutants"), BarColumn(), MofNCompleteColumn())
+    with Progress(*columns, TimeRemainingColumn(), console=console, transient=True) as progress:
+        task = progress.add_task("", total=len(chosen))
+        for outcome in grade_all(chosen, jobs):
+            outcomes.append(outcome)
+            progress.advance(task)
+            if outcome.complaint or outcome.naming == "wrong":
+                progress.console.print(describe(outcome))
+    outcomes.sort(key=lambda each: mutants.index(each.mutant))
+    show(outcomes, console)
+    return Campaign(outcomes)
+
+
+def grade_all(chosen: Iterable[Mutant], jobs: int) -> Iterator[Outcome]:
+    context = get_context("spawn")
+    with ProcessPoolExecutor(jobs or cpu_count(), mp_context=context) as pool:
+        for future in as_completed([pool.submit(grade_mutant, mutant) for mutant in chosen]):
+            yield future.result()
+
+
+def show(outcomes: Sequence[Outcome], console: Console) -> None:
+    table = Table("TODO", "all", "killed", "survived", "equivalent", "score", *NAMINGS)
+    for todo in dict.fromkeys(each.mutant.todo for each in outcomes):
+        table.add_row(todo, *figures([each for each in outcomes if each.mutant.todo == todo]))
+    table.add_section()
+    table.add_row("all", *figures(outcomes))
+    console.print(table)
+
+
+def describe(outcome: Outcome) -> str:
+    misled = f"is not {outcome.mistake}" if outcome.naming == "wrong" else ""
+    words = "; ".join(filter(None, (outcome.complaint, misled)))
+    return f"{outcome.mutant}: {words}"
+
+
+def figures(outcomes: Sequence[Outcome]) -> list[str]:
+    """One row: how many, what became of them, and how the killed ones were named."""
+    verdicts = [each.verdict for each in outcomes]
+    killed, survived = verdicts.count("killed"), verdicts.count("survived")
+    score = f"{100 * killed / (killed + survived):.0f}%" if killed + survived else "-"
+    namings = [each.naming for each in outcomes if each.verdict == "killed"]
+    named = [str(namings.count(each)) for each in ("right", "none", "wrong")]
+    equivalent = verdicts.count("equivalent")
+    return [*map(str, (len(outcomes), killed, survived, equivalent)), score, *named]
