@@ -151,7 +151,8 @@ def the_one(todo: str, now: str) -> Mutant:
     ("todo", "now", "mistake"),
     [
         ("1", "if distance > radius:", "touching-counts-as-overlap"),
-        ("3", "if self.k == 1:", None),
+        ("1", "if distance >= 0:", "inside-normalises-zero"),
+        ("3", "if self.k == 1:", "divides-by-a-k-of-0"),
         ("4", "total = max(limit, min(limit, total))", "clamp-is-turned-round"),
         ("7a", "space.gravity = (980, 0)", "gravity-points-sideways"),
         ("7b", "moment = pymunk.moment_for_circle(mass, 0, mass)", None),
