@@ -12,6 +12,7 @@ PIP := $(PY) -m pip --quiet --disable-pip-version-check
 CORE := .venv/core-is-installed
 DEV := .venv/dev-is-installed
 SITE := .venv/site-is-installed
+NOTEBOOKS := .venv/notebooks-is-installed
 WHERE ?= starter
 
 LOCK := $(PY) -m uv pip compile pyproject.toml --group build --quiet --upgrade --universal \
@@ -30,8 +31,8 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade run dials accuracy effects cases compiled handouts verify mutants sync test soak \
-	lint format bench lock clean venv
+.PHONY: help setup grade run dials accuracy effects cases compiled handouts \
+	course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
@@ -73,6 +74,12 @@ handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
 	@$(PY) handouts/make_site.py
 
+course: $(NOTEBOOKS) ## Make an nbgrader course in COURSE=folder
+	@$(PY) -m grader nbgrader course "$(COURSE)"
+
+notebooks: $(NOTEBOOKS) ## Renew the starter's notebooks with nbgrader
+	@$(PY) -m grader nbgrader release
+
 ##@ Looking after the kit
 
 verify: $(CORE) ## Prove the marks: starter 0, solution all, each wrong submission its own
@@ -87,7 +94,7 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 test: $(DEV) ## Run the test suite
 	@$(PY) -m pytest tests -n 2
 
-soak: $(DEV) $(SITE) ## Run the long tests that `make test` leaves out
+soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak
 
 lint: $(DEV) ## Check style and types
@@ -104,6 +111,7 @@ bench: $(CORE) ## Measure how fast the grader is
 
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
+	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots -c requirements.txt
 
@@ -138,4 +146,9 @@ $(DEV): $(CORE) requirements-dev.txt
 $(SITE): $(CORE) requirements-site.txt
 	@echo "Installing what web pages need into .venv (less than a minute) ..."
 	@$(PIP) install --require-hashes -r requirements-site.txt
+	@touch $@
+
+$(NOTEBOOKS): $(CORE) requirements-notebooks.txt
+	@echo "Installing what notebooks need into .venv (a minute or two) ..."
+	@$(PIP) install --require-hashes -r requirements-notebooks.txt
 	@touch $@

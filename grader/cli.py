@@ -7,6 +7,7 @@ import msgspec
 import typer
 from rich.console import Console
 
+from grader.classroom import nbgrader, notebooks, roster  # noqa: F401  notebooks adds commands
 from grader.classroom.batch import grade_class, show_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
@@ -22,6 +23,8 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.add_typer(nbgrader.app, name="nbgrader")
+app.command("marks")(roster.marks_command)
 console = Console(highlight=False, markup=False)
 
 

@@ -1,0 +1,360 @@
+"""Class lists in, marks out: the CSV files of Canvas and Moodle.
+
+One mark per student is made from the parts of the assignment by the shares in marks.toml. Names and
+identifiers are written as they came, but never so that a spreadsheet would run them.
+"""
+
+import csv
+import io
+import unicodedata
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import msgspec
+import typer
+from msgspec import Struct
+from rich.console import Console
+
+from grader.classroom import nbgrader
+from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
+from grader.judge.result import Result
+from grader.report.terminal import clean
+
+CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+MOODLE = ("First name", "Last name", "ID number", "Email address")
+KEYS = ("SIS Login ID", "Email address", "ID number", "SIS User ID")
+POINTS_POSSIBLE = "Points Possible"  # the first cell of Canvas's second row
+TEST_STUDENT = "Student, Test"  # Canvas's own, who never hands in
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+
+
+class CannotRead(Exception):
+    """A file that is not what it should be; the message names it and says what to do."""
+
+
+# ---------------------------------------------------------------- how marks are made
+
+
+class Marking(Struct, frozen=True, forbid_unknown_fields=True):
+    """marks.toml."""
+
+    title: str
+    shares: dict[str, float]
+    total: float = 100
+    decimals: int = 1
+    absent: int | float | str = 0
+
+
+@dataclass(frozen=True)
+class Part:
+    """What a student has in one notebook."""
+
+    points: float
+    max_points: float
+    waiting: bool = False  # for a person to grade it
+
+
+Parts = dict[str, Part]
+
+
+def load_marking(path: Path) -> Marking:
+    try:
+        marking = msgspec.toml.decode(path.read_bytes(), type=Marking)
+    except OSError as error:
+        raise CannotRead(f"there is no {path}: it says what each part is worth") from error
+    except msgspec.MsgspecError as error:
+        raise CannotRead(f"{path}: {error}") from error
+    wrong = [f"{name} = {share}" for name, share in marking.shares.items() if not 0 <= share < 1e9]
+    if wrong or not sum(marking.shares.values()):
+        raise CannotRead(f"{path}: shares must be 0 or more, and not all 0 ({', '.join(wrong)})")
+    if marking.total <= 0 or not 0 <= marking.decimals <= 6:
+        raise CannotRead(f"{path}: total must be above 0, and decimals from 0 to 6")
+    return marking
+
+
+def mark_of(parts: Parts, marking: Marking) -> str:
+    """One mark from all parts; a part that is missing counts as 0."""
+    share = sum(
+        weight * parts[name].points / parts[name].max_points
+        for name, weight in marking.shares.items()
+        if name in parts and parts[name].max_points > 0
+    )
+    mark = Decimal(marking.total * share / sum(marking.shares.values()))
+    # what binary fractions leave over must not decide which way to round
+    mark = mark.quantize(Decimal("1e-9"))
+    return str(mark.quantize(Decimal(1).scaleb(-marking.decimals), ROUND_HALF_UP))
+
+
+def waiting(parts: Parts, marking: Marking) -> list[str]:
+    """The parts that a person must still grade."""
+    return [name for name in marking.shares if name in parts and parts[name].waiting]
+
+
+def parts_from_gradebook(course: Path, marking: Marking) -> dict[str, Parts]:
+    """What everybody has in every notebook, late penalties taken off."""
+    api = nbgrader.nbgrader_api()
+    found: dict[str, Parts] = {}
+    with nbgrader.opened(course, api) as book:
+        try:
+            notebooks = {notebook.name for notebook in book.find_assignment(ASSIGNMENT).notebooks}
+        except api.MissingEntry as error:
+            raise NoCourse(f"the gradebook knows no assignment {ASSIGNMENT}") from error
+        unknown = sorted(set(marking.shares) - notebooks)
+        if unknown:
+            raise CannotRead(f"shares: there is no notebook {', '.join(unknown)} in the gradebook")
+        for submission in book.assignment_submissions(ASSIGNMENT):
+            found[submission.student.id] = {
+                notebook.name: Part(
+                    max(notebook.score - (notebook.late_submission_penalty or 0), 0),
+                    notebook.max_score,
+                    notebook.needs_manual_grade,
+                )
+                for notebook in submission.notebooks
+            }
+    return found
+
+
+def parts_from_results(results: Iterable[tuple[str, Result | str]]) -> dict[str, Parts]:
+    """The engine alone, where no notebooks are used."""
+    found: dict[str, Parts] = {}
+    for student, result in results:
+        if isinstance(result, str):
+            raise CannotRead(result)
+        found[student] = {ENGINE: Part(result.points, result.max_points)}
+    return found
+
+
+# ---------------------------------------------------------------- the class list
+
+
+@dataclass
+class Roster:
+    """A class list as an LMS wrote it."""
+
+    path: Path
+    columns: list[str]
+    rows: list[dict[str, str]]  # of students
+    canvas: bool
+    possible: bool  # there is a row of points possible
+    delimiter: str
+    mark: str  # the byte order mark, where there is one
+
+    def key(self, wanted: str = "") -> str:
+        """The column that identifies students."""
+        if wanted and wanted not in self.columns:
+            columns = ", ".join(self.columns)
+            raise CannotRead(f"{self.path} has no column {wanted!r}; it has {columns}")
+        for name in [wanted] if wanted else KEYS:
+            if name in self.columns and any(row[name].strip() for row in self.rows):
+                return name
+        raise CannotRead(f"{self.path} has none of {', '.join(KEYS)}: name yours with --key")
+
+
+def read_roster(path: Path) -> Roster:
+    """Read a class list of Canvas, Moodle, or any CSV with a row of titles."""
+    try:
+        text = path.read_bytes().decode("utf-8")
+    except OSError as error:
+        raise CannotRead(f"there is no class list at {path}") from error
+    except UnicodeDecodeError as error:
+        raise CannotRead(f"{path} is not UTF-8: export it from the LMS again, as CSV") from error
+    mark = "\ufeff" if text.startswith("\ufeff") else ""
+    text = text.removeprefix(mark)
+    first = text.partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    lines = [row for row in csv.reader(io.StringIO(text, newline=""), delimiter=delimiter) if row]
+    if len(lines) < 2:
+        raise CannotRead(f"{path} is empty: it needs a row of titles and a row per student")
+    columns = [title.strip() for title in lines[0]]
+    if len(set(columns)) < len(columns):
+        raise CannotRead(f"{path} has two columns of one name: {', '.join(columns)}")
+    rows = [dict(zip(columns, [*row, *[""] * len(columns)], strict=False)) for row in lines[1:]]
+    canvas = set(CANVAS[:2]) <= set(columns)
+    possible = canvas and any(row["Student"].strip() == POINTS_POSSIBLE for row in rows)
+    students = [row for row in rows if not canvas or is_student(row)]
+    return Roster(path, columns, students, canvas, possible, delimiter, mark)
+
+
+def is_student(row: dict[str, str]) -> bool:
+    return row["Student"].strip() not in ("", POINTS_POSSIBLE, TEST_STUDENT)
+
+
+def folded(words: str) -> str:
+    """What two spellings of one identifier have in common."""
+    return unicodedata.normalize("NFC", words).strip().casefold()
+
+
+def names_of(cell: str) -> list[str]:
+    """What a student may be called in the gradebook: the cell, or the first half of an address."""
+    return [name for name in dict.fromkeys([folded(cell), folded(cell).partition("@")[0]]) if name]
+
+
+def people(roster: Roster, key: str) -> Iterator[dict[str, str]]:
+    """Students for nbgrader: id, names and address, as far as the class list has them."""
+    for row in roster.rows:
+        if not row[key].strip():
+            continue
+        last, comma, first = row.get("Student", "").partition(", ")
+        yield {
+            "id": row[key].strip(),
+            "first_name": row.get("First name", first if comma else ""),
+            "last_name": row.get("Last name", last),
+            "email": row.get("Email address", ""),
+        }
+
+
+# ---------------------------------------------------------------- marks for the LMS
+
+
+@dataclass(frozen=True)
+class Marks:
+    """A file for the LMS, and what a person should know about it."""
+
+    text: str
+    given: int
+    notes: list[str]
+
+
+def marks(
+    roster: Roster, key: str, scores: dict[str, Parts], marking: Marking, so_far: bool = False
+) -> Marks:
+    """The class list with a mark for each student.
+
+    A mark that still waits for a person is left empty, unless `so_far`.
+    """
+    by_name = {folded(student): student for student in scores}
+    rows, notes, met = [], [], set()
+    given = 0
+    for row in roster.rows:
+        student = next((by_name[name] for name in names_of(row[key]) if name in by_name), None)
+        mark, words = str(marking.absent), "nothing handed in"
+        if student is not None:
+            met.add(student)
+            mark, words = mark_of(scores[student], marking), summary(scores[student], marking)
+            left = waiting(scores[student], marking)
+            if left and not so_far:
+                mark = ""
+                notes.append(f"{row[key]}: no mark yet, {', '.join(left)} must be graded by hand")
+        else:
+            notes.append(f"{row[key]}: nothing handed in")
+        given += mark != ""
+        rows.append((row, mark, words))
+    for student in sorted(set(scores) - met):
+        notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
+    table = canvas_table(roster, rows, marking) if roster.canvas else plain_table(roster, key, rows)
+    return Marks(as_csv(table, roster), given, notes)
+
+
+def summary(parts: Parts, marking: Marking) -> str:
+    """What makes the mark, for the column of feedback."""
+    return "; ".join(
+        f"{name} {parts[name].points:g} / {parts[name].max_points:g}"
+        for name in marking.shares
+        if name in parts
+    )
+
+
+Marked = tuple[dict[str, str], str, str]  # a row of the class list, its mark, the summary
+
+
+def canvas_table(roster: Roster, rows: list[Marked], marking: Marking) -> list[list[str]]:
+    """Canvas takes back its own first columns and one column per assignment."""
+    own = [name for name in CANVAS if name in roster.columns]
+    title = next((c for c in roster.columns if c.startswith(f"{marking.title} (")), marking.title)
+    table = [[*own, title]]
+    if roster.possible:
+        table.append([f"    {POINTS_POSSIBLE}", *[""] * (len(own) - 1), f"{marking.total:g}"])
+    table += [[*(row[name] for name in own), mark] for row, mark, _ in rows]
+    return table
+
+
+def plain_table(roster: Roster, key: str, rows: list[Marked]) -> list[list[str]]:
+    """Moodle asks at import which column is which."""
+    own = [name for name in roster.columns if name in MOODLE or name == key]
+    table = [[*own, "Grade", "Feedback"]]
+    table += [[*(row[name] for name in own), mark, words] for row, mark, words in rows]
+    return table
+
+
+def as_csv(table: list[list[str]], roster: Roster) -> str:
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, delimiter=roster.delimiter, lineterminator="\r\n")
+    writer.writerows([harmless(cell) for cell in row] for row in table)
+    return roster.mark + out.getvalue()
+
+
+def harmless(cell: str) -> str:
+    """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
+    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
+    return f"'{cell}" if plain.startswith(FORMULA) else cell
+
+
+# ---------------------------------------------------------------- the commands
+
+console = Console(highlight=False, markup=False)
+List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
+Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
+
+
+def stop(message: str) -> NoReturn:
+    Console(stderr=True, highlight=False, markup=False).print(f"cannot go on: {message}")
+    raise typer.Exit(2)
+
+
+def marks_command(
+    roster: List,
+    course: Annotated[Path | None, typer.Option(help="The course folder of nbgrader.")] = None,
+    results: Annotated[
+        Path | None, typer.Option(help="Instead: a folder of result files; the engine alone.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="The file for the LMS.")] = Path("marks.csv"),
+    key: Key = "",
+    settings: Annotated[
+        Path | None, typer.Option(help="What the parts are worth; marks.toml of the course.")
+    ] = None,
+    so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+) -> None:
+    """Make one mark per student, for Canvas or Moodle.
+
+    Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
+    """
+    try:
+        listed = read_roster(roster)
+        column = listed.key(key)
+        marking = load_marking(
+            settings or (course if course else nbgrader.INSTRUCTOR) / "marks.toml"
+        )
+        if results is not None:
+            marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
+            scores = parts_from_results(nbgrader.read_results([results]))
+        else:
+            scores = parts_from_gradebook(course or Path("."), marking)
+        made = marks(listed, column, scores, marking, so_far)
+    except (CannotRead, NoCourse) as error:
+        stop(str(error))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_bytes(made.text.encode("utf-8"))
+    for note in made.notes:
+        console.print(clean(note))
+    console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
+    raise typer.Exit(0 if made.given == len(listed.rows) else 1)
+
+
+@nbgrader.app.command("roster")
+def roster_command(roster: List, course: nbgrader.Course = Path("."), key: Key = "") -> None:
+    """Tell the gradebook the names of a class list."""
+    try:
+        listed = read_roster(roster)
+        column = listed.key(key)
+        with nbgrader.opened(course, nbgrader.nbgrader_api()) as book:
+            known = {folded(student.id): student.id for student in book.students}
+            for person in people(listed, column):
+                name = person.pop("id")
+                name = next((known[each] for each in names_of(name) if each in known), name)
+                book.update_or_create_student(name, **person)
+    except (CannotRead, NoCourse) as error:
+        stop(str(error))
+    console.print(f"{len(listed.rows)} students are in the gradebook, by {column}")

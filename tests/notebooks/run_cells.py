@@ -1,0 +1,52 @@
+"""Run a notebook's code cells in order, as Jupyter does, and print what failed as JSON.
+
+    python run_cells.py NOTEBOOK
+
+A failing cell does not stop the next one. Figures are not drawn where matplotlib is missing.
+"""
+
+import io
+import json
+import os
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+from types import ModuleType
+from unittest.mock import MagicMock
+
+
+def stand_in():
+    """A pyplot that draws nothing."""
+
+    def subplots(rows=1, columns=1, **look):
+        axes = [MagicMock() for _ in range(rows * columns)]
+        return MagicMock(), axes[0] if len(axes) == 1 else axes
+
+    package, pyplot = ModuleType("matplotlib"), MagicMock()
+    pyplot.subplots = subplots
+    package.pyplot = pyplot
+    sys.modules.update({"matplotlib": package, "matplotlib.pyplot": pyplot})
+
+
+def main(path):
+    os.environ["MPLBACKEND"] = "agg"
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        stand_in()
+    os.chdir(path.parent)
+    sys.path.insert(0, "")
+    space, failed = {"__name__": "__main__"}, {}
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        try:
+            with redirect_stdout(io.StringIO()):
+                exec(compile("".join(cell["source"]), cell["id"], "exec"), space)
+        except Exception as error:
+            failed[cell["id"]] = f"{type(error).__name__}: {error}"
+    kept = {name: space.get(name) for name in ("by_step", "by_passes", "spring_curves")}
+    print(json.dumps({"failed": failed, "kept": kept}))
+
+
+main(Path(sys.argv[1]).resolve())

@@ -1,0 +1,191 @@
+"""The grader's marks in nbgrader's gradebook: clamped, complete, and the same a second time."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse, fill, read_results, reasons
+from grader.judge.result import CheckResult, Result, TodoResult, Where
+
+POINTS = {"4": 10, "5": 8, "8a": 2}
+
+
+def check(points=0, got="nothing", **more):
+    return CheckResult("c", "Friction vanishes", "unit", "not yet", points, 3, got=got, **more)
+
+
+def todo(name, points, **more):
+    checks = [] if points == POINTS.get(name) else [check(**more)]
+    return TodoResult(name, "t", "not yet", points, POINTS.get(name, 5), None, checks)
+
+
+def result(*todos, name="anna"):
+    total = sum(each.points for each in todos)
+    return Result(1, name, total, 20, 0, ["processes"], list(todos))
+
+
+# ---------------------------------------------------------------- without nbgrader
+
+
+def test_reasons_are_indented_so_that_nothing_in_them_is_markup():
+    text = reasons(todo("4", 7, got="<script>alert(1)</script>\n# title\x1b[31m"))
+    assert "<script>" in text and "\x1b" not in text
+    assert all(line.startswith("    ") for line in text.splitlines())
+    assert "# title" not in [line.strip() for line in text.splitlines()]
+
+
+def test_reasons_name_the_place_and_leave_passed_checks_out():
+    passed = msgspec.structs.replace(check(3), state="passed", title="Passed already")
+    failed = check(0, got="199.6 px/s", where=Where("mini_engine/solver.py", 58))
+    text = reasons(TodoResult("4", "t", "not yet", 7, 10, None, [passed, failed]))
+    assert "not yet: 7 / 10" in text and "mini_engine/solver.py:58" in text
+    assert "199.6 px/s" in text and "Passed already" not in text
+
+
+def test_results_are_named_by_their_files_and_rubbish_is_a_sentence(tmp_path):
+    (tmp_path / "anna.json").write_bytes(msgspec.json.encode(result(todo("4", 10), name="x")))
+    (tmp_path / "ben.json").write_text("[1, 2", encoding="utf-8")
+    (tmp_path / "cleo.json").write_text('{"points": "100"}', encoding="utf-8")
+    (tmp_path / "notes.txt").touch()
+    found = dict(read_results([tmp_path]))
+    assert found["anna"].points == 10
+    assert "ben.json is no result of the grader" in found["ben"]
+    assert "cleo.json is no result of the grader" in found["cleo"]
+    assert set(found) == {"anna", "ben", "cleo"}
+
+
+# ---------------------------------------------------------------- with nbgrader's gradebook
+
+
+@pytest.fixture(scope="module")
+def gradebook(tmp_path_factory):
+    """A gradebook with three cells for the engine, a quiz, and two hand-ins; slow to make."""
+    api = pytest.importorskip("nbgrader.api", reason="nbgrader is not installed")
+    path = tmp_path_factory.mktemp("gradebook") / "gradebook.db"
+    scripts = str(Path(sys.executable).parent)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", scripts, prepend=os.pathsep)  # it runs alembic's command
+        with api.Gradebook(f"sqlite:///{path}") as book:
+            fill_in(book)
+    return path
+
+
+def fill_in(book):
+    book.add_assignment(ASSIGNMENT)
+    book.add_notebook(ENGINE, ASSIGNMENT)
+    for name, points in POINTS.items():
+        details = {"max_score": points, "cell_type": "markdown"}
+        book.add_task_cell(f"todo-{name}", ENGINE, ASSIGNMENT, **details)
+    book.add_notebook("quiz", ASSIGNMENT)
+    book.add_grade_cell("quiz-1", "quiz", ASSIGNMENT, max_score=1, cell_type="code")
+    for name in ("anna", "ben"):
+        book.add_student(name)
+        book.add_submission(ASSIGNMENT, name)
+
+
+@pytest.fixture
+def course(gradebook, tmp_path):
+    shutil.copyfile(gradebook, tmp_path / "gradebook.db")
+    return tmp_path
+
+
+def marks(course, student):
+    import nbgrader.api as api
+
+    with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
+        notebook = book.find_submission_notebook(ENGINE, ASSIGNMENT, student)
+        comments = {c.name: c.comment for c in notebook.comments}
+        return {
+            grade.name: (grade.score, grade.needs_manual_grade, comments[grade.name])
+            for grade in notebook.grades
+        }
+
+
+def points(course, student):
+    return {name: mark[0] for name, mark in marks(course, student).items()}
+
+
+def test_points_arrive_and_a_second_time_changes_nothing(course):
+    handed = [("anna", result(todo("4", 7), todo("5", 8), todo("8a", 0)))]
+    first = list(fill(course, handed))
+    assert (first[0].student, first[0].points, first[0].max_points) == ("anna", 15, 20)
+    assert points(course, "anna") == {"todo-4": 7, "todo-5": 8, "todo-8a": 0}
+    before = marks(course, "anna")
+    assert not any(waits for _, waits, _ in before.values())
+    assert list(fill(course, handed)) == first[:1] and marks(course, "anna") == before
+
+
+@pytest.mark.parametrize("wrong, right", [(11, 10), (1000, 10), (-3, 0)])
+def test_points_stay_between_0_and_what_the_cell_is_worth(course, wrong, right):
+    list(fill(course, [("anna", result(todo("4", wrong)))]))
+    assert points(course, "anna")["todo-4"] == right
+
+
+def test_a_todo_that_is_missing_gets_0_and_is_named(course):
+    done = list(fill(course, [("anna", result(todo("4", 10)))]))
+    assert points(course, "anna") == {"todo-4": 10, "todo-5": 0, "todo-8a": 0}
+    assert any("todo-5" in note for note in done[0].notes)
+
+
+def test_points_for_what_has_no_cell_are_not_written(course):
+    done = list(fill(course, [("anna", result(todo("4", 10), todo("B1", 5)))]))
+    assert done[0].points == 10 and any("todo-B1" in note for note in done[0].notes)
+
+
+def test_without_a_result_the_engine_has_0_points_until_there_is_one(course):
+    said = list(fill(course, [("anna", result(todo("4", 10)))]))
+    assert points(course, "ben") == {"todo-4": 0, "todo-5": 0, "todo-8a": 0}
+    assert any(isinstance(each, str) and each.startswith("ben:") for each in said)
+    list(fill(course, [("ben", result(todo("4", 9)))]))
+    assert points(course, "ben")["todo-4"] == 9 and points(course, "anna")["todo-4"] == 10
+
+
+def test_a_mark_given_by_hand_stays_and_counts(course):
+    import nbgrader.api as api
+
+    list(fill(course, [("anna", result(todo("4", 3)))]))
+    with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
+        grade = book.find_grade("todo-4", ENGINE, ASSIGNMENT, "anna")
+        grade.manual_score, grade.needs_manual_grade = 6, False
+        book.db.commit()
+    done = list(fill(course, [("anna", result(todo("4", 3)))]))
+    assert marks(course, "anna")["todo-4"][:2] == (6, False)
+    assert any("by hand" in note for note in done[0].notes)
+    list(fill(course, [("anna", result(todo("4", 9)))]))
+    assert marks(course, "anna")["todo-4"][:2] == (6, True), "a person should look again"
+
+
+def test_a_stranger_gets_nothing_and_stops_nobody(course):
+    said = list(fill(course, [("mallory", result(todo("4", 10))), ("anna", result(todo("4", 10)))]))
+    assert "mallory" in said[0] and said[1].points == 10
+
+
+def test_python_files_without_notebooks_count_too(course):
+    (course / "submitted" / "cleo" / ASSIGNMENT).mkdir(parents=True)
+    list(fill(course, [("cleo", result(todo("4", 10)))]))
+    assert points(course, "cleo")["todo-4"] == 10
+    import nbgrader.api as api
+
+    with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
+        submission = book.find_submission(ASSIGNMENT, "cleo")
+        assert submission.score == 10 and not submission.needs_manual_grade
+
+
+def test_a_broken_result_costs_nobody_else_anything(course):
+    said = list(fill(course, [("ben", "ben.json is no result"), ("anna", result(todo("4", 10)))]))
+    assert said[0] == "ben.json is no result" and points(course, "anna")["todo-4"] == 10
+
+
+def test_without_a_gradebook_or_a_notebook_it_says_what_to_run(course, tmp_path_factory):
+    import nbgrader.api as api
+
+    with pytest.raises(NoCourse, match="generate_assignment"):
+        list(fill(tmp_path_factory.mktemp("empty"), []))
+    with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
+        book.remove_assignment(ASSIGNMENT)
+    with pytest.raises(NoCourse, match="knows no notebook engine"):
+        list(fill(course, []))

@@ -1,0 +1,233 @@
+"""Class lists of Canvas and Moodle, and the marks that go back to them."""
+
+import csv
+import io
+
+import msgspec
+import pytest
+
+from grader.classroom.nbgrader import INSTRUCTOR
+from grader.classroom.roster import (
+    CannotRead,
+    Marking,
+    Part,
+    harmless,
+    load_marking,
+    mark_of,
+    marks,
+    parts_from_results,
+    people,
+    read_roster,
+)
+from grader.judge.result import Result
+
+CANVAS = """\
+Student,ID,SIS User ID,SIS Login ID,Section,Essay (1),Physics engine (4711),Final Score
+    Points Possible,,,,,10,100,(read only)
+"Müller, Zoë",17,s-17,zoe,"Section ""A"", late",7,,93
+"O'Brien, Ben",18,s-18,ben,B,8,,88
+"Student, Test",99,,test,,,,
+"""
+MOODLE = """\
+First name,Last name,ID number,Email address,Quiz total
+Zoë,Müller,s-17,zoe@school.example,3
+=cmd|'/c calc'!A1,李,s-18,ben@school.example,4
+"""
+MARKING = Marking("Physics engine", {"engine": 70, "quiz": 30})
+ZOE = {"engine": Part(80, 100), "quiz": Part(8, 8), "journal": Part(0, 12, waiting=True)}
+
+
+def listed(tmp_path, text, encoding="utf-8"):
+    (tmp_path / "class.csv").write_bytes(text.encode(encoding))
+    return read_roster(tmp_path / "class.csv")
+
+
+def rows(made, delimiter=","):
+    return list(csv.reader(io.StringIO(made.text.removeprefix("\ufeff")), delimiter=delimiter))
+
+
+# ---------------------------------------------------------------- Canvas
+
+
+def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
+    roster = listed(tmp_path, CANVAS)
+    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    assert rows(made) == [
+        ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Physics engine (4711)"],
+        ["    Points Possible", "", "", "", "", "100"],
+        ["Müller, Zoë", "17", "s-17", "zoe", 'Section "A", late', "86.0"],
+        ["O'Brien, Ben", "18", "s-18", "ben", "B", "0"],
+    ]
+    assert made.given == 2 and made.notes == ["ben: nothing handed in"]
+
+
+def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
+    text = "Student,ID,SIS Login ID,Section\nZoe,17,zoe,A\n"
+    roster = listed(tmp_path, text)
+    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    assert rows(made)[0][-1] == "Physics engine" and rows(made)[1] == [
+        "Zoe",
+        "17",
+        "zoe",
+        "A",
+        "86.0",
+    ]
+
+
+def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
+    roster = listed(tmp_path, CANVAS.replace(",", ";").replace("Müller;", "Müller,"), "utf-8-sig")
+    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    assert made.text.startswith("\ufeffStudent;ID;")
+    assert rows(made, ";")[2][0] == "Müller, Zoë" and rows(made, ";")[2][-1] == "86.0"
+
+
+# ---------------------------------------------------------------- Moodle
+
+
+def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
+    roster = listed(tmp_path, MOODLE)
+    made = marks(roster, roster.key(), {"zoe": ZOE, "ben": {}}, MARKING)
+    assert rows(made) == [
+        ["First name", "Last name", "ID number", "Email address", "Grade", "Feedback"],
+        ["Zoë", "Müller", "s-17", "zoe@school.example", "86.0", "engine 80 / 100; quiz 8 / 8"],
+        ["'=cmd|'/c calc'!A1", "李", "s-18", "ben@school.example", "0.0", ""],
+    ]
+
+
+def test_the_key_may_be_another_column(tmp_path):
+    roster = listed(tmp_path, MOODLE)
+    made = marks(roster, roster.key("ID number"), {"s-17": ZOE}, MARKING)
+    assert rows(made)[1][4] == "86.0"
+    with pytest.raises(CannotRead, match="no column 'Login'"):
+        roster.key("Login")
+
+
+def test_names_match_whatever_the_case_and_the_form_of_accents(tmp_path):
+    roster = listed(tmp_path, "Email address\nZo\u00eb@x.example\n")
+    made = marks(roster, roster.key(), {"zoe\u0308": ZOE}, MARKING)
+    assert rows(made)[1][0] == "Zo\u00eb@x.example" and rows(made)[1][1] == "86.0"
+
+
+def test_nbgrader_is_told_the_names(tmp_path):
+    found = list(people(listed(tmp_path, CANVAS), "SIS Login ID"))
+    assert found[0] == {"id": "zoe", "first_name": "Zoë", "last_name": "Müller", "email": ""}
+    found = list(people(listed(tmp_path, MOODLE), "ID number"))
+    assert found[0]["first_name"] == "Zoë" and found[0]["email"] == "zoe@school.example"
+
+
+# ---------------------------------------------------------------- marks
+
+
+@pytest.mark.parametrize(
+    ("parts", "mark"),
+    [
+        ({"engine": Part(100, 100), "quiz": Part(8, 8)}, "100.0"),
+        ({"engine": Part(100, 100)}, "70.0"),
+        ({}, "0.0"),
+        ({"engine": Part(50, 100), "quiz": Part(4, 8), "other": Part(9, 9)}, "50.0"),
+        ({"engine": Part(0.5, 100), "quiz": Part(0, 8)}, "0.4"),  # 0.35, half up
+        ({"engine": Part(100, 100), "quiz": Part(0, 0)}, "70.0"),
+    ],
+)
+def test_shares_make_one_mark(parts, mark):
+    assert mark_of(parts, MARKING) == mark
+
+
+def test_the_total_and_the_decimals_are_the_instructors():
+    marking = Marking("x", {"engine": 1}, total=20, decimals=0)
+    assert mark_of({"engine": Part(72, 100)}, marking) == "14"
+    assert mark_of({"engine": Part(72.5, 100)}, marking) == "15"
+
+
+def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
+    marking = msgspec.structs.replace(MARKING, shares={"engine": 70, "quiz": 20, "journal": 10})
+    roster = listed(tmp_path, CANVAS)
+    made = marks(roster, roster.key(), {"zoe": ZOE}, marking)
+    assert rows(made)[2][-1] == "" and made.given == 1
+    assert made.notes[0] == "zoe: no mark yet, journal must be graded by hand"
+    made = marks(roster, roster.key(), {"zoe": ZOE}, marking, so_far=True)
+    assert rows(made)[2][-1] == "76.0"
+
+
+def test_who_is_not_in_the_list_is_named(tmp_path):
+    roster = listed(tmp_path, CANVAS)
+    made = marks(roster, roster.key(), {"zoe": ZOE, "guest": ZOE}, MARKING)
+    assert "guest: handed in, but is not in the class list under 'SIS Login ID'" in made.notes
+
+
+def test_results_alone_make_marks_of_the_engine():
+    done = Result(1, "x", 87, 100, 0, [], [])
+    assert parts_from_results([("zoe", done)]) == {"zoe": {"engine": Part(87, 100)}}
+
+
+def test_the_shipped_settings_name_the_notebooks():
+    from handed_in import NAMES
+
+    marking = load_marking(INSTRUCTOR / "marks.toml")
+    assert sorted(marking.shares) == NAMES and sum(marking.shares.values()) == 100
+
+
+# ---------------------------------------------------------------- what a spreadsheet would run
+
+
+@pytest.mark.parametrize(
+    "cell", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "  =1", "\uff1d1", "\u00a0=1", "\n=1"]
+)
+def test_a_formula_becomes_text(cell):
+    assert harmless(cell) == f"'{cell}"
+
+
+@pytest.mark.parametrize("cell", ["Zoë", "O'Brien", "3-4", "a=b", "12.5", "", "    Points"])
+def test_what_is_no_formula_stays(cell):
+    assert harmless(cell) == cell
+
+
+def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
+    bad = ["=1", "+1", "-1", "@x", "\t=2", '"=3', "a\n=4"]
+    buffer = io.StringIO()
+    csv.writer(buffer).writerows([["First name", "Last name", "Email address"]])
+    csv.writer(buffer).writerows([each, each, f"u{i}@x"] for i, each in enumerate(bad))
+    roster = listed(tmp_path, buffer.getvalue())
+    made = marks(roster, roster.key(), {}, MARKING)
+    cells = [cell for row in rows(made)[1:] for cell in row]
+    assert len(cells) == 5 * len(bad)
+    assert not any(cell.startswith(("=", "+", "-", "@", "\t")) for cell in cells)
+
+
+# ---------------------------------------------------------------- what cannot be read
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "is empty"),
+        ("Student,ID\n", "is empty"),
+        ("Name,Name\nx,y\n", "two columns of one name"),
+        ("Name,Group\nx,y\n", "--key"),
+    ],
+)
+def test_a_list_that_makes_no_sense_is_refused(tmp_path, text, words):
+    with pytest.raises(CannotRead, match=words):
+        listed(tmp_path, text).key()
+
+
+def test_a_list_that_is_not_utf_8_is_refused(tmp_path):
+    with pytest.raises(CannotRead, match="UTF-8"):
+        listed(tmp_path, MOODLE.replace("李", "Ö"), "latin-1")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'title = "x"',
+        'title = "x"\n[shares]\nengine = -1',
+        'title = "x"\n[shares]\nengine = 0',
+        'title = "x"\ntotal = 0\n[shares]\nengine = 1',
+        'title = "x"\nweights = 1\n[shares]\nengine = 1',
+        "title = ",
+    ],
+)
+def test_settings_that_make_no_sense_are_refused(tmp_path, text):
+    (tmp_path / "marks.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(CannotRead, match=r"marks\.toml"):
+        load_marking(tmp_path / "marks.toml")

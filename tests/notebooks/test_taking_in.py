@@ -1,0 +1,151 @@
+"""A course folder, and submissions taken into it. nbgrader itself is not needed here."""
+
+from pathlib import Path
+
+import pytest
+from handed_in import NAMES, RELEASED, hand_in, read
+
+from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, collect, make_course
+from grader.judge.grade import KIT
+from grader.maintain.sync import given_files
+from grader.todo_regions import python_files, regions_in
+
+
+@pytest.fixture
+def course(tmp_path):
+    make_course(tmp_path / "course")
+    return tmp_path / "course"
+
+
+@pytest.fixture
+def classroom(tmp_path):
+    (tmp_path / "class").mkdir()
+    return tmp_path / "class"
+
+
+def untouched(folder):
+    return hand_in(folder, "starter", {name: read(RELEASED / f"{name}.ipynb") for name in NAMES})
+
+
+def taken(classroom, course):
+    return {each.student: each for each in collect(classroom, course)}
+
+
+# ---------------------------------------------------------------- the course
+
+
+def test_the_source_holds_every_notebook_and_the_starters_files(course):
+    source = course / "source" / ASSIGNMENT
+    assert sorted(path.stem for path in source.glob("*.ipynb")) == NAMES
+    for name in given_files(KIT / "starter"):
+        if not name.startswith("."):
+            assert (source / name).read_bytes() == (KIT / "starter" / name).read_bytes()
+
+
+def test_no_region_of_the_reference_is_in_the_source(course):
+    source = course / "source" / ASSIGNMENT
+    found = {}
+    for path in python_files(source):
+        ours = KIT / "solution" / path.relative_to(source)
+        for region in regions_in(path.read_text(encoding="utf-8")):
+            found[region.id] = region.shape
+        for region in regions_in(ours.read_text(encoding="utf-8")):
+            assert found[region.id] != region.shape
+    assert len(found) == 13
+
+
+def test_a_second_time_needs_renew_and_keeps_the_settings(course):
+    with pytest.raises(NoCourse, match="--renew"):
+        make_course(course)
+    (course / "marks.toml").write_text("mine", encoding="utf-8")
+    (course / "source" / ASSIGNMENT / "old.py").touch()
+    make_course(course, renew=True)
+    assert (course / "marks.toml").read_text(encoding="utf-8") == "mine"
+    assert not (course / "source" / ASSIGNMENT / "old.py").exists()
+
+
+@pytest.mark.parametrize("inside", [".", "solution", "starter/notebooks", "grader"])
+def test_a_course_inside_the_kit_is_refused(inside):
+    with pytest.raises(NoCourse, match="inside the kit"):
+        make_course(KIT / inside)
+
+
+# ---------------------------------------------------------------- submissions
+
+
+def test_notebooks_come_to_the_top_and_files_stay_as_they_are(course, classroom):
+    tree = untouched(classroom / "anna")
+    (tree / "helper.py").write_text("x = 1\n", encoding="utf-8")
+    assert taken(classroom, course)["anna"].words == "5 notebooks"
+    target = course / "submitted" / "anna" / ASSIGNMENT
+    assert sorted(path.stem for path in target.glob("*.ipynb")) == NAMES
+    assert not (target / "notebooks").exists() or not list((target / "notebooks").iterdir())
+    for name in ("helper.py", "mini_engine/world.py"):
+        assert (target / name).read_bytes() == (tree / name).read_bytes()
+
+
+def test_notebooks_may_lie_beside_the_engine_as_nbgrader_releases_them(course, classroom):
+    tree = untouched(classroom / "anna")
+    for path in (tree / "notebooks").iterdir():
+        path.rename(tree / path.name)
+    (tree / "notebooks").rmdir()
+    assert taken(classroom, course)["anna"].words == "5 notebooks"
+    assert (course / "submitted" / "anna" / ASSIGNMENT / "quiz.ipynb").exists()
+
+
+def test_python_files_alone_are_taken_too(course, classroom):
+    hand_in(classroom / "farid", "starter", {})
+    assert taken(classroom, course)["farid"].words == "no notebook"
+    assert (course / "submitted" / "farid" / ASSIGNMENT / "mini_engine" / "world.py").exists()
+
+
+@pytest.mark.parametrize("around", ["physics-engine", "hand-in/physics-engine"])
+def test_folders_around_a_submission_are_taken_off(course, classroom, around):
+    untouched(classroom / "Zoë Müller" / around)
+    taken(classroom, course)
+    target = course / "submitted" / "Zoë Müller" / ASSIGNMENT
+    assert (target / "quiz.ipynb").exists() and (target / "integrators.py").exists()
+
+
+def test_links_and_hidden_files_stay_outside(course, classroom, tmp_path):
+    tree = untouched(classroom / "eve")
+    (tmp_path / "secret.py").write_text("secret", encoding="utf-8")
+    (tree / "stolen.py").symlink_to(tmp_path / "secret.py")
+    (tree / "all").symlink_to(KIT / "solution")
+    (tree / ".hidden").mkdir()
+    (tree / ".hidden" / "x.py").touch()
+    (classroom / "linked").symlink_to(KIT / "solution")
+    assert set(taken(classroom, course)) == {"eve"}
+    target = course / "submitted" / "eve" / ASSIGNMENT
+    assert not any((target / name).exists() for name in ("stolen.py", "all", ".hidden"))
+
+
+def test_a_name_that_nbgrader_would_take_for_a_pattern_is_refused(course, classroom):
+    untouched(classroom / "a[bc]")
+    untouched(classroom / "ben")
+    found = taken(classroom, course)
+    assert not found["a[bc]"].taken and "rename" in found["a[bc]"].words
+    assert found["ben"].taken
+
+
+def test_only_a_submission_that_changed_is_graded_anew(course, classroom):
+    for name in ("anna", "ben"):
+        untouched(classroom / name)
+    taken(classroom, course)
+    for name in ("anna", "ben"):
+        (course / "autograded" / name / ASSIGNMENT).mkdir(parents=True)
+    with (classroom / "ben" / "integrators.py").open("a", encoding="utf-8") as file:
+        file.write("# one more line\n")
+    found = taken(classroom, course)
+    assert found["anna"].words == "unchanged" and found["ben"].words == "5 notebooks"
+    assert (course / "autograded" / "anna" / ASSIGNMENT).exists()
+    assert not (course / "autograded" / "ben" / ASSIGNMENT).exists()
+
+
+def test_what_is_missing_is_said(tmp_path, classroom, course):
+    with pytest.raises(NoCourse, match="no course yet"):
+        list(collect(classroom, tmp_path / "elsewhere"))
+    with pytest.raises(NoCourse, match="holds no submission"):
+        list(collect(classroom, course))
+    with pytest.raises(NoCourse, match="there is no folder"):
+        list(collect(Path(tmp_path / "nowhere"), course))
