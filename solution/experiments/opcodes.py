@@ -4,6 +4,7 @@ An opcode is one instruction of Python's machine. How many run is the same from 
 time; compare counts within one version of Python only.
 """
 
+import gc
 import sys
 from collections import Counter, defaultdict
 from pathlib import Path
@@ -21,12 +22,15 @@ def count_opcodes(call):
             frame.f_trace_lines = False
         return trace
 
-    before = sys.gettrace()
+    before, collecting = sys.gettrace(), gc.isenabled()
+    gc.disable()  # others may have asked to be called when garbage is collected
     sys.settrace(trace)
     try:
         call()
     finally:
         sys.settrace(before)
+        if collecting:
+            gc.enable()
     return by_name(counts)
 
 

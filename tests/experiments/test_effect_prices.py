@@ -1,6 +1,7 @@
 """The price list of effects: what is counted is what runs, and what is not declared is free."""
 
 import builtins
+import gc
 import json
 import os
 import subprocess
@@ -247,3 +248,21 @@ def test_the_handout_has_a_line_for_every_row():
     text = (KIT / "handouts" / "effects.md").read_text("utf-8")
     for row in ROWS:
         assert f"| {row.title} |" in text, f"{row.title}: run experiments.effects --markdown anew"
+
+
+def test_what_others_do_when_garbage_is_collected_is_not_counted():
+    def busy(phase, info):
+        sum(range(len(phase)))
+
+    def call():
+        cycles = [[] for _ in range(50_000)]
+        for cycle in cycles:
+            cycle.append(cycle)
+
+    quiet = count_opcodes(call)
+    gc.callbacks.append(busy)
+    try:
+        assert count_opcodes(call) == quiet
+    finally:
+        gc.callbacks.remove(busy)
+    assert gc.isenabled()
