@@ -346,7 +346,6 @@ def test_the_handout_gets_its_tables(tiny):
 
 
 def test_figures_of_every_result_are_drawn(tiny):
-    pytest.importorskip("matplotlib")
     from experiments import figures
 
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))

@@ -206,7 +206,6 @@ def test_everything_is_written(results, tmp_path, capsys, monkeypatch):
 
 
 def test_figures_show_every_effect(results, tmp_path):
-    pytest.importorskip("matplotlib")
     said = effects_report.figures(results, tmp_path)
     for name in ("effects-stacked", "effects-growth"):
         drawn = (tmp_path / f"{name}.svg").read_text()

@@ -126,7 +126,7 @@ def test_every_layer_this_machine_has_is_used(probe: Prober):
 def layer(request: pytest.FixtureRequest) -> None:
     """Skips a test of a layer that this machine does not have."""
     if request.param not in expected_layers():
-        pytest.skip(f"no {request.param} here")
+        pytest.skip(f"this kernel or account has no {request.param}, so none can fail")
 
 
 def needs(name: str) -> pytest.MarkDecorator:

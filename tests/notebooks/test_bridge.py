@@ -64,7 +64,9 @@ def test_results_are_named_by_their_files_and_rubbish_is_a_sentence(tmp_path):
 @pytest.fixture(scope="module")
 def gradebook(tmp_path_factory):
     """A gradebook with three cells for the engine, a quiz, and two hand-ins; slow to make."""
-    api = pytest.importorskip("nbgrader.api", reason="nbgrader is not installed")
+    api = pytest.importorskip(
+        "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
+    )
     path = tmp_path_factory.mktemp("gradebook") / "gradebook.db"
     scripts = str(Path(sys.executable).parent)
     with pytest.MonkeyPatch.context() as patch:

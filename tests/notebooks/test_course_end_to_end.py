@@ -134,7 +134,9 @@ def bridge(course, *more):
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
     """Everything up to the marks in the gradebook, once for all tests."""
-    pytest.importorskip("nbgrader.api", reason="nbgrader is not installed")
+    pytest.importorskip(
+        "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
+    )
     top = tmp_path_factory.mktemp("course")
     made = nbgrader.make_course(top / "course")
     assert "quiz.ipynb" in made
