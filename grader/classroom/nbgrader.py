@@ -24,6 +24,7 @@ from grader.judge.isolation import Isolation
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.submission import CannotGrade, plain_files
 from grader.maintain.sync import given_files
+from grader.report import terminal
 from grader.report.terminal import clean
 
 ASSIGNMENT = "physics-engine"
@@ -303,15 +304,7 @@ def reasons(todo: TodoResult) -> str:
 
 
 def reason(check: CheckResult) -> list[str]:
-    place = f"{check.where.file}:{check.where.line}" if check.where else ""
-    words = (
-        ("We ran", check.ran),
-        ("Expected", check.expected),
-        ("Got", check.got),
-        ("Meaning", check.meaning),
-        ("Look at", place),
-    )
-    told = [f"  {name:<9} {clean(each)}" for name, each in words if each]
+    told = [f"  {line}" for line in terminal.reasons(check)]
     return [f"{check.title} ({check.points} / {check.max_points})", *told]
 
 

@@ -11,15 +11,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import msgspec
 import typer
 from msgspec import Struct
-from rich.console import Console
 
 from grader.classroom import nbgrader
-from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
+from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse, console, stop
 from grader.judge.result import Result
 from grader.report.terminal import clean
 
@@ -294,14 +293,8 @@ def harmless(cell: str) -> str:
 
 # ---------------------------------------------------------------- the commands
 
-console = Console(highlight=False, markup=False)
 List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
 Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
-
-
-def stop(message: str) -> NoReturn:
-    Console(stderr=True, highlight=False, markup=False).print(f"cannot go on: {message}")
-    raise typer.Exit(2)
 
 
 def marks_command(

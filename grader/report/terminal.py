@@ -46,18 +46,22 @@ def show_todo(todo: TodoResult, console: Console) -> None:
 
 
 def show_check(todo: TodoResult, check: CheckResult, console: Console) -> None:
-    place = f"{check.where.file}:{check.where.line}, TODO {todo.id}" if check.where else ""
     console.print(Text(f"  {check.title}  ({check.points} / {check.max_points})", style="bold"))
-    lines = [
+    for line in reasons(check, f", TODO {todo.id}"):
+        console.print(Text(f"    {line}"), soft_wrap=True)
+
+
+def reasons(check: CheckResult, task: str = "") -> list[str]:
+    """Why a check is not passed, a line each; `task` stands behind the place to look at."""
+    place = f"{check.where.file}:{check.where.line}{task}" if check.where else ""
+    words = (
         ("We ran", check.ran),
         ("Expected", check.expected),
         ("Got", check.got),
         ("Meaning", check.meaning),
         ("Look at", place),
-    ]
-    for name, words in lines:
-        if words:
-            console.print(Text(f"    {name:<9} {clean(words)}"), soft_wrap=True)
+    )
+    return [f"{name:<9} {clean(each)}" for name, each in words if each]
 
 
 def show_next(result: Result, console: Console) -> None:
