@@ -12,20 +12,17 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Annotated, Any, NoReturn
+from typing import Any
 
 import msgspec
-import typer
 from rich.console import Console
 
 from grader.classroom.batch import grade_class
-from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.isolation import Isolation
+from grader.judge.grade import KIT, Options
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.submission import CannotGrade, plain_files
+from grader.judge.submission import plain_files
 from grader.maintain.sync import given_files
 from grader.report import terminal
-from grader.report.terminal import clean
 
 ASSIGNMENT = "physics-engine"
 ENGINE = "engine"  # the notebook that holds a cell for each TODO
@@ -342,76 +339,3 @@ def nbgrader_api() -> ModuleType:
         ) from error
     api: ModuleType = nbgrader.api
     return api
-
-
-# ---------------------------------------------------------------- the commands
-
-app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
-console = Console(highlight=False, markup=False)
-Course = Annotated[Path, typer.Option(help="The course folder.")]
-
-
-def stop(message: str) -> NoReturn:
-    Console(stderr=True, highlight=False, markup=False).print(f"cannot go on: {message}")
-    raise typer.Exit(2)
-
-
-@app.command("course")
-def course_command(
-    course: Annotated[Path, typer.Argument(help="The course folder to make.")],
-    renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
-) -> None:
-    """Make a course folder: the notebooks, the starter's files, and nbgrader's settings."""
-    try:
-        files = make_course(course, renew)
-    except NoCourse as error:
-        stop(str(error))
-    console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
-    console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
-
-
-@app.command("collect")
-def collect_command(
-    folder: Annotated[Path, typer.Argument(help="A folder of submissions, a folder each.")],
-    course: Course = Path("."),
-) -> None:
-    """Take submissions into the course folder. Exit status 1: a name could not be used."""
-    try:
-        taken = list(collect(folder, course))
-    except NoCourse as error:
-        stop(str(error))
-    for each in taken:
-        console.print(f"{clean(each.student)}: {each.words}")
-    console.print(f"Next, in {course}: nbgrader autograde {ASSIGNMENT}")
-    raise typer.Exit(0 if all(each.taken for each in taken) else 1)
-
-
-@app.command("bridge")
-def bridge_command(
-    results: Annotated[
-        list[Path] | None, typer.Argument(help="Result files, or folders of them; or grade now.")
-    ] = None,
-    course: Course = Path("."),
-    jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
-    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
-    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
-) -> None:
-    """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
-    troubles: list[str] = []
-    try:
-        if not results:
-            options = Options(shipped_reference(), isolation, seed=seed)
-            troubles = grade_submitted(course, options, jobs, console)
-        outcomes = list(fill(course, read_results(results or [course / "results"])))
-    except (NoCourse, CannotGrade) as error:
-        stop(str(error))
-    for each in outcomes:
-        if isinstance(each, str):
-            troubles.append(each)
-            continue
-        console.print(f"{clean(each.student)}: {each.points:g} / {each.max_points:g}")
-        for note in each.notes:
-            console.print(f"  {clean(note)}")
-    for trouble in troubles:
-        console.print(clean(trouble))
-    raise typer.Exit(1 if troubles else 0)

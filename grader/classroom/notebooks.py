@@ -12,8 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, app, console, make_course, stop
-from grader.judge.grade import KIT
+from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, make_course
 from grader.judge.rubric import Rubric, load_rubric
 
 Cell = dict[str, Any]
@@ -126,13 +125,3 @@ def run_nbgrader(course: Path, *arguments: str) -> None:
     )
     if done.returncode:
         raise NoCourse(f"nbgrader {arguments[0]} failed:\n{done.stderr[-2000:]}")
-
-
-@app.command("release")
-def release_command() -> None:
-    """Renew the notebooks that the starter holds, by nbgrader itself."""
-    try:
-        names = release(KIT)
-    except NoCourse as error:
-        stop(str(error))
-    console.print(f"renewed {', '.join(names) or 'nothing'}")

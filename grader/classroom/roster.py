@@ -11,16 +11,13 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
-from typing import Annotated
 
 import msgspec
-import typer
 from msgspec import Struct
 
 from grader.classroom import nbgrader
-from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse, console, stop
+from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
 from grader.judge.result import Result
-from grader.report.terminal import clean
 
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 MOODLE = ("First name", "Last name", "ID number", "Email address")
@@ -289,65 +286,3 @@ def harmless(cell: str) -> str:
     """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
     plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
     return f"'{cell}" if plain.startswith(FORMULA) else cell
-
-
-# ---------------------------------------------------------------- the commands
-
-List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
-Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
-
-
-def marks_command(
-    roster: List,
-    course: Annotated[Path | None, typer.Option(help="The course folder of nbgrader.")] = None,
-    results: Annotated[
-        Path | None, typer.Option(help="Instead: a folder of result files; the engine alone.")
-    ] = None,
-    out: Annotated[Path, typer.Option(help="The file for the LMS.")] = Path("marks.csv"),
-    key: Key = "",
-    settings: Annotated[
-        Path | None, typer.Option(help="What the parts are worth; marks.toml of the course.")
-    ] = None,
-    so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
-) -> None:
-    """Make one mark per student, for Canvas or Moodle.
-
-    Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
-    """
-    try:
-        listed = read_roster(roster)
-        column = listed.key(key)
-        marking = load_marking(
-            settings or (course if course else nbgrader.INSTRUCTOR) / "marks.toml"
-        )
-        if results is not None:
-            marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
-            scores = parts_from_results(nbgrader.read_results([results]))
-        else:
-            scores = parts_from_gradebook(course or Path("."), marking)
-        made = marks(listed, column, scores, marking, so_far)
-    except (CannotRead, NoCourse) as error:
-        stop(str(error))
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_bytes(made.text.encode("utf-8"))
-    for note in made.notes:
-        console.print(clean(note))
-    console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
-    raise typer.Exit(0 if made.given == len(listed.rows) else 1)
-
-
-@nbgrader.app.command("roster")
-def roster_command(roster: List, course: nbgrader.Course = Path("."), key: Key = "") -> None:
-    """Tell the gradebook the names of a class list."""
-    try:
-        listed = read_roster(roster)
-        column = listed.key(key)
-        with nbgrader.opened(course, nbgrader.nbgrader_api()) as book:
-            known = {folded(student.id): student.id for student in book.students}
-            for person in people(listed, column):
-                name = person.pop("id")
-                name = next((known[each] for each in names_of(name) if each in known), name)
-                book.update_or_create_student(name, **person)
-    except (CannotRead, NoCourse) as error:
-        stop(str(error))
-    console.print(f"{len(listed.rows)} students are in the gradebook, by {column}")

@@ -12,7 +12,6 @@ import sys
 from pathlib import Path
 
 import pytest
-import typer
 from handed_in import (
     NAMES,
     RELEASED,
@@ -28,7 +27,7 @@ from handed_in import (
 )
 from typer.testing import CliRunner
 
-from grader.classroom import nbgrader, roster
+from grader.classroom import commands, nbgrader
 from grader.classroom.batch import grade_all
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE
 from grader.judge.grade import KIT, Options, shipped_reference
@@ -127,7 +126,7 @@ def run(course, *arguments):
 
 def bridge(course, *more):
     return CliRunner().invoke(
-        nbgrader.app, ["bridge", "--course", str(course), "--jobs", "1", *map(str, more)]
+        commands.course_app, ["bridge", "--course", str(course), "--jobs", "1", *map(str, more)]
     )
 
 
@@ -346,13 +345,11 @@ def test_marks_go_out_for_the_class_list(course, tmp_path):
         '"Ångström, Anna",1,anna,A\nBen,2,ben,A\nFarid,3,farid,A\nZoe,4,zoe,A\n',
         encoding="utf-8",
     )
-    app = typer.Typer()
-    app.command()(roster.marks_command)
     out = tmp_path / "marks.csv"
-    options = [str(listed), "--course", str(course), "--out", str(out)]
-    done = CliRunner().invoke(app, options)
+    options = ["marks", str(listed), "--course", str(course), "--out", str(out)]
+    done = CliRunner().invoke(commands.app, options)
     assert done.exit_code == 1 and "anna: no mark yet" in done.output
-    done = CliRunner().invoke(app, [*options, "--so-far"])
+    done = CliRunner().invoke(commands.app, [*options, "--so-far"])
     assert done.exit_code == 0, done.output
     rows = list(csv.reader(out.open(encoding="utf-8", newline="")))
     marks = {row[0]: row[-1] for row in rows[1:]}
@@ -366,7 +363,7 @@ def test_the_gradebook_learns_the_names_of_the_class(course, tmp_path):
     listed = tmp_path / "class.csv"
     listed.write_text("First name,Last name,Email address\nÅsa,Öberg,Anna@x.example\n", "utf-8")
     command = ["roster", str(listed), "--course", str(tmp_path / "copy")]
-    assert CliRunner().invoke(nbgrader.app, command).exit_code == 0
+    assert CliRunner().invoke(commands.course_app, command).exit_code == 0
     with api.Gradebook(f"sqlite:///{tmp_path}/copy/gradebook.db") as book:
         anna = book.find_student("anna")
         assert (anna.first_name, anna.last_name) == ("Åsa", "Öberg")

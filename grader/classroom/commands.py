@@ -1,0 +1,174 @@
+"""The commands for a class: a course with nbgrader, and marks for an LMS."""
+
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+import typer
+
+from grader.classroom import notebooks
+from grader.classroom.nbgrader import (
+    ASSIGNMENT,
+    ENGINE,
+    INSTRUCTOR,
+    NoCourse,
+    collect,
+    fill,
+    grade_submitted,
+    make_course,
+    nbgrader_api,
+    opened,
+    read_results,
+)
+from grader.classroom.roster import (
+    CannotRead,
+    folded,
+    load_marking,
+    marks,
+    names_of,
+    parts_from_gradebook,
+    parts_from_results,
+    people,
+    read_roster,
+)
+from grader.commands import console, stop
+from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.isolation import Isolation
+from grader.judge.submission import CannotGrade
+from grader.report.terminal import clean
+
+app = typer.Typer()
+course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
+app.add_typer(course_app, name="nbgrader")
+
+Course = Annotated[Path, typer.Option(help="The course folder.")]
+
+
+@course_app.command("course")
+def course_command(
+    course: Annotated[Path, typer.Argument(help="The course folder to make.")],
+    renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
+) -> None:
+    """Make a course folder: the notebooks, the starter's files, and nbgrader's settings."""
+    try:
+        files = make_course(course, renew)
+    except NoCourse as error:
+        stop(str(error), "go on")
+    console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
+    console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
+
+
+@course_app.command("collect")
+def collect_command(
+    folder: Annotated[Path, typer.Argument(help="A folder of submissions, a folder each.")],
+    course: Course = Path("."),
+) -> None:
+    """Take submissions into the course folder. Exit status 1: a name could not be used."""
+    try:
+        taken = list(collect(folder, course))
+    except NoCourse as error:
+        stop(str(error), "go on")
+    for each in taken:
+        console.print(f"{clean(each.student)}: {each.words}")
+    console.print(f"Next, in {course}: nbgrader autograde {ASSIGNMENT}")
+    raise typer.Exit(0 if all(each.taken for each in taken) else 1)
+
+
+@course_app.command("bridge")
+def bridge_command(
+    results: Annotated[
+        list[Path] | None, typer.Argument(help="Result files, or folders of them; or grade now.")
+    ] = None,
+    course: Course = Path("."),
+    jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
+    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
+    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+) -> None:
+    """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
+    troubles: list[str] = []
+    try:
+        if not results:
+            options = Options(shipped_reference(), isolation, seed=seed)
+            troubles = grade_submitted(course, options, jobs, console)
+        outcomes = list(fill(course, read_results(results or [course / "results"])))
+    except (NoCourse, CannotGrade) as error:
+        stop(str(error), "go on")
+    for each in outcomes:
+        if isinstance(each, str):
+            troubles.append(each)
+            continue
+        console.print(f"{clean(each.student)}: {each.points:g} / {each.max_points:g}")
+        for note in each.notes:
+            console.print(f"  {clean(note)}")
+    for trouble in troubles:
+        console.print(clean(trouble))
+    raise typer.Exit(1 if troubles else 0)
+
+
+@course_app.command("release")
+def release_command() -> None:
+    """Renew the notebooks that the starter holds, by nbgrader itself."""
+    try:
+        names = notebooks.release(KIT)
+    except NoCourse as error:
+        stop(str(error), "go on")
+    console.print(f"renewed {', '.join(names) or 'nothing'}")
+
+
+List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
+Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
+
+
+@app.command("marks")
+def marks_command(
+    roster: List,
+    course: Annotated[Path | None, typer.Option(help="The course folder of nbgrader.")] = None,
+    results: Annotated[
+        Path | None, typer.Option(help="Instead: a folder of result files; the engine alone.")
+    ] = None,
+    out: Annotated[Path, typer.Option(help="The file for the LMS.")] = Path("marks.csv"),
+    key: Key = "",
+    settings: Annotated[
+        Path | None, typer.Option(help="What the parts are worth; marks.toml of the course.")
+    ] = None,
+    so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+) -> None:
+    """Make one mark per student, for Canvas or Moodle.
+
+    Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
+    """
+    try:
+        listed = read_roster(roster)
+        column = listed.key(key)
+        marking = load_marking(settings or (course if course else INSTRUCTOR) / "marks.toml")
+        if results is not None:
+            marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
+            scores = parts_from_results(read_results([results]))
+        else:
+            scores = parts_from_gradebook(course or Path("."), marking)
+        made = marks(listed, column, scores, marking, so_far)
+    except (CannotRead, NoCourse) as error:
+        stop(str(error), "go on")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_bytes(made.text.encode("utf-8"))
+    for note in made.notes:
+        console.print(clean(note))
+    console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
+    raise typer.Exit(0 if made.given == len(listed.rows) else 1)
+
+
+@course_app.command("roster")
+def roster_command(roster: List, course: Course = Path("."), key: Key = "") -> None:
+    """Tell the gradebook the names of a class list."""
+    try:
+        listed = read_roster(roster)
+        column = listed.key(key)
+        with opened(course, nbgrader_api()) as book:
+            known = {folded(student.id): student.id for student in book.students}
+            for person in people(listed, column):
+                name = person.pop("id")
+                name = next((known[each] for each in names_of(name) if each in known), name)
+                book.update_or_create_student(name, **person)
+    except (CannotRead, NoCourse) as error:
+        stop(str(error), "go on")
+    console.print(f"{len(listed.rows)} students are in the gradebook, by {column}")

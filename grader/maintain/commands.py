@@ -1,0 +1,66 @@
+"""The commands of those who look after the kit: each says whether all is sound."""
+
+from typing import Annotated
+
+import typer
+
+from grader.commands import console, known_todos, stop
+from grader.judge.grade import KIT
+
+app = typer.Typer()
+
+
+@app.command("sync")
+def sync_command(
+    check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
+) -> None:
+    """Carry the solution's given code over into the starter."""
+    from grader.maintain.sync import OutOfStep, sync
+
+    try:
+        changes = sync(KIT / "solution", KIT / "starter", write=not check)
+    except OutOfStep as error:
+        stop(str(error), "go on")
+    for change in changes:
+        console.print(change)
+    if not changes:
+        console.print("starter and solution are in step")
+    raise typer.Exit(1 if check and changes else 0)
+
+
+@app.command("verify")
+def verify_command(
+    jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
+    only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
+) -> None:
+    """Grade the bank of wrong, right and hostile submissions: the grader is graded."""
+    from grader.maintain.verify import verify
+
+    raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+
+
+@app.command("mutants")
+def mutants_command(
+    count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
+    seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
+    jobs: Annotated[int, typer.Option(help="Mutants graded at a time; 0 for one per core.")] = 0,
+    todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+) -> None:
+    """Change the solution in small ways, and see whether the checks notice.
+
+    Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
+    """
+    from grader.maintain.mutants import campaign
+
+    only = known_todos(todo)
+    raise typer.Exit(0 if campaign(count, seed, jobs, only, console).sound else 1)
+
+
+@app.command("bench")
+def bench_command(
+    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
+) -> None:
+    """Measure what a grade costs, and what the isolation adds to it."""
+    from grader.maintain.bench import bench
+
+    bench(rounds, console)
