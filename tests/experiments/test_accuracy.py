@@ -322,7 +322,7 @@ def tiny(tmp_path_factory):
 
 def test_the_results_are_complete(tiny):
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
-    assert set(results) == {"about", "smooth", "dials", "equal", "piles"}
+    assert set(results) == {"about", "smooth", "dials", "equal", "piles", "same step"}
     assert set(results["dials"]) == set(QUESTIONS)
     for name, found in results["dials"].items():
         assert len(found["dials"]) == len(dials(quick=True))
@@ -337,6 +337,9 @@ def test_the_results_are_complete(tiny):
     assert [len(row["rows"]) for row in results["equal"]] == [2, 2]
     assert results["piles"][0]["asleep"]["asleep"] == 8
     assert results["piles"][0]["stable"]["overlap"] < results["piles"][0]["lesson"]["overlap"]
+    same = {(row["engine"], row["substeps"]): row for row in results["same step"]["rows"]}
+    depths = [same[who]["overlap"] for who in (("stable", 4), ("stable", 1), ("lesson", 1))]
+    assert same["pymunk", 1]["ratio"] == 1 and depths == sorted(depths)
 
 
 def test_the_handout_gets_its_tables(tiny):
