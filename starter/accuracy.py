@@ -22,7 +22,8 @@ from experiments.answers import Effort, study
 from experiments.dials import QUESTIONS, dials
 from experiments.table import Progress, write_markdown
 
-BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)
+BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)  # in piles
+MOST_SAME_STEP = 200  # balls
 SINKING = ("tower", "stack")  # where the stable engine and pymunk race at equal accuracy
 WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03}  # of a solve, roughly
 SMOOTH_WEIGHT = 4e5  # of one system of the integrators
@@ -40,6 +41,7 @@ def measure(effort, balls, progress):
         "dials": {name: measure_dials(name, effort, progress) for name in QUESTIONS},
         "equal": [measure_race(name, effort, progress) for name in SINKING],
         "piles": [measure_pile(count, effort, progress) for count in balls],
+        "same step": measure_same_step(balls, effort, progress),
     }
 
 
@@ -74,6 +76,20 @@ def measure_pile(count, effort, progress):
         progress.step(pile_weight(count), f"pile of {count} balls, {who}")
 
     return race.pile_row(count, effort, tick)
+
+
+def measure_same_step(balls, effort, progress):
+    count = most_of(balls)
+
+    def tick(who):
+        progress.step(pile_weight(count), f"pile of {count} balls, the same step, {who}")
+
+    return race.same_step(count, effort, tick)
+
+
+def most_of(balls):
+    """The largest pile that is also run step for step beside pymunk."""
+    return max(count for count in balls if count <= MOST_SAME_STEP)
 
 
 def about(effort):
@@ -111,7 +127,9 @@ def total_weight(effort, balls):
         settings = {setting for _, _, row in dials(effort.quick) for _, setting in row}
         work += sum(weight(question, setting, effort) for setting in settings)
     rivals = len(race.SLOPS) * len(race.RATES) * len(race.PASSES) // (4 if effort.quick else 1)
-    return work + len(SINKING) * rivals * race_weight(effort) + 5 * sum(map(pile_weight, balls))
+    races = len(SINKING) * rivals * race_weight(effort)
+    same = (len(race.SAME_STEP) + 3) * pile_weight(most_of(balls))
+    return work + races + 5 * sum(map(pile_weight, balls)) + same
 
 
 # ---------------------------------------------------------------- the program

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 from .engines import Stable
-from .measures import run, states
+from .measures import bits, run
 from .scenes import NAMED, pile
 
 TREE = Path(__file__).parents[1]
@@ -36,13 +36,13 @@ def build(folder):
         )
 
 
-def bits(seconds):
+def all_bits(seconds):
     """Every number of every body of every named scene after so many seconds, bit by bit."""
     lines = []
     for name, make in NAMED.items():
         engine = Stable(make())
         run(engine, seconds)
-        lines += [f"{name} {number.hex()}" for state in states(engine) for number in state]
+        lines += [f"{name} {number}" for number in bits(engine)]
     return lines
 
 
@@ -55,7 +55,7 @@ def answer():
         if word == "where\n":
             print(sys.modules["stable_engine.world"].__file__, flush=True)
         elif word == "bits":
-            print(" ".join(bits(float(seconds))), flush=True)
+            print(" ".join(all_bits(float(seconds))), flush=True)
         else:
             start = time.process_time()
             run(engine, float(seconds))

@@ -24,7 +24,7 @@ from . import effects_report
 from .engines import Lesson, Stable, State
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
-from .scenes import BOUNCE, DT, TOUCH, Ball, Scene, Spring, pile
+from .scenes import BOUNCE, DT, EFFECTS, TOUCH, Ball, Scene, Spring, all_but, pile
 from .table import Progress, write_markdown
 
 SIZES = (10, 40, 200)  # balls
@@ -38,8 +38,6 @@ FINE = time.get_clock_info("thread_time").resolution < 1e-6  # s
 seconds_now = time.thread_time if FINE else time.perf_counter
 OUT = Path("build/effects")
 
-EFFECTS = ("Contacts", "Friction", "Bounce", "Rods", "Springs", "Damping", "Bullets", "Sleep")
-NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
 FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
 FILES["Contacts"] += ["contact.py", "broad_phase.py"]
 
@@ -252,10 +250,8 @@ def undeclared_list(balls):
     heap = settled(balls)
     listed = []
     for effect in EFFECTS:
-        left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
-        others = tuple(name for name in EFFECTS if name not in left_out)
         spent = []
-        for effects in (EFFECTS, others):
+        for effects in (EFFECTS, all_but(effect)):
             by_file = count(Held(Stable(replace(heap, effects=effects))), STABLE_WORK)["by_file"]
             spent.append(sum(by_file.get(name, 0) for name in FILES[effect]))
         found = {"effect": effect, "files": FILES[effect]}

@@ -20,7 +20,7 @@ from mini_engine import ITERATIONS, MAX_STEPS, STEP
 from .drawing import Picture
 from .engines import ENGINES, PASSES, SUBSTEPS
 from .measures import deepest_overlap, energy, finite, states, worst_stretch
-from .scenes import NAMED, Ball
+from .scenes import NAMED, NEED_CONTACTS, Ball
 
 FRAME = 1 / 60  # s, one frame of a screenshot
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
@@ -29,7 +29,6 @@ STEPS = (1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480)  # s
 MOST = 128  # passes or substeps
 SHARE = 0.05  # of a new time in the smoothed one
 
-NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
 EFFECT_KEYS = {
     "C": "Contacts",
     "F": "Friction",

@@ -18,6 +18,7 @@ def all_tables(results):
         first_dial_table(results["dials"]),
         equal_table(results["equal"]),
         pile_table(results["piles"]),
+        same_step_table(results["same step"]),
     ]
 
 
@@ -37,6 +38,7 @@ def short_tables(results):
         *(answer_table(results["dials"][name], error) for name, error in shown),
         equal_table(results["equal"]),
         pile_table(results["piles"]),
+        same_step_table(results["same step"]),
     ]
 
 
@@ -217,6 +219,24 @@ def pile_table(piles):
     if parts:
         note += f" From 200 to 1000 balls the time per ball grows: {', '.join(parts)}."
     return Table("Settled piles", heads, rows, note)
+
+
+def same_step_table(race):
+    rows = [
+        [
+            row["engine"],
+            row["substeps"] if row["engine"] == "stable" else "-",
+            number(row["overlap"]),
+            "-" if row["ratio"] is None else times(row["ratio"]),
+        ]
+        for row in race["rows"]
+    ]
+    heads = ["engine", "substeps", "overlap, px", "time"]
+    note = (
+        "Steps of 1/120 s; pymunk with its 10 iterations has the time 1. The fewest substeps that "
+        "are accurate enough tell what plain Python costs beside compiled code."
+    )
+    return Table(f"A settled pile of {race['balls']}: the same step as pymunk's", heads, rows, note)
 
 
 def share(ratio):

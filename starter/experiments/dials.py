@@ -12,9 +12,10 @@ from .measures import (
     deepest_overlap,
     energy_height,
     run,
+    sinking,
     speed,
     stretches,
-    top_speed,
+    swinging,
     watch,
     worst_stretch,
 )
@@ -146,31 +147,18 @@ def through(engine, errors):
 
 def sink(engine, seconds, dt):
     """How far the top of a stack comes down, and how restless it is in the end."""
-    top = engine.scene.moving()[-1]
-    start = engine.read(top).y
-    rises = watch(engine, seconds, lambda: start - engine.read(top).y, dt)
-    sunk = "launched" if max(rises) > LAUNCHED else -rises[-1]
-    return through(engine, {"sink": sunk, "late speed": top_speed(engine)})
+    sunk, risen, fastest = sinking(engine, seconds, dt)
+    sunk = "launched" if risen > LAUNCHED else sunk
+    return through(engine, {"sink": sunk, "late speed": fastest})
 
 
 def swing(engine, seconds, dt):
     """A pendulum's rod, period and energy."""
-    crossings, worst, change = [], 0.0, 0.0
-    start = energy_height(engine, 1, dt)
-    before = engine.read(1).x
-    for i in range(round(seconds / dt)):
-        engine.step(dt)
-        x = engine.read(1).x
-        if x <= 0 < before:
-            crossings.append((i + before / (before - x)) * dt)
-        before = x
-        worst = max(worst, worst_stretch(engine))
-        change = max(change, abs(energy_height(engine, 1, dt) - start))
-    period = "never swings back"
-    if len(crossings) > 1:
-        measured = (crossings[-1] - crossings[0]) / (len(crossings) - 1)
-        period = abs(measured / engine.scene.exact["period"] - 1)
-    return {"stretch": worst, "period": period, "energy": change / 140}
+    stretch, period, change = swinging(engine, seconds, dt)
+    off = "never swings back"
+    if period is not None:
+        off = abs(period / engine.scene.exact["period"] - 1)
+    return {"stretch": stretch, "period": off, "energy": abs(change) / 140}
 
 
 def hang(engine, seconds, dt):

@@ -41,6 +41,11 @@ def top_speed(engine):
     return max(speed(engine.read(i)) for i in engine.scene.moving())
 
 
+def bits(engine):
+    """Every number of every body with all its bits, as text."""
+    return [float(number).hex() for state in states(engine) for number in state]
+
+
 def finite(engine):
     """Whether no number of any body is NaN or infinite."""
     return all(math.isfinite(number) for state in states(engine) for number in state)
@@ -83,6 +88,33 @@ def stretches(engine):
 
 def worst_stretch(engine):
     return max(stretches(engine), default=0.0)
+
+
+def sinking(engine, seconds, dt=DT):
+    """How far the last ball comes down, how far it ever rises, and the top speed in the end."""
+    top = engine.scene.moving()[-1]
+    start = engine.read(top).y
+    rises = watch(engine, seconds, lambda: start - engine.read(top).y, dt)
+    return -rises[-1], max(0.0, *rises), top_speed(engine)
+
+
+def swinging(engine, seconds, dt=DT):
+    """A pendulum's largest stretch, mean period (s) and largest change of its energy height.
+
+    The bob is body 1 and the peg at x = 0. The period is None before a second passage to the left.
+    """
+    start, x = energy_height(engine, 1, dt), engine.read(1).x
+    stretch, change, passages = 0.0, 0.0, []
+    for i in range(round(seconds / dt)):
+        engine.step(dt)
+        before, x = x, engine.read(1).x
+        if x <= 0 < before:
+            passages.append((i + before / (before - x)) * dt)
+        stretch = max(stretch, worst_stretch(engine))
+        change = max(change, energy_height(engine, 1, dt) - start, key=abs)
+    rounds = len(passages) - 1
+    period = (passages[-1] - passages[0]) / rounds if rounds > 0 else None
+    return stretch, period, change
 
 
 def energy_height(engine, i, dt=DT):

@@ -1,4 +1,4 @@
-"""Two races: time at equal accuracy against pymunk, and piles of 8 to 1000 balls."""
+"""Races: time at equal accuracy against pymunk, piles of 8 to 1000 balls, and the same step."""
 
 import math
 from dataclasses import dataclass, replace
@@ -147,6 +147,33 @@ def pile_row(count, effort, tick=lambda name: None):
         row[name]["ms"] = None if seconds is None else 1000 * seconds
         row[name]["ratio"] = seconds / taken[0] if seconds and taken[0] else None
     return row
+
+
+SAME_STEP = (1, 2, 3, 4)  # substeps of the stable engine
+
+
+def same_step(count, effort, tick=lambda name: None):
+    """A settled pile in steps of 1/120 s: overlap, and time in shares of pymunk's.
+
+    The stable engine comes with each number of substeps: the fewest that are accurate enough tell
+    what a step of the same quality takes.
+    """
+    tick("settling")
+    scene = settled(count)
+    settings = [PYMUNK, LESSON, *(replace(STABLE, substeps=n) for n in SAME_STEP)]
+    engines = [setting.build(scene) for setting in settings]
+    overlaps = []
+    for setting, engine in zip(settings, engines, strict=True):
+        tick(setting.engine)
+        overlaps.append(after(engine, setting.dt, 2.0))
+    going = [(engine, setting.dt) for setting, engine in zip(settings, engines, strict=True)]
+    unit, *others = wall_times(going, effort.rounds)
+    ratios = [1.0, *(seconds / unit if seconds and unit else None for seconds in others)]
+    rows = [
+        {"engine": setting.engine, "substeps": setting.substeps, "overlap": deepest, "ratio": ratio}
+        for setting, deepest, ratio in zip(settings, overlaps, ratios, strict=True)
+    ]
+    return {"balls": count, "rows": rows}
 
 
 def after(engine, dt, seconds):

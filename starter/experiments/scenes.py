@@ -17,6 +17,14 @@ SEED = 12
 TOUCH = ("Contacts", "Friction")
 BOUNCE = ("Contacts", "Friction", "Bounce")
 BULLETS = ("Contacts", "Friction", "Bounce", "Bullets")
+EFFECTS = ("Contacts", "Friction", "Bounce", "Rods", "Springs", "Damping", "Bullets", "Sleep")
+NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
+
+
+def all_but(effect):
+    """The names of all effects but one, and but those that need it."""
+    left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
+    return tuple(name for name in EFFECTS if name not in left_out)
 
 
 @dataclass

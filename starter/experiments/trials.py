@@ -9,15 +9,18 @@ from dataclasses import replace
 
 from .measures import (
     GaveUp,
+    bits,
     deepest_overlap,
     energy,
     energy_height,
     finite,
     overlap,
     run,
+    sinking,
     speed,
     states,
     stretches,
+    swinging,
     top_speed,
     watch,
     worst_stretch,
@@ -29,10 +32,8 @@ from .scenes import G, shuffled, tower
 
 def settle(bench, scene):
     """How far the top ball sinks, how high it ever rises, how fast anybody is in the end."""
-    engine, top = bench.build(scene), len(scene.bodies) - 1
-    start = engine.read(top).y
-    rises = watch(engine, bench.seconds, lambda: start - engine.read(top).y, bench.dt)
-    return {"sink": -rises[-1], "rise": max(0.0, *rises), "speed": top_speed(engine)}
+    sink, rise, fastest = sinking(bench.build(scene), bench.seconds, bench.dt)
+    return {"sink": sink, "rise": rise, "speed": fastest}
 
 
 def overlaps(bench, scene):
@@ -221,27 +222,12 @@ def swing(bench, scene):
     The last two are shares: of the exact period, and of the energy between the lowest place and
     that of the peg.
     """
-    engine, bob = bench.build(scene), scene.rods[0][1]
-    length = math.dist(scene.bodies[0].pos, scene.bodies[bob].pos)
-    start, stretch, worst = energy_height(engine, bob, bench.dt), 0.0, 0.0
-    crossings, x = [], engine.read(bob).x
-    for i in range(round(bench.seconds / bench.dt)):
-        engine.step(bench.dt)
-        before, x = x, engine.read(bob).x
-        if x <= 0 < before:
-            crossings.append((i + before / (before - x)) * bench.dt)
-        stretch = max(stretch, worst_stretch(engine))
-        gained = (energy_height(engine, bob, bench.dt) - start) / length
-        worst = max(worst, gained, key=abs)
-    period = mean_gap(crossings) / scene.exact["period"] - 1
-    return {"stretch": stretch, "period": period, "energy": worst}
-
-
-def mean_gap(times):
-    """The mean time between the first and the last of these."""
-    if len(times) < 2:
+    stretch, period, change = swinging(bench.build(scene), bench.seconds, bench.dt)
+    if period is None:
         raise GaveUp("never")
-    return (times[-1] - times[0]) / (len(times) - 1)
+    length = math.dist(scene.bodies[0].pos, scene.bodies[1].pos)
+    error = period / scene.exact["period"] - 1
+    return {"stretch": stretch, "period": error, "energy": change / length}
 
 
 def dangle(bench, scene):
@@ -277,13 +263,7 @@ def twice(bench, scene):
     first, second = bench.build(scene), bench.build(scene)
     for engine in (first, second):
         run(engine, bench.seconds, bench.dt)
-    pairs = zip(all_bits(first), all_bits(second), strict=True)
-    return {"bits": sum(a != b for a, b in pairs)}
-
-
-def all_bits(engine):
-    """Every number of every body with all its bits, as text."""
-    return [float(number).hex() for state in states(engine) for number in state]
+    return {"bits": sum(a != b for a, b in zip(bits(first), bits(second), strict=True))}
 
 
 def reorder(bench, scene):

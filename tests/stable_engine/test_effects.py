@@ -8,9 +8,6 @@ from pathlib import Path
 
 import pytest
 from worlds_for_tests import (
-    EFFECTS,
-    NEED_CONTACTS,
-    all_but,
     build,
     build_playground,
     flying,
@@ -22,7 +19,7 @@ from worlds_for_tests import (
 import stable_engine
 from experiments.measures import run, watch
 from experiments.opcodes import count_opcodes, files_run
-from experiments.scenes import DT, Ball, Scene, Spring
+from experiments.scenes import DT, EFFECTS, NEED_CONTACTS, Ball, Scene, Spring, all_but
 from stable_engine import Body, Circle, Contacts, Rod, Sleep, World
 
 HERE = Path(__file__).parent

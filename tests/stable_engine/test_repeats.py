@@ -1,10 +1,20 @@
 """The same run twice gives identical bits, and the order of adding bodies changes none."""
 
 import pytest
-from worlds_for_tests import EFFECTS, build, build_playground, state
+from worlds_for_tests import build, build_playground, state
 
 from experiments.measures import run
-from experiments.scenes import BOUNCE, Scene, Spring, chain, closed_box, pile, shuffled, stack
+from experiments.scenes import (
+    BOUNCE,
+    EFFECTS,
+    Scene,
+    Spring,
+    chain,
+    closed_box,
+    pile,
+    shuffled,
+    stack,
+)
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,6 @@ import stable_engine
 from experiments.engines import Stable
 from experiments.scenes import Ball, Scene, Spring, floor
 
-EFFECTS = ("Damping", "Springs", "Rods", "Contacts", "Sleep", "Friction", "Bounce", "Bullets")
-NEED_CONTACTS = ("Friction", "Bounce", "Bullets")
-
 
 def build(scene, *effects, substeps=4):
     """The scene in a world, with the effects of these names or, without any, its own.
@@ -34,12 +31,6 @@ def state(world):
         for body in world.bodies
         for number in (body.x, body.y, body.vx, body.vy, body.angle, body.w)
     ]
-
-
-def all_but(effect):
-    """The names of all effects but one, and but those that need it."""
-    left_out = (effect, *NEED_CONTACTS) if effect == "Contacts" else (effect,)
-    return [name for name in EFFECTS if name not in left_out]
 
 
 def playground(names):
