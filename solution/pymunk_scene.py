@@ -1,4 +1,4 @@
-"""The lab scene in pymunk, with a stack of boxes. TODO 7a to 7d live here.
+"""The lab scene in pymunk, with a stack of boxes. TODO 7a to 7d and B4 live here.
 
 Lengths are in px, times in s, angles in rad. pymunk has no "up": y grows down, as on the screen.
 """
@@ -17,6 +17,7 @@ MAX_STEPS = 8  # most steps in one frame
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
 MAX_BALLS = 40  # most moving bodies in the window
 SEED = 12
+BALL, PEG = 1, 2  # collision types
 GREY = (84, 90, 104)
 BACKGROUND = (22, 25, 33)
 INK = (225, 228, 235)
@@ -34,11 +35,12 @@ def empty_space():
 
 
 def add_shape(space, shape, friction, elasticity, color):
-    """Give a shape its surface and colour, and add it to the space."""
+    """Give a shape its surface and colour, add it to the space and return it."""
     shape.friction = friction
     shape.elasticity = elasticity
     shape.color = color
     space.add(shape)
+    return shape
 
 
 def add_static_box(space, center, size):
@@ -49,8 +51,8 @@ def add_static_box(space, center, size):
 
 
 def add_static_circle(space, center, radius):
-    """Add a circle that never moves."""
-    add_shape(space, pymunk.Circle(space.static_body, radius, center), 0.6, 0.3, GREY)
+    """Add a circle that never moves and return its shape."""
+    return add_shape(space, pymunk.Circle(space.static_body, radius, center), 0.6, 0.3, GREY)
 
 
 def add_ball(space, rng, pos):
@@ -64,7 +66,7 @@ def add_ball(space, rng, pos):
     body = pymunk.Body(mass, moment)
     body.position = pos
     space.add(body)
-    add_shape(space, pymunk.Circle(body, radius), 0.6, 0.4, color)
+    add_shape(space, pymunk.Circle(body, radius), 0.6, 0.4, color).collision_type = BALL
     return body
 
 
@@ -99,12 +101,29 @@ def make_space(rng):
     add_static_box(space, (920, 300), (40, 600))
     add_static_box(space, (200, 260), (300, 20))
     for i in range(5):
-        add_static_circle(space, (375 + 60 * i, 400), 8)
+        add_static_circle(space, (375 + 60 * i, 400), 8).collision_type = PEG
     add_pendulum(space)
     for i in range(8):
         add_ball(space, rng, (120 + 70 * i, 60 + 40 * (i % 3)))
     stack = [add_box(space, (760, 542 - 36 * level)) for level in range(4)]
     return space, stack
+
+
+def count_hits(space):
+    """Count how often a ball begins to touch a peg, from now on; returns {"hits": 0} at first.
+
+    pymunk calls a function begin(arbiter, space, data) at the begin of each touch of two shapes
+    whose collision_type is BALL and PEG, with the data that was handed to space.on_collision.
+    """
+    data = {"hits": 0}
+
+    # TODO B4: count the hits
+    def begin(arbiter, space, data):
+        data["hits"] += 1
+
+    space.on_collision(BALL, PEG, begin=begin, data=data)
+    # END TODO B4
+    return data
 
 
 def advance(space, accumulator, frame_seconds):
@@ -141,7 +160,7 @@ def drop_box(space, rng):
         add_box(space, (rng.randint(420, 700), 40))
 
 
-def draw(screen, font, space):
+def draw(screen, font, space, hits):
     """Draw the rods, the shapes and the two lines of text."""
     screen.fill(BACKGROUND)
     for joint in space.constraints:
@@ -150,7 +169,7 @@ def draw(screen, font, space):
         pygame.draw.line(screen, INK, start, end, 3)
     for shape in space.shapes:
         draw_shape(screen, shape)
-    status = f"moving bodies: {len(space.bodies)}"
+    status = f"moving bodies: {len(space.bodies)}    hits of pegs: {hits}"
     screen.blit(font.render(status, True, INK), (12, 10))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
     pygame.display.flip()
@@ -182,6 +201,7 @@ def main():
     clock = pygame.time.Clock()
     rng = random.Random(SEED)
     space, stack = make_space(rng)
+    counter = count_hits(space)
     accumulator = 0.0  # s
     total_steps = 0
     running = True
@@ -197,9 +217,10 @@ def main():
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_r:
                 rng = random.Random(SEED)
                 space, stack = make_space(rng)
+                counter = count_hits(space)
         accumulator, steps = advance(space, accumulator, frame_seconds)
         total_steps += steps
-        draw(screen, font, space)
+        draw(screen, font, space, counter["hits"])
     pygame.quit()
     print(f"Fixed steps: {total_steps}")
     print(f"Bodies: {len(space.bodies)}")

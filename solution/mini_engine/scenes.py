@@ -5,18 +5,21 @@ from pygame import Vector2
 from .body import Body
 from .joints import DistanceJoint
 from .shapes import Box, Circle
+from .springs import SpringJoint
 from .world import World
 
 GREY = (84, 90, 104)
 
 
-def ball(rng, pos):
-    """A ball of random size and colour at pos; rng is a random.Random."""
+def ball(rng, pos, heaviness=1):
+    """A ball of random size and colour at pos; rng is a random.Random.
+
+    heaviness: how many times as heavy it is as usual.
+    """
     radius = rng.randint(10, 22)
     color = (rng.randint(90, 240), rng.randint(90, 240), rng.randint(90, 240))
-    return Body(
-        Circle(radius), pos, mass=radius**2 / 100, restitution=0.4, friction=0.6, color=color
-    )
+    mass = heaviness * radius**2 / 100  # kg
+    return Body(Circle(radius), pos, mass, restitution=0.4, friction=0.6, color=color)
 
 
 def make_world(rng):
@@ -43,3 +46,10 @@ def add_pendulum(world):
     anchor = world.add(Body(Circle(6), (700, 90), color=GREY))
     bob = world.add(Body(Circle(24), (840, 90), mass=6, restitution=0.2, color=(235, 190, 80)))
     world.joints.append(DistanceJoint(anchor, bob))
+
+
+def add_spring(world):
+    """A ball on a spring, drawn out to the side at first."""
+    hook = world.add(Body(Circle(6), (600, 60), color=GREY))
+    bob = world.add(Body(Circle(16), (640, 180), mass=2, color=(120, 200, 170)))
+    world.springs.append(SpringJoint(hook, bob, stiffness=80, damping=0.4, length=80))

@@ -5,8 +5,10 @@ from itertools import combinations
 
 from pygame import Vector2
 
+from .broad_phase import near_pairs
 from .constants import ITERATIONS
 from .contacts import collide
+from .sleeping import update_sleep
 from .solver import solve_friction, solve_normal, target_speed
 from .validate import require
 
@@ -23,7 +25,10 @@ class World:
         self.angular_damping = angular_damping  # 1/s
         self.bodies = []
         self.joints = []
+        self.springs = []
         self.contacts = []
+        self.sleeping = False  # whether bodies at rest may sleep
+        self.grid = False  # whether a grid finds the pairs to look at
         self.iterations = ITERATIONS  # passes of the solver per step
         require(self.gravity.length() < math.inf, "World.gravity", self.gravity, "finite")
         for field in ("linear_damping", "angular_damping"):
@@ -38,7 +43,7 @@ class World:
         return body
 
     def moving_bodies(self):
-        """The bodies that are not static."""
+        """The bodies that are neither static nor asleep."""
         return [body for body in self.bodies if not body.is_static]
 
     def step(self, dt):
@@ -49,11 +54,15 @@ class World:
 
         # 1 forces
         self.apply_gravity(dt)
+        for spring in self.springs:
+            spring.apply(dt)
         if self.linear_damping or self.angular_damping:
             self.apply_damping(dt)
 
         # 2 detect
         self.contacts = self.find_contacts()
+        if self.sleeping and update_sleep(self, dt):
+            self.contacts = self.find_contacts()
 
         # 3 solve
         if self.contacts or self.joints:
@@ -80,7 +89,10 @@ class World:
     def find_contacts(self):
         """The contacts of all bodies where they are now."""
         contacts = []
-        for a, b in combinations(self.bodies, 2):
+        if not self.moving_bodies():
+            return contacts
+        pairs = near_pairs(self.bodies) if self.grid else combinations(self.bodies, 2)
+        for a, b in pairs:
             if a.is_static and b.is_static:
                 continue
             contact = collide(a, b)
@@ -112,5 +124,6 @@ class World:
     def move(self, dt):
         """Move and turn bodies with their new velocities (semi-implicit Euler)."""
         for body in self.moving_bodies():
+            body.before = Vector2(body.pos), body.angle
             body.pos += body.vel * dt
             body.angle += body.omega * dt

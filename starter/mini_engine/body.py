@@ -36,6 +36,10 @@ class Body:
         self.restitution = restitution
         self.friction = friction
         self.color = color
+        self.before = Vector2(pos), 0.0  # place and angle before the latest step
+        self.asleep = False
+        self.still_for = 0.0  # s at rest
+        self.support = []  # what a sleeper lies on
         self.check()
 
     @property

@@ -1,4 +1,4 @@
-"""The window: time, events, drawing. TODO 6 lives in advance."""
+"""The window: time, events, drawing. TODO 6 lives in advance, B5 in between, B6 in heaviness."""
 
 import random
 
@@ -7,15 +7,20 @@ from pygame import Vector2
 
 from lab_runtime import frame_budget
 
+from .broad_phase import CELL
 from .constants import HEIGHT, MAX_BALLS, MAX_STEPS, STEP, WIDTH
-from .scenes import ball, make_world
+from .scenes import add_spring, ball, make_world
 from .shapes import Circle
+from .sleeping import wake
 
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
 SEED = 12
 BACKGROUND = (22, 25, 33)
 INK = (225, 228, 235)
+FAINT = (44, 49, 61)
+SLEEPER = (120, 120, 120)
 HELP = "click: drop a ball    R: reset"
+BONUS_HELP = "bonus:  Shift+click: a heavy ball    S: sleep    G: grid    K: a spring"
 
 
 def advance(world, accumulator, frame_seconds):
@@ -38,36 +43,89 @@ def pendulum_error(world):
     return abs((rod.b.pos - rod.a.pos).length() - rod.length)
 
 
+def heaviness():
+    """How many times as heavy as usual the next ball is: 10 while Shift is held, else 1."""
+    # TODO B6: heavier balls with Shift
+    # All balls weigh the same, whatever keys are held.
+    return 1
+    # END TODO B6
+
+
 def drop_ball(world, rng, pos):
-    """Drop a ball at pos, unless MAX_BALLS bodies are moving already."""
-    if len(world.moving_bodies()) < MAX_BALLS:
-        world.add(ball(rng, pos))
+    """Drop a ball at pos, unless MAX_BALLS bodies are moving or asleep already."""
+    if len(world.moving_bodies()) + sleepers(world) < MAX_BALLS:
+        world.add(ball(rng, pos, heaviness()))
 
 
-def draw(screen, font, world):
-    """Draw the rods, the bodies and the two lines of text."""
+def sleepers(world):
+    """How many bodies are asleep."""
+    return sum(body.asleep for body in world.bodies)
+
+
+def between(body, share):
+    """Where to draw a body, (place, angle): so much of its way through the latest step.
+
+    share is from 0, where it was before that step (body.before), to 1, where it is now. The body
+    itself stays as it is.
+    """
+    # TODO B5: draw between steps
+    # Where it is now: a picture can be up to a step ahead of its moment.
+    return body.pos, body.angle
+    # END TODO B5
+
+
+def draw(screen, font, world, share):
+    """Draw everything, so much of the way through the latest step, and the lines of text."""
     screen.fill(BACKGROUND)
-    for joint in world.joints:
-        pygame.draw.line(screen, INK, joint.a.pos, joint.b.pos, 3)
+    if world.grid:
+        draw_cells(screen)
+    for joint in world.joints + world.springs:
+        ends = [between(end, share)[0] for end in (joint.a, joint.b)]
+        pygame.draw.line(screen, INK, *ends, 3 if joint in world.joints else 1)
     for body in world.bodies:
-        draw_body(screen, body)
+        draw_body(screen, body, share)
     status = f"moving bodies: {len(world.moving_bodies())}    contacts: {len(world.contacts)}"
+    if world.sleeping:
+        status += f"    asleep: {sleepers(world)}"
     screen.blit(font.render(status, True, INK), (12, 10))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
+    screen.blit(font.render(BONUS_HELP, True, INK), (310, HEIGHT - 29))
     pygame.display.flip()
 
 
-def draw_body(screen, body):
-    """Draw a box, or a circle; a moving circle has a spoke that shows how it turns."""
+def draw_cells(screen):
+    """Draw the cells of the grid."""
+    for x in range(0, WIDTH, CELL):
+        pygame.draw.line(screen, FAINT, (x, 0), (x, HEIGHT))
+    for y in range(0, HEIGHT, CELL):
+        pygame.draw.line(screen, FAINT, (0, y), (WIDTH, y))
+
+
+def draw_body(screen, body, share):
+    """Draw a box, or a circle; one that can move has a spoke, one asleep is grey."""
     if isinstance(body.shape, Circle):
         radius = body.shape.radius
-        spoke = Vector2(radius - 2, 0).rotate_rad(body.angle)
-        pygame.draw.aacircle(screen, body.color, body.pos, radius)
-        if not body.is_static:
-            pygame.draw.line(screen, BACKGROUND, body.pos, body.pos + spoke, 3)
+        pos, angle = between(body, share)
+        spoke = Vector2(radius - 2, 0).rotate_rad(angle)
+        pygame.draw.aacircle(screen, SLEEPER if body.asleep else body.color, pos, radius)
+        if body.asleep or not body.is_static:
+            pygame.draw.line(screen, BACKGROUND, pos, pos + spoke, 3)
     else:
         half = body.shape.half
         pygame.draw.rect(screen, body.color, (body.pos - half, half * 2))
+
+
+def switch(world, key):
+    """What the keys of the bonus tasks do: sleep and grid on or off, one more spring."""
+    if key == pygame.K_s:
+        world.sleeping = not world.sleeping
+        for body in world.bodies:
+            if body.asleep:
+                wake(body)
+    elif key == pygame.K_g:
+        world.grid = not world.grid
+    elif key == pygame.K_k:
+        add_spring(world)
 
 
 def main():
@@ -92,9 +150,11 @@ def main():
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_r:
                 rng = random.Random(SEED)
                 world = make_world(rng)
+            elif event.type == pygame.KEYDOWN:
+                switch(world, event.key)
         accumulator, steps = advance(world, accumulator, frame_seconds)
         total_steps += steps
-        draw(screen, font, world)
+        draw(screen, font, world, accumulator / STEP)
     pygame.quit()
     print(f"Fixed steps: {total_steps}")
     print(f"Pendulum length error: {pendulum_error(world):.2f} px")
