@@ -227,6 +227,15 @@ class Play(Struct, frozen=True, tag="play"):
 
 Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Play
 
+
+class Film(Struct, frozen=True, tag="film"):
+    """Answer a request and show what it does to the bodies: for replays, once marks are decided."""
+
+    request: Request
+    most: int  # shots; of more steps or frames only some are taken
+    cut: bool = False  # a new scene: what was made before is not shown any more
+
+
 # ---------------------------------------------------------------- child to judge
 
 
@@ -287,14 +296,70 @@ class Played(Struct, frozen=True, tag="played"):
 Reply = Returned | Raised | Missing | Simulated | Played
 
 
+class ShapeLook(Struct, frozen=True, array_like=True):
+    """One point is a disc, two are a segment, more are a polygon; px from the body's centre."""
+
+    points: list[tuple[float, float]]
+    radius: float
+
+
+class BodyLook(Struct, frozen=True):
+    """What does not change about a body that is shown."""
+
+    ref: int  # 0 where no request can name it
+    shapes: list[ShapeLook]
+    mass: float | None  # None: static
+    moment: float | None
+
+
+class BodyRow(Struct, frozen=True, array_like=True):
+    number: int  # bodies are numbered as they come into the picture
+    x: float
+    y: float
+    vx: float
+    vy: float
+    angle: float
+    omega: float
+
+
+class TouchRow(Struct, frozen=True, array_like=True):
+    """A contact: its point, the unit normal from A to B, the overlap in px, the impulses so far."""
+
+    x: float
+    y: float
+    nx: float
+    ny: float
+    depth: float
+    jn: float
+    jt: float
+
+
+class Shot(Struct, frozen=True, array_like=True):
+    """All that is to be seen at one moment."""
+
+    time: float  # s, since the request began
+    steps: int  # that have run since then
+    bodies: list[BodyRow]
+    touches: list[TouchRow]
+    rods: list[tuple[float, float, float, float]]  # from x, y to x, y
+
+
+class Filmed(Struct, frozen=True, tag="filmed"):
+    """The reply to a filmed request, and the shots: the last one shows how it ended."""
+
+    reply: Reply
+    looks: dict[int, BodyLook]  # by number, of the bodies that are new
+    shots: list[Shot]
+
+
 class Asked(Struct, frozen=True):
     number: int
-    request: Request
+    request: Request | Film
 
 
 class Answered(Struct, frozen=True):
     number: int
-    reply: Reply
+    reply: Reply | Filmed
     output: str = ""  # what the submission printed since the last answer, cut to a bound
 
 

@@ -23,6 +23,7 @@ from grader.protocol import (
     ChildSetup,
     End,
     Ended,
+    Film,
     Open,
     ProtocolError,
     Ready,
@@ -31,6 +32,7 @@ from grader.protocol import (
 
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
+AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
 ASLEEP_SECONDS = 8  # a child that sleeps for so long without an answer waits for nothing
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
@@ -62,7 +64,7 @@ class Child:
         except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
-    def ask(self, request: Request) -> Answered:
+    def ask(self, request: Request | Film) -> Answered:
         """The one answer to this request, or ChildEnded: anything else ends the child for good."""
         if self.over:
             raise ChildEnded(self.over)
@@ -149,7 +151,10 @@ def explain(cpu_seconds: int, code: int) -> str:
 
 
 class WarmWorker:
-    """A process with everything loaded that forks a child per check."""
+    """A process with everything loaded that forks a child per check.
+
+    It is waited for when the first child is wanted: until then it loads and we do something else.
+    """
 
     def __init__(self) -> None:
         self._start()
@@ -165,9 +170,13 @@ class WarmWorker:
                 env=clean_environment(),
             )
         self.control = Channel(ours, eager=False)
-        self.layers: list[str] = msgspec.msgpack.decode(
-            self.control.receive(START_SECONDS), type=list[str]
-        )
+        self.loading = True
+        self.layers: list[str] = []  # what shuts all children in, once one was opened
+
+    def wait_until_loaded(self) -> None:
+        if self.loading:
+            loaded = self.control.receive(START_SECONDS)
+            self.layers, self.loading = msgspec.msgpack.decode(loaded, type=list[str]), False
 
     def open(self, setup: ChildSetup) -> Child:
         try:
@@ -178,6 +187,7 @@ class WarmWorker:
             return self._open(Open(setup), setup)
 
     def _open(self, message: object, setup: ChildSetup) -> Child:
+        self.wait_until_loaded()
         ours, theirs = socket.socketpair()
         with theirs:
             self.control.send(message)
@@ -217,17 +227,26 @@ class WarmWorker:
 
 
 class SpawnWorker:
-    """Starts a new process for every child: for platforms without fork."""
+    """Starts a new process for every child: for platforms without fork.
+
+    Some are started ahead: to load takes them longer than most checks take.
+    """
 
     def __init__(self) -> None:
         self.layers: list[str] = []
         self.processes: dict[int, subprocess.Popen[bytes]] = {}
+        self.ahead: list[tuple[subprocess.Popen[bytes], Channel]] = []
+        self._start_ahead()
+
+    def _start_ahead(self) -> None:
+        while len(self.ahead) < AHEAD:
+            ours, theirs = socket.socketpair()
+            with theirs:
+                self.ahead.append((self._start(theirs), Channel(ours)))
 
     def open(self, setup: ChildSetup) -> Child:
-        ours, theirs = socket.socketpair()
-        with theirs:
-            process = self._start(theirs)
-        channel = Channel(ours)
+        process, channel = self.ahead.pop(0)
+        self._start_ahead()
         channel.send(setup)
         child = Child(channel, self, setup.limits.cpu_seconds)
         self.processes[id(child)] = process
@@ -278,8 +297,11 @@ class SpawnWorker:
         return explain(child.cpu_seconds, process.wait())
 
     def close(self) -> None:
-        for process in self.processes.values():
+        for process in [*self.processes.values(), *(process for process, _ in self.ahead)]:
             process.kill()
+            process.wait()
+        for _, channel in self.ahead:
+            channel.close()
 
 
 def clean_environment() -> dict[str, str]:

@@ -6,24 +6,25 @@ import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import hypothesis
 import msgspec
-import pytest
 
 from grader.judge import misconceptions
 from grader.judge.children import Child, SpawnWorker, WarmWorker, start_worker
 from grader.judge.isolation import STRICT, Isolation, unconfined
 from grader.judge.lab import Broke, Lab, NotYet
-from grader.judge.plugin import GradingPlugin
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.submission import CannotGrade, Submission, take_in
 from grader.protocol import ChildSetup, Limits
 from grader.todo_regions import shape_of
+
+if TYPE_CHECKING:
+    from grader.judge.plugin import GradingPlugin
 
 KIT = Path(__file__).parents[2]
 FAILED = ("not yet", "error")  # what a known mistake may be the reason of
@@ -39,6 +40,7 @@ class Options:
     seed: int | None = None  # an instructor's secret, instead of the fixed examples
     spawn: bool = False  # start each child anew, as on platforms without fork
     progress: Callable[[CheckResult], None] | None = None  # told of each check as it ends
+    replays: Path | None = None  # a folder for the replays of failed checks; None for none
 
 
 def shipped_reference() -> Path | None:
@@ -62,6 +64,20 @@ def grade(path: Path, options: Options, worker: WarmWorker | SpawnWorker | None 
         finally:
             if worker is None:
                 ours.close()
+
+
+@contextmanager
+def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
+    """A way to open children of a tree as it is, without grading it."""
+    rubric = load_rubric()
+    with work_folder() as work:
+        worker = start_worker()
+        try:
+            taken_in = take_in(tree, work / "tree", rubric, {})
+            alone = Reference(None, rubric)
+            yield Grading(Options(), rubric, alone, taken_in, worker, work).open_child
+        finally:
+            worker.close()
 
 
 def load_stubs() -> dict[str, str]:
@@ -94,6 +110,9 @@ class Grading:
     work: Path
 
     def run(self) -> Result:
+        # Imported here: pytest and hypothesis load while the worker loads its libraries.
+        from grader.judge.plugin import GradingPlugin, run_pytest
+
         layers = self.layers()
         plugin = GradingPlugin(
             self.submission,
@@ -106,7 +125,15 @@ class Grading:
             self.options.progress,
         )
         run_pytest(plugin, self.rubric)
-        return self.result(plugin, layers)
+        result = self.result(plugin, layers)
+        folder = self.options.replays
+        if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
+            return result
+        from grader.judge.replay import Replays  # only where wanted: it loads what makes pages
+
+        known = frozenset(self.submission.functions)
+        replays = Replays(folder, self.open_child, self.expected_children(), known)
+        return replays.of(result, plugin.failing)
 
     # ------------------------------------------------------------ children
 
@@ -125,6 +152,15 @@ class Grading:
                 compiles=compiles,
             )
         )
+
+    def expected_children(self) -> Callable[[int], Child] | None:
+        """A way to open children of the reference itself, to see what should happen."""
+        if self.options.reference is None:
+            return None
+        work = self.work / "reference"
+        work.mkdir()
+        tree = take_in(self.options.reference, work / "tree", self.rubric, {})
+        return replace(self, submission=tree, work=work).open_child
 
     def layers(self) -> list[str]:
         """What shuts a child in on this machine, found out with an empty one."""
@@ -162,15 +198,16 @@ class Grading:
 
     # ------------------------------------------------------------ the result
 
-    def result(self, plugin: GradingPlugin, layers: list[str]) -> Result:
+    def result(self, plugin: "GradingPlugin", layers: list[str]) -> Result:
         todos = []
         for todo in self.rubric.todos:
             if not plugin.wanted(todo):
                 continue
             checks = count_guards(todo, [plugin.results[todo.id, c.id] for c in todo.checks])
-            mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
-            failed = any(check.state in FAILED for check in checks)
-            if mistake is not None and failed:
+            mistake = None
+            if any(check.state in FAILED for check in checks):
+                mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
+            if mistake is not None:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
             todos.append(
                 TodoResult(
@@ -179,7 +216,7 @@ class Grading:
                     state_of(checks),
                     sum(check.points for check in checks),
                     todo.max_points,
-                    mistake.id if mistake is not None and failed else None,
+                    mistake.id if mistake is not None else None,
                     checks,
                 )
             )
@@ -211,42 +248,3 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
     return msgspec.structs.replace(check, meaning=meaning) if check.state in FAILED else check
-
-
-@contextmanager
-def settled_environment() -> Iterator[None]:
-    """Our hypothesis profile, and no option or plugin of pytest that is on this machine."""
-    profile = hypothesis.settings.get_current_profile_name()
-    usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
-    for name in usual:
-        del os.environ[name]
-    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
-    hypothesis.settings.load_profile("judge")
-    try:
-        yield
-    finally:
-        hypothesis.settings.load_profile(profile)
-        del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]
-        os.environ.update(usual)
-
-
-def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
-    """Run the checks in this process. The submission's folder is no part of it."""
-    files = dict.fromkeys(
-        str(CHECKS / f"{todo.file}.py") for todo in rubric.todos if plugin.wanted(todo)
-    )
-    with settled_environment():
-        status = pytest.main(
-            [
-                *("-c", str(CHECKS / "pytest.ini"), "--rootdir", str(CHECKS)),
-                *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:faulthandler"),
-                *("--import-mode", "importlib", "--noconftest", "--assert=plain", *files),
-            ],
-            plugins=[plugin],
-        )
-    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
-        raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
-    for todo in filter(plugin.wanted, rubric.todos):
-        for check in todo.checks:
-            if (todo.id, check.id) not in plugin.results:
-                raise CannotGrade(f"{todo.file}.py has no check named {check.id}, as in the rubric")

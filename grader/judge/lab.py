@@ -12,6 +12,7 @@ from typing import Any, Literal, NoReturn
 
 from grader.judge.children import Child, ChildEnded
 from grader.protocol import (
+    Answered,
     Argument,
     BodyValue,
     Call,
@@ -94,6 +95,7 @@ class Lab:
     output: str = ""
     running: str = ""
     failure: NotYet | Broke | None = None  # the first one, or the one the check ended with
+    again: Callable[..., None] | None = None  # what ran last; takes a lab to run in once more
     _child: Child | None = None
     _played: bool = False  # whether the child has run a program
     _over: NotYet | Broke | None = None  # why nothing more can be asked
@@ -346,9 +348,8 @@ class Lab:
     def _ask(self, request: Request) -> Any:
         if self._over is not None:
             raise self._over
-        assert self._child is not None
         try:
-            answered = self._child.ask(request)
+            answered = self._send(request)
         except ChildEnded as error:
             self._stop(str(error))
         self.output += answered.output[: MAX_OUTPUT - len(self.output)]
@@ -361,6 +362,10 @@ class Lab:
                 missing.quotes = True
                 raise self._remember(missing)
         return answered.reply
+
+    def _send(self, request: Request) -> Answered:
+        assert self._child is not None
+        return self._child.ask(request)
 
     def _stop(self, why: str) -> NoReturn:
         """The child is gone: this check has its outcome, whatever else it would have asked."""

@@ -12,6 +12,7 @@ from functools import cache
 from typing import Any
 
 from grader.judge.lab import Observation
+from grader.judge.recorded import Answers, Recorded, key, load_recorded
 from grader.judge.rubric import CHECKS, load_rubric
 
 Model = Callable[..., Any]
@@ -55,20 +56,51 @@ def mistake(todo: str, name: str, meaning: str, *, about: str) -> Callable[[Mode
 
 
 @cache
-def load_known() -> None:
-    """Import the models: they stand beside the checks, as mistakes_N for todo_N."""
-    for todo in load_rubric().todos:
-        if (CHECKS / f"{todo.mistakes}.py").exists():
-            importlib.import_module(f"grader.checks.{todo.mistakes}")
+def load_known(todo: str) -> None:
+    """Import a TODO's models: they stand beside its checks, as mistakes_N for todo_N.
+
+    A student's copy has what all models answer, as far as it was recorded.
+    """
+    table = load_recorded()
+    if table is not None:
+        take_from(table, todo)
+        return
+    for each in load_rubric().todos:
+        if each.id == todo and (CHECKS / f"{each.mistakes}.py").exists():
+            importlib.import_module(f"grader.checks.{each.mistakes}")
+
+
+def take_from(table: Recorded, todo: str) -> None:
+    for each in table.mistakes:
+        if each.todo == todo:
+            mistake(todo, each.id, each.meaning, about=each.about)(looked_up(each.answers))
+    for about, answers in table.right.items():
+        truth(about)(looked_up(answers))
+
+
+def looked_up(answers: Answers) -> Model:
+    """The model that gives these answers, and is undecided where there is none."""
+
+    def model(*inputs: Any) -> Any:
+        try:
+            return answers[key(inputs)]
+        except KeyError:
+            raise Undecided from None
+
+    return model
 
 
 def named(todo: str, observations: Sequence[Observation]) -> Mistake | None:
-    """The known mistake that explains every answer, or None."""
-    load_known()
-    for each in known:
-        if each.todo == todo and explains(each, observations):
-            return each
-    return None
+    """The known mistake that explains every answer, or None.
+
+    A student's copy sees less, so it names one only if no other explains as much.
+    """
+    load_known(todo)
+    found = (each for each in known if each.todo == todo and explains(each, observations))
+    first = next(found, None)
+    if first is not None and load_recorded() is not None:
+        return first if all(each.id == first.id for each in found) else None
+    return first
 
 
 def explains(each: Mistake, observations: Iterable[Observation]) -> bool:

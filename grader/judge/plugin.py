@@ -1,18 +1,23 @@
 """The pytest plugin: collects what the rubric names and runs it against one submission."""
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial, wraps
 from typing import Any
 
 import hypothesis
 import pytest
+from hypothesis.internal.conjecture import providers
 
 from grader.judge.children import Child
 from grader.judge.lab import Broke, Lab, NotYet, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where
-from grader.judge.rubric import Check, Rubric, Todo
-from grader.judge.submission import Submission
+from grader.judge.rubric import CHECKS, Check, Rubric, Todo
+from grader.judge.submission import CannotGrade, Submission
+from grader.protocol import Piece
 
 EXAMPLES = 25  # per property
 
@@ -27,6 +32,19 @@ hypothesis.settings.register_profile(
     phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
     suppress_health_check=list(hypothesis.HealthCheck),
 )
+
+# Without this, examples would depend on which of our modules happen to be loaded.
+providers._get_local_constants = lambda: providers._local_constants
+
+
+@dataclass(frozen=True)
+class Failing:
+    """A failed check: what ran last, and the pieces of the reference that stood in."""
+
+    todo: Todo
+    check: Check
+    again: Callable[..., None]  # takes a lab
+    pieces: list[Piece]
 
 
 @dataclass
@@ -43,10 +61,15 @@ class GradingPlugin:
     progress: Callable[[CheckResult], None] | None = None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
+    failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     trouble: str = ""  # why a file of checks could not be read
+    interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
 
     def wanted(self, todo: Todo) -> bool:
         return not self.only or todo.id in self.only
+
+    def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+        self.interrupted = excinfo.value
 
     # ------------------------------------------------------------ collecting
 
@@ -123,6 +146,8 @@ class GradingPlugin:
                 lab = as_it_is
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if lab.failure is not None:
+            if lab.again is not None and not lab.ended:
+                self.failing[todo.id, check.id] = Failing(todo, check, lab.again, lab.pieces)
             return self._failure(todo, check, title, lab.failure)
         return self._result(todo, check, title, "passed")
 
@@ -130,7 +155,7 @@ class GradingPlugin:
         others = self.reference.for_the_others(todo, self.rubric, self.submission)
         pieces = others if isolated else []
         lab = Lab(check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces)
-        with lab.opened():
+        with lab.opened(), kept_for_replay(function, lab):
             try:
                 if self.seed is not None:
                     function = hypothesis.seed(self.seed)(function)
@@ -180,3 +205,66 @@ class GradingPlugin:
 
 TODO = pytest.StashKey[Todo]()
 CHECK = pytest.StashKey[Check]()
+
+
+@contextmanager
+def kept_for_replay(function: Any, lab: Lab) -> Iterator[None]:
+    """Keep in the lab what ran last: the check, or the example on which a property failed."""
+    lab.again = function
+    if not hasattr(function, "hypothesis"):
+        yield
+        return
+    inner = function.hypothesis.inner_test
+
+    @wraps(inner)  # hypothesis draws by the source and signature, which stay the same
+    def example(*args: Any, **drawn: Any) -> None:
+        lab.again = partial(inner, *args, **drawn)
+        inner(*args, **drawn)
+
+    function.hypothesis.inner_test = example
+    try:
+        yield
+    finally:
+        function.hypothesis.inner_test = inner
+
+
+@contextmanager
+def settled_environment() -> Iterator[None]:
+    """Our hypothesis profile, and no option or plugin of pytest that is on this machine."""
+    profile = hypothesis.settings.get_current_profile_name()
+    usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
+    for name in usual:
+        del os.environ[name]
+    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
+    hypothesis.settings.load_profile("judge")
+    try:
+        yield
+    finally:
+        hypothesis.settings.load_profile(profile)
+        del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]
+        os.environ.update(usual)
+
+
+def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
+    """Run the checks in this process. The submission's folder is no part of it."""
+    files = dict.fromkeys(
+        str(CHECKS / f"{todo.file}.py") for todo in rubric.todos if plugin.wanted(todo)
+    )
+    with settled_environment():
+        status = pytest.main(
+            [
+                *("-c", str(CHECKS / "pytest.ini"), "--rootdir", str(CHECKS)),
+                *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:faulthandler"),
+                *("-p", "no:logging", "-p", "no:unraisableexception"),  # of no use here, and slow
+                *("--import-mode", "importlib", "--noconftest", "--assert=plain", *files),
+            ],
+            plugins=[plugin],
+        )
+    if plugin.interrupted is not None:
+        raise plugin.interrupted
+    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+        raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
+    for todo in filter(plugin.wanted, rubric.todos):
+        for check in todo.checks:
+            if (todo.id, check.id) not in plugin.results:
+                raise CannotGrade(f"{todo.file}.py has no check named {check.id}, as in the rubric")

@@ -29,6 +29,18 @@ class CheckResult(Struct, frozen=True):
     where: Where | None = None
     replay: str | None = None
 
+    def reasons(self, task: str = "") -> list[tuple[str, str]]:
+        """Why it is not passed, in named lines; `task` stands behind the place to look at."""
+        place = f"{self.where.file}:{self.where.line}{task}" if self.where else ""
+        words = (
+            ("We ran", self.ran),
+            ("Expected", self.expected),
+            ("Got", self.got),
+            ("Meaning", self.meaning),
+            ("Look at", place),
+        )
+        return [(name, text) for name, text in words if text]
+
 
 class TodoResult(Struct, frozen=True):
     id: str

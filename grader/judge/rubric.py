@@ -19,6 +19,7 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     guard: bool = False  # also a stub may pass it: counts once another check of the TODO passes
     needs: list[str] = []  # TODOs this check cannot do without
     cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
+    hidden: bool = False  # not in the students' copy: it cannot do without the right code
 
 
 class Todo(Struct, frozen=True, forbid_unknown_fields=True):
@@ -28,6 +29,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     function: str  # the function the TODO lives in, as module:name; empty for the whole
     file: str  # the file of checks
     checks: list[Check]
+    hidden_points: int = 0  # in a student's copy: what the checks are worth that it lacks
 
     @property
     def mistakes(self) -> str:
@@ -45,6 +47,11 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
     @property
     def max_points(self) -> int:
         return sum(todo.max_points for todo in self.todos)
+
+    @property
+    def hidden_points(self) -> int:
+        """In a student's copy, the points that only the instructor's grader can give."""
+        return sum(todo.hidden_points for todo in self.todos)
 
 
 @cache

@@ -5,6 +5,7 @@ import os
 import shutil
 import stat
 import textwrap
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -152,7 +153,8 @@ def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
 def statements(text: str) -> list[ast.stmt]:
     """The statements of a source text; none where it is no Python."""
     try:
-        return ast.parse(text).body
+        with warnings.catch_warnings(action="ignore"):
+            return ast.parse(text).body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
 

@@ -16,6 +16,8 @@ from grader.protocol import (
     Channel,
     ChannelClosed,
     ChildSetup,
+    Film,
+    Filmed,
     Get,
     Import,
     MakeBody,
@@ -31,6 +33,7 @@ from grader.protocol import (
     Simulate,
 )
 from grader.worker.confinement import confine
+from grader.worker.film import Camera
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
@@ -50,18 +53,32 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
     output.install()
     clock.install()
     subject = Subject(Path(setup.submission))
+    camera = Camera(subject)
     while True:
         try:
             asked = decoder.decode(channel.receive())
         except ChannelClosed:
             return
-        try:
-            reply = answer(subject, clock, output, asked.request)
-        except NotThere as error:
-            reply = Missing(str(error))
-        except BaseException as error:
-            reply = subject.raised(error)
+        reply: Reply | Filmed
+        match asked.request:
+            case Film() as film:
+                camera.load(film)
+                reply = camera.developed(attempt(subject, clock, output, camera, film.request))
+            case request:
+                reply = attempt(subject, clock, output, camera, request)
         send(channel, Answered(asked.number, reply, output.take()))
+
+
+def attempt(
+    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
+) -> Reply:
+    """The answer, or what came instead of one."""
+    try:
+        return answer(subject, clock, output, camera, request)
+    except NotThere as error:
+        return Missing(str(error))
+    except BaseException as error:
+        return subject.raised(error)
 
 
 def send(channel: Channel, answered: Answered) -> None:
@@ -71,7 +88,9 @@ def send(channel: Channel, answered: Answered) -> None:
         channel.send(Answered(answered.number, Missing(f"the answer cannot be sent: {error}")))
 
 
-def answer(subject: Subject, clock: ScriptedClock, output: Output, request: Request) -> Reply:
+def answer(
+    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
+) -> Reply:
     match request:
         case Import(module, pieces):
             return Returned(",".join(subject.load(module, pieces)))
@@ -94,9 +113,9 @@ def answer(subject: Subject, clock: ScriptedClock, output: Output, request: Requ
         case MakeWorld():
             return Returned(subject.encode(subject.make_world(request)))
         case Simulate():
-            return simulate(subject, request)
+            return simulate(subject, camera, request)
         case Play():
-            return play(subject, clock, output, request)
+            return play(subject, clock, output, camera, request)
 
 
 def tidy_environment(scratch: str) -> None:

@@ -10,6 +10,7 @@ import pygame
 import pymunk
 
 from grader.protocol import RUNAWAY, ContactRow, Play, Played, Simulate, Simulated, SpaceBody
+from grader.worker.film import Camera, lesson_state
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.subject import NotThere, Subject, as_pair, field, field_number, field_pair
@@ -56,7 +57,9 @@ class StepCounter:
         self.owner.step = self.real  # type: ignore[attr-defined]
 
 
-def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) -> Played:
+def play(
+    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
+) -> Played:
     module = importlib.import_module(request.module)
     main = subject.find(f"{request.module}:main")
     owner = module.World if hasattr(module, "World") else pymunk.Space
@@ -68,11 +71,13 @@ def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) 
         steps.append(counter.in_frame)
         times.append(clock.elapsed)
         counter.in_frame = 0
+        camera.look(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
     picture = Picture(request.picture)
+    camera.follow(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
         main()
@@ -86,6 +91,7 @@ def play(subject: Subject, clock: ScriptedClock, output: Output, request: Play) 
         counter.restore()
         picture.restore()
     frame_over()
+    camera.unfollow()
     return Played(
         steps=steps,
         clock=times,
@@ -149,18 +155,6 @@ def moving_state(world: Any) -> list[float]:
     return row
 
 
-def lesson_state(body: Any) -> list[float]:
-    pos, vel = field_pair(body, "pos"), field_pair(body, "vel")
-    return [
-        pos.x,
-        pos.y,
-        vel.x,
-        vel.y,
-        field_number(body, "angle"),
-        field_number(body, "omega"),
-    ]
-
-
 def rods(world: Any) -> list[tuple[float, float]]:
     """Distance now and length meant of every distance joint, px."""
     if isinstance(world, pymunk.Space):
@@ -179,13 +173,15 @@ def rods(world: Any) -> list[tuple[float, float]]:
     return found
 
 
-def simulate(subject: Subject, request: Simulate) -> Simulated:
+def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
     world = subject.objects[request.ref]
     watched = [subject.objects[ref] for ref in request.watch]
     frames: list[list[float]] = []
     contacts: list[list[ContactRow]] = []
+    camera.expect(request.steps)
     for number in range(1, request.steps + 1):
         world.step(request.dt)
+        camera.look(number * request.dt, number)
         if number % request.every:
             continue
         row: list[float] = []

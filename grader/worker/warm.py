@@ -28,9 +28,9 @@ def main(control_fd: int) -> None:
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
-    control.send(layers)
     gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
+        control.send(layers)
         while True:
             match decoder.decode(control.receive()):
                 case Open(setup):
@@ -132,3 +132,4 @@ def has_children() -> bool:
 
 if __name__ == "__main__":
     main(int(sys.argv[1]))
+    os._exit(0)  # the judge waits for the end: nothing here needs to be put away

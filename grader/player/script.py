@@ -1,0 +1,424 @@
+"""What was asked of a submission, in Python: a line each, and a script to run against one's own."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from grader.player.film import Replay, Take
+from grader.protocol import (
+    Argument,
+    BodyRow,
+    BodyValue,
+    Call,
+    ContactValue,
+    Force,
+    Get,
+    Items,
+    MakeBody,
+    MakeWorld,
+    Play,
+    Ref,
+    Reply,
+    Request,
+    Returned,
+    Rng,
+    Set,
+    Simulate,
+    SpaceBody,
+    SpaceValue,
+    Value,
+    Vec,
+)
+
+MAX_WIDTH = 96  # of a comment
+FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
+FEW = 40  # lines that are shown as they are
+STATE = ("pos", "vel", "angle", "omega")
+
+
+@dataclass
+class Step:
+    """One request, what it says in Python, and what came back as far as a script needs it."""
+
+    request: Request
+    code: list[str]
+    silent: bool  # nothing came back
+    pair: tuple[float, float] | None  # what an integrator gave
+    watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
+    bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
+    place: tuple[Take, int] | None = None  # where it is in the film: a take and its line
+
+
+@dataclass
+class Translator:
+    """Puts requests into Python and remembers what the objects are called."""
+
+    module: str
+    names: dict[int, str] = field(default_factory=dict)  # by the child's number
+    imports: set[tuple[str, str]] = field(default_factory=set)
+    libraries: set[str] = field(default_factory=set)
+
+    def code(self, request: Request, reply: Reply) -> list[str]:
+        value = reply.value if isinstance(reply, Returned) else None
+        match request:
+            case MakeBody():
+                return self._body(request, value)
+            case MakeWorld():
+                return self._world(request, value)
+            case Call(target, args, kwargs):
+                given = [*map(self.argument, args)]
+                given += [f"{name}={self.argument(each)}" for name, each in kwargs.items()]
+                call = f"{self._called(target)}({', '.join(given)})"
+                return [self._kept(value, call, target)]
+            case Get(ref, name):
+                return [self._kept(value, f"{self.name(ref)}.{name}")] if name else []
+            case Set(ref, fields):
+                return [f"{self.name(ref)}.{k} = {self.argument(v)}" for k, v in fields.items()]
+            case Simulate(ref, dt, steps):
+                stepping = f"{self.name(ref)}.step({number(dt)})"
+                return [f"for _ in range({steps}):", f"    {stepping}"] if steps > 1 else [stepping]
+            case Play(frames=frames):
+                return [f"main()  # {len(frames)} frames"]
+        return []
+
+    def watched(self, request: Request) -> list[str]:
+        """The names of the bodies, or of the space, whose state a request is after."""
+        match request:
+            case Get(ref, ""):
+                return [self.name(ref)]
+            case Simulate(watch=watch):
+                return [self.name(ref) for ref in watch]
+        return []
+
+    def forget(self) -> None:
+        """A new process: the objects of the last one are gone."""
+        self.names.clear()
+
+    # ------------------------------------------------------------ names
+
+    def name(self, ref: int) -> str:
+        return self.names.get(ref, f"object_{ref}")
+
+    def _new(self, ref: int, kind: str) -> str:
+        taken = set(self.names.values())
+        numbered = (f"{kind}{number}" if number > 1 else kind for number in range(1, 1000))
+        self.names[ref] = next(name for name in numbered if name not in taken)
+        return self.names[ref]
+
+    def _kept(self, value: Value, code: str, target: str = "") -> str:
+        """The code, its result kept under a name if it is something new."""
+        match value:
+            case BodyValue(ref=ref) | SpaceBody(ref=ref) if ref not in self.names:
+                return f"{self._new(ref, 'body')} = {code}"
+            case ContactValue(ref=ref) if ref not in self.names:
+                return f"{self._new(ref, 'contact')} = {code}"
+            case SpaceValue(ref=ref) if ref not in self.names:
+                name = self._new(ref, "space")
+                self._inside(value, name)
+                return f"{name} = {code}"
+            case Ref(id=ref, kind=kind) if ref not in self.names:
+                name = self._new(ref, "rod" if "joint" in kind.lower() else "thing")
+                return f"{name} = {code}"
+            case Items(items) if any(isinstance(each, SpaceValue) for each in items):
+                parts = [self._part(each) for each in items]
+                return f"{', '.join(parts)} = {code}"
+            case SpaceValue(ref=ref):
+                self._inside(value, self.names[ref])
+        if value is None and target.rpartition(":")[2] in FINDERS:
+            return f"contact = {code}"
+        return code
+
+    def _part(self, value: Value) -> str:
+        if not isinstance(value, SpaceValue):
+            return "_"
+        name = self._new(value.ref, "space")
+        self._inside(value, name)
+        return name
+
+    def _inside(self, space: SpaceValue, name: str) -> None:
+        for number, body in enumerate(space.bodies):
+            place = f"list({name}.bodies)[{number - 1}]" if number else f"{name}.static_body"
+            self.names.setdefault(body.ref, place)
+
+    def _called(self, target: str) -> str:
+        if target.startswith("#"):
+            ref, _, path = target[1:].partition(".")
+            return f"{self.name(int(ref))}.{path}"
+        module, _, path = target.partition(":")
+        if module == "pymunk":
+            self.libraries.add(module)
+            return f"pymunk.{path}"
+        self.imports.add((module, path.partition(".")[0]))
+        return path
+
+    # ------------------------------------------------------------ values
+
+    def argument(self, value: Argument) -> str:
+        match value:
+            case Vec(x, y):
+                return self.pair(x, y)
+            case Ref(id=ref):
+                return self.name(ref)
+            case Rng(seed):
+                self.libraries.add("random")
+                return f"random.Random({seed})"
+            case Force(coefficients):
+                return polynomial(coefficients)
+        return number(value) if isinstance(value, float) else repr(value)
+
+    def pair(self, x: float, y: float) -> str:
+        if self.module == "pymunk_scene":
+            self.libraries.add("pymunk")
+            return f"pymunk.Vec2d({number(x)}, {number(y)})"
+        self.imports.add(("pygame", "Vector2"))
+        return f"Vector2({number(x)}, {number(y)})"
+
+    def _body(self, request: MakeBody, value: Value) -> list[str]:
+        self.imports |= {(request.module, "Body"), (request.module, request.shape)}
+        name = "object_0"
+        if isinstance(value, BodyValue | Ref):
+            ref = value.ref if isinstance(value, BodyValue) else value.id
+            name = self._new(ref, "ball" if request.shape == "Circle" else "box")
+        shape = f"{request.shape}({self.argument(request.size)})"
+        given = [shape, self.argument(request.pos), number(request.mass)]
+        given += [f"{key}={number(each)}" for key, each in request.kwargs.items()]
+        fields = [f"{name}.{k} = {self.argument(v)}" for k, v in request.fields.items()]
+        return [f"{name} = Body({', '.join(given)})", *fields]
+
+    def _world(self, request: MakeWorld, value: Value) -> list[str]:
+        self.imports.add((request.module, "World"))
+        name = self._new(value.id, "world") if isinstance(value, Ref) else "world"
+        given = [
+            f"gravity={self.argument(request.gravity)}",
+            f"linear_damping={number(request.linear_damping)}",
+            f"angular_damping={number(request.angular_damping)}",
+        ]
+        lines = [f"{name} = World({', '.join(given)})"]
+        if len(request.bodies) > 2:
+            bodies = ", ".join(map(self.name, request.bodies))
+            lines += [f"for body in ({bodies}):", f"    {name}.add(body)"]
+        else:
+            lines += [f"{name}.add({self.name(ref)})" for ref in request.bodies]
+        return lines + [f"{name}.joints.append({self.name(ref)})" for ref in request.joints]
+
+
+def number(value: float) -> str:
+    """The very number; a step size as a fraction."""
+    parts = round(1 / value) if value and abs(value) < 0.1 else 0
+    if parts % 10 == 0 and parts and 1 / parts == value:
+        return f"1 / {parts}"
+    return repr(value)
+
+
+def polynomial(coefficients: Sequence[float]) -> str:
+    """The force as the judge works it out: by Horner's rule."""
+    terms = list(coefficients)
+    while len(terms) > 1 and not terms[-1]:
+        terms.pop()
+    text = repr(terms.pop()) if terms else "0.0"
+    for each in reversed(terms):
+        text = f"({text}) * x" if "+" in text else f"{text} * x"
+        text += f" + {each!r}" if each else ""
+    return f"lambda x: {text}"
+
+
+# ---------------------------------------------------------------- the whole script
+
+
+def script(
+    title: str,
+    translator: Translator,
+    steps: Sequence[Step],
+    parting: Step | None,
+    words: Sequence[str],
+    paced: bool,
+) -> str:
+    """A script that asks the same again; `words` are what should have come out, and what did.
+
+    `paced`: the program has a function advance() that runs the steps of a frame.
+    """
+    plays = [each.request for each in steps if isinstance(each.request, Play)]
+    if plays:
+        imports, body = play_again(translator.module, plays[-1], paced)
+    else:
+        body = chained(steps, translator) or list(shortened(steps, parting))
+        imports = list(imported(translator, "\n".join(body)))
+    comments = [f"# {comment(each)}" for each in words if each]
+    head = [f"# {comment(title)}", "# Run it in the folder of your own files.", "import sys"]
+    begin = ['sys.path.insert(0, "")  # your own files come first', ""]
+    return "\n".join([*head, *begin, *imports, "", *body, *comments, ""])
+
+
+def step_of(both: Replay, takes: Sequence[Take], steps: Sequence[Step]) -> Step | None:
+    """The request after which the runs part, if they do."""
+    if both.parting is None:
+        return None
+    lines = both.scenes[both.parting.scene].lines
+    at = max(n for n, line in enumerate(lines) if line.at <= both.parting.frame)
+    take = takes[both.parting.scene]
+    return next((s for s in steps if s.place and s.place[0] is take and s.place[1] == at), None)
+
+
+def imported(translator: Translator, body: str) -> Iterator[str]:
+    """The imports of what the body uses, libraries first."""
+    for library in sorted(translator.libraries, reverse=True):  # random stands before pymunk
+        if f"{library}." in body:
+            yield f"import {library}"
+    sources = {source for source, _ in translator.imports}
+    for source in sorted(sources, key=lambda each: (each != "pygame", each)):
+        names = sorted(name for each, name in translator.imports if each == source)
+        used = [name for name in names if re.search(rf"\b{name}\b", body)]
+        if used:
+            yield f"from {source} import {', '.join(used)}"
+
+
+def comment(text: str) -> str:
+    """On one line, whatever a submission put into it."""
+    line = "".join(c if c.isprintable() else " " for c in text)
+    return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
+
+
+def shortened(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
+    """The lines, with one round only of a long loop, and what to look at printed."""
+    start, period = rounds(steps)
+    chosen = list(steps)
+    if period:
+        count = (len(steps) - start) // period
+        at = next((i for i, each in enumerate(steps) if each is parting), len(steps) - 1)
+        begin = start + period * min(max(at - start, 0) // period, count - 1)
+        chosen = [*steps[:start], *without_end(steps[begin : begin + period])]
+    for index, step in enumerate(chosen):
+        if period and index == start:
+            yield from restored(steps[start - 1], steps[begin - 1])
+        last = index == len(chosen) - 1
+        for line in step.code:
+            answers = isinstance(step.request, Call | Get) and not assigned(line)
+            yield f"print({shown(line)})" if answers and (last or not step.silent) else line
+    yield from looks(chosen)
+
+
+def without_end(steps: Sequence[Step]) -> list[Step]:
+    """A round without what sets the next one up."""
+    last_call = max((i for i, s in enumerate(steps) if isinstance(s.request, Call)), default=0)
+    return [s for i, s in enumerate(steps) if i < last_call or not isinstance(s.request, Set)]
+
+
+def shown(code: str) -> str:
+    """What to print of an answer."""
+    if code.endswith(".find_contacts()"):
+        return f"[(each.normal, each.depth, each.point) for each in {code}]"
+    return code
+
+
+def chained(steps: Sequence[Step], translator: Translator) -> list[str]:
+    """Integrator steps that go on from one another, as loops; nothing where there are none."""
+    chains: list[list[Call]] = []
+    came = None
+    for step in steps:
+        call = step.request
+        if not isinstance(call, Call) or not any(isinstance(each, Force) for each in call.args):
+            return []
+        same = chains and chains[-1][0].args[2:] == call.args[2:]
+        if same and came == tuple(call.args[:2]):
+            chains[-1].append(call)
+        else:
+            chains.append([call])
+        came = step.pair
+    if all(len(chain) == 1 for chain in chains):
+        return []
+    lines = []
+    for first, count in ((chain[0], len(chain)) for chain in chains):
+        x, v, *rest = map(translator.argument, first.args)
+        call_again = f"{first.target.rpartition(':')[2]}(x, v, {', '.join(rest)})"
+        lines += [f"x, v = {x}, {v}", f"for _ in range({count}):", f"    x, v = {call_again}"]
+        lines.append("print(x, v)")
+    return lines
+
+
+def assigned(line: str) -> bool:
+    return re.match(r"[\w, ]+ = ", line) is not None
+
+
+def rounds(steps: Sequence[Step]) -> tuple[int, int]:
+    """Where the same few requests begin to repeat until the end, and how many they are."""
+    signs = [sign(each.request) for each in steps]
+    if len(signs) <= FEW:
+        return 0, 0
+    for period in range(1, 13):
+        start = len(signs) - period
+        while start >= period and signs[start - period : start] == signs[-period:]:
+            start -= period
+        if (len(signs) - start) // period >= 4:
+            return start, period
+    return 0, 0
+
+
+def sign(request: Request) -> str:
+    """Which request it is, its numbers and those of its objects aside: runs may differ in both."""
+    match request:
+        case Call(target):
+            return f"call {target.partition('.')[2] if target.startswith('#') else target}"
+        case Get(name=name):
+            return f"get {name}"
+        case Set(fields=fields):
+            return f"set {' '.join(fields)}"
+    return type(request).__name__
+
+
+def restored(before: Step, after: Step) -> Iterator[str]:
+    """What brings the bodies to where the rounds left out have brought them."""
+    for name, row in after.bodies.items():
+        if before.bodies.get(name) != row and name.isidentifier():
+            yield f"{name}.pos = Vector2({row.x!r}, {row.y!r})"
+            yield f"{name}.vel = Vector2({row.vx!r}, {row.vy!r})"
+            yield f"{name}.angle, {name}.omega = {row.angle!r}, {row.omega!r}"
+
+
+def looks(steps: Sequence[Step]) -> Iterator[str]:
+    """Print what the check looked at last."""
+    last = next((step for step in reversed(steps) if step.code), None)
+    if last is None:
+        return
+    code = last.code[-1].strip()
+    if isinstance(last.request, Call) and code.startswith("contact"):
+        name = code.partition(" ")[0]
+        yield f"print({name} and ({name}.normal, {name}.depth, {name}.point))"
+    elif isinstance(last.request, Call) and code.startswith("space"):
+        yield "print(space.gravity, [(type(each), each.a, each.b) for each in space.constraints])"
+    elif isinstance(last.request, Simulate) and last.request.contacts:
+        world = code.partition(".")[0]
+        yield f"print([(each.jn, each.jt) for each in {world}.contacts])"
+    for name in dict.fromkeys(name for step in steps[steps.index(last) :] for name in step.watched):
+        if name.startswith("space") and name.isidentifier():
+            yield f"print([(each.mass, each.moment) for each in {name}.bodies])"
+            continue
+        pymunk = not name.isidentifier() or name.startswith("body")
+        fields = ("position", "velocity", "angle", "angular_velocity") if pymunk else STATE
+        yield f"print({', '.join(f'{name}.{each}' for each in fields)})"
+
+
+def play_again(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
+    """The lab scene, fed with the same frames; clicks and keys are left to a person."""
+    if play.events or not paced:
+        person = [f"{each.kind} {each.pos}" for each in play.events[:1]]
+        frames = f"frames of {', '.join(map(str, play.frames[:12]))} ms and so on"
+        return [f"from {module} import main"], [f"main()  # {', '.join([*person, frames])}"]
+    scene = "make_world(random.Random(12))"
+    look = "    print(body.pos, body.vel, body.angle)"
+    if module == "pymunk_scene":
+        scene, look = "make_space(random.Random(12))[0]", look.replace("pos", "position")
+        look = look.replace("vel", "velocity")
+    count = "    print(milliseconds, 'ms:', steps, 'steps, left over:', accumulator, 's')"
+    imports = ["import random", f"from {module} import advance, {scene.partition('(')[0]}"]
+    return imports, [
+        f"world, accumulator = {scene}, 0.0",
+        f"for milliseconds in {frames_text(play.frames)}:",
+        "    accumulator, steps = advance(world, accumulator, milliseconds / 1000)",
+        *(["for body in world.bodies:", look] if play.trail_every else [count]),
+    ]
+
+
+def frames_text(frames: Sequence[int]) -> str:
+    if len(set(frames)) == 1:
+        return f"[{frames[0]}] * {len(frames)}"
+    return repr(list(frames))

@@ -1,0 +1,76 @@
+"""Reading the pages that the grader writes: as a parser does, and in a real browser."""
+
+import html.parser
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+# What a submission may put into its names and messages: HTML, Markdown, controls, directions.
+HOSTILE = (
+    "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>&lt;b&gt; *a* \u202e\x07\n#"
+)
+HARMLESS = HOSTILE.replace("\u202e", " ").replace("\x07", " ").replace("\n", " ")  # the same shown
+
+
+class Reader(html.parser.HTMLParser):
+    """The tags of a page, and its text."""
+
+    def __init__(self, source: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.text, self.source = "", source
+        self.feed(source)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+    def count(self, tag: str) -> int:
+        return [each for each, _ in self.tags].count(tag)
+
+    @property
+    def handlers(self) -> list[str]:
+        """Attributes that would run something."""
+        return [name for _, attributes in self.tags for name in attributes if name[:2] == "on"]
+
+
+@contextmanager
+def chromium() -> Iterator[Any]:
+    """A browser, where this machine has one."""
+    sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+    names = ("chromium", "chromium-browser", "google-chrome")
+    path = next(filter(None, map(shutil.which, names)), None)
+    if path is None:
+        pytest.skip("needs Chromium on the PATH")
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+class Screen:
+    """A page in the browser; whatever it says to the console or asks of the network is kept."""
+
+    def __init__(self, browser: Any, path: Path, **options: Any) -> None:
+        self.page = browser.new_page(viewport={"width": 900, "height": 1000}, **options)
+        self.complaints: list[str] = []
+        self.page.on("console", lambda message: self.complaints.append(message.text))
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("dialog", lambda dialog: self.complaints.append(dialog.message))
+        self.page.on("request", self._asked)
+        self.page.goto(path.resolve().as_uri())
+
+    def _asked(self, request: Any) -> None:
+        if not request.url.startswith(("file:", "about:")):
+            self.complaints.append(request.url)
+
+    @property
+    def position(self) -> int:
+        """The frame that a replay shows."""
+        return int(self.page.locator("#picture").get_attribute("data-position"))
