@@ -1,5 +1,7 @@
 """The command line: `python -m grader COMMAND`."""
 
+import os
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, NoReturn
@@ -10,7 +12,9 @@ from grader import student
 from grader.commands import console, graded, known_todos, stop
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
+from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.report import commands as report
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
 
@@ -28,9 +32,11 @@ def grade_command(
         Path | None, typer.Argument(help="The submission; the shipped trees if left out.")
     ] = None,
     class_: Annotated[
-        bool, typer.Option("--class", help="PATH is a folder of submissions, a folder each.")
+        bool, typer.Option("--class", help="PATH holds submissions: a folder or zip of them.")
     ] = False,
-    out: Annotated[Path | None, typer.Option(help="Write NAME.json into this folder.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write NAME.json into this folder; a class always does.")
+    ] = None,
     json: Annotated[Path | None, typer.Option(help="Write the one result here as JSON.")] = None,
     reference: Annotated[
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
@@ -39,6 +45,21 @@ def grade_command(
     isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+    ci: Annotated[
+        Path | None, typer.Option(help="For CI: write its reports into this folder, tell GitHub.")
+    ] = None,
+    at_least: Annotated[
+        int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
+    ] = None,
+    roster: Annotated[
+        Path | None, typer.Option(help="For a class: its list, a CSV from Canvas or Moodle.")
+    ] = None,
+    adjust: Annotated[
+        Path | None, typer.Option(help="For a class: late days and points set by hand, as TOML.")
+    ] = None,
+    cluster: Annotated[
+        str, typer.Option(help="For a class: grade on the Dask cluster at this address.")
+    ] = "",
 ) -> None:
     """Grade a submission, or a class of them.
 
@@ -50,31 +71,77 @@ def grade_command(
     if path is None:
         demonstrate(options)
     elif class_:
-        grade_folder(path, out, options, jobs)
+        grade_folder(path, options, out, jobs, roster, adjust, cluster)
+    elif ci is not None:
+        grade_in_ci(path, ci, out, json, at_least, options)
     else:
-        grade_one(path, out, json, options)
+        replays = None if out is None else out / path.resolve().name
+        finish(shown(path, replace(options, replays=replays)), out, json, at_least)
 
 
-def grade_one(path: Path, out: Path | None, json: Path | None, options: Options) -> NoReturn:
+def shown(path: Path, options: Options) -> Result:
+    """The result of one submission, printed."""
     result = graded(path, options)
     show(result, console)
     show_isolation(result, console)
+    return result
+
+
+def finish(result: Result, out: Path | None, json: Path | None, at_least: int | None) -> NoReturn:
+    """Write what is wanted, and end with the status that the points deserve."""
     if json is not None:
         write_json(result, json)
     if out is not None:
+        from grader.report.html import write_report  # only here: it takes its time
+
         write_json(result, out / f"{result.submission}.json")
-    raise typer.Exit(0 if result.points == result.max_points else 1)
+        write_report(result, out / f"{result.submission}.html")
+    wanted = result.max_points if at_least is None else at_least
+    if wanted > result.max_points:
+        stop(f"--at-least {wanted} can never be reached: there are {result.max_points} points here")
+    raise typer.Exit(0 if result.points >= wanted else 1)
 
 
-def grade_folder(path: Path, out: Path | None, options: Options, jobs: int) -> NoReturn:
-    from grader.classroom.batch import grade_class, show_class
+def grade_in_ci(
+    path: Path,
+    folder: Path,
+    out: Path | None,
+    json: Path | None,
+    at_least: int | None,
+    options: Options,
+) -> NoReturn:
+    """What is printed for people is kept from being read as commands."""
+    from grader.report.ci import named_after_repository, own_folder, tell_github, write_reports
+    from grader.report.sinks.github import commands_stopped
+
+    if not own_folder(folder):
+        stop(f"{folder} is there already, and reports need a folder of their own: remove it")
+    with commands_stopped(os.environ):
+        result = shown(path, replace(options, replays=folder / "replays"))
+    result = named_after_repository(result, os.environ)
+    write_reports(result, folder)
+    tell_github(result, path, os.environ)
+    finish(result, out, json, at_least)
+
+
+def grade_folder(
+    path: Path,
+    options: Options,
+    out: Path | None,
+    jobs: int,
+    roster: Path | None,
+    adjust: Path | None,
+    cluster: str,
+) -> NoReturn:
+    from grader.classroom.batch import Wanted, run_class
 
     try:
-        outcomes = grade_class(path, out, options, jobs, console)
-    except CannotGrade as error:
+        run = run_class(path, Wanted(options, out, jobs, roster, adjust, cluster), console)
+    except (CannotGrade, OSError) as error:
         stop(str(error))
-    show_class(outcomes, console)
-    raise typer.Exit(2 if any(outcome.result is None for outcome in outcomes) else 0)
+    except KeyboardInterrupt:
+        stop("stopped; what is graded stays, and the same command goes on from there")
+    raise typer.Exit(2 if any(outcome.trouble for outcome in run.outcomes) else 0)
 
 
 def demonstrate(options: Options) -> None:
@@ -88,6 +155,7 @@ def demonstrate(options: Options) -> None:
 
 def main() -> None:
     app.add_typer(student.app)
+    app.add_typer(report.app)
     if find_spec("grader.classroom"):  # students get neither of these two folders
         from grader.classroom.commands import app as classroom
         from grader.maintain.commands import app as maintain

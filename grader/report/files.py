@@ -14,8 +14,13 @@ def as_json(result: Result) -> bytes:
 
 
 def write_json(result: Result, path: Path) -> None:
-    """Write it whole or not at all: a reader never meets half a file."""
+    write_whole(as_json(result), path)
+
+
+def write_whole(content: bytes, path: Path) -> None:
+    """Write it whole or not at all: a reader never meets half a file, and no link is followed."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
-    part.write_bytes(as_json(result))
+    part = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
+    with open(part, "xb") as file:
+        file.write(content)
     os.replace(part, path)

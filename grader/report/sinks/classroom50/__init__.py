@@ -1,0 +1,70 @@
+"""Classroom 50: the marks in its form, and the bundle of files by which it grades."""
+
+import shutil
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+
+import msgspec
+
+from grader.judge.result import Result
+from grader.report.sinks import named
+from grader.report.terminal import clean
+
+BUNDLE = Path(__file__).parent
+NEEDED = {
+    "classroom": "CLASSROOM",
+    "assignment": "ASSIGNMENT",
+    "submission": "SUBMISSION_TAG",
+    "commit": "COMMIT_URL",
+    "release": "RELEASE_URL",
+}
+STAMPED = {"assignment_type": "ASSIGNMENT_TYPE", "owner": "OWNER"}  # by the runner in any case
+
+
+class NoRunner(Exception):
+    """The variables of Classroom 50's runner are not there; the message names them."""
+
+
+def classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
+    """Its result.json: a test per TODO, whole points that add up.
+
+    Whose marks these are is said by the runner's environment. Raises NoRunner outside of it.
+    """
+    missing = [name for name in NEEDED.values() if not environment.get(name)]
+    if missing:
+        raise NoRunner(
+            f"{', '.join(missing)} not set: this form is for the runner of Classroom 50, which "
+            "sets them"
+        )
+    tests = [
+        {
+            "test-name": named(todo, clean(todo.title)),
+            "passed": todo.state == "passed",
+            "score": todo.points,
+            "max-score": todo.max_points,
+        }
+        for todo in result.todos
+    ]
+    marks = {
+        "schema": "classroom50/result/v1",
+        **{field: environment[name] for field, name in NEEDED.items()},
+        **{field: environment[name] for field, name in STAMPED.items() if name in environment},
+        "review": environment.get("REVIEW_URL") or environment["COMMIT_URL"],
+        "datetime": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "score": result.points,
+        "max-score": result.max_points,
+        "tests": tests,
+    }
+    return msgspec.json.format(msgspec.json.encode(marks)) + b"\n"
+
+
+def write_bundle(folder: Path, wheel: Path, requirements: Path) -> None:
+    """Make the folder CLASSROOM/autograders/ASSIGNMENT of a Classroom 50 repository.
+
+    `wheel` is the package that students get; `requirements` names it as a file beside itself, and
+    all that it needs. Everyone can read what is in the folder.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for source in (BUNDLE / "autograder.py", wheel, requirements):
+        shutil.copyfile(source, folder / source.name)

@@ -1,0 +1,74 @@
+"""Grades one submission for Classroom 50, whose runner starts this in the student's checkout.
+
+The grader is installed from the files beside this one into a folder of its own, and nothing is
+imported from the checkout. The exit status is 0 when grading came to its end, whatever the marks.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ISOLATION = "auto"  # "strict" refuses to grade where files and network cannot be shut off
+THE_RUNNERS = {"GITHUB_OUTPUT", "GITHUB_STEP_SUMMARY"}  # it writes the summary itself
+
+
+def main() -> int:
+    checkout = Path.cwd()
+    with tempfile.TemporaryDirectory(prefix="classroom50-") as temporary:
+        work = Path(temporary)
+        os.chdir(work)  # the checkout must not be where Python looks for modules
+        python = install(work / "python")
+        if python is None:
+            return 2
+        return grade(python, checkout, work / "report")
+
+
+def install(folder: Path) -> Path | None:
+    """The Python that has the grader; None where it could not be installed."""
+    venv.create(folder, with_pip=True)
+    python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    pip = [str(python), "-I", "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
+    installed = subprocess.run([*pip, "-r", "requirements.txt"], cwd=HERE).returncode == 0
+    return python if installed else None
+
+
+def grade(python: Path, checkout: Path, report: Path) -> int:
+    """Grade, and leave in the checkout what the runner takes from there."""
+    grader = [str(python), "-I", "-m", "grader"]
+    elsewhere = {name: os.environ[name] for name in os.environ if name not in THE_RUNNERS}
+    graded = subprocess.run(
+        [*grader, "grade", checkout, "--ci", report, "--isolation", ISOLATION], env=elsewhere
+    ).returncode
+    if graded not in (0, 1):  # full marks, or less
+        return graded
+    hand_in(report / "report.html", checkout / "report.html")
+    hand_in(report / "summary.md", checkout / "release-body.md")
+    marks = report / "result.json"
+    tell_status(json.loads(marks.read_bytes()))
+    return subprocess.run(
+        [*grader, "export", "classroom50", marks, "--out", checkout / "result.json"]
+    ).returncode
+
+
+def hand_in(made: Path, place: Path) -> None:
+    place.unlink(missing_ok=True)  # a link that the submission brought is not followed
+    shutil.copyfile(made, place)
+
+
+def tell_status(result: dict[str, int]) -> None:
+    """What stands beside the student's commit."""
+    points, most = result["points"], result["max_points"]
+    status = "success" if points == most else "failure"
+    if file := os.environ.get("GITHUB_OUTPUT"):
+        with open(file, "a", encoding="utf-8") as output:
+            output.write(f"status={status}\nsummary={points} of {most} points\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""Gradescope's results.json."""
+
+import msgspec
+
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.report.sinks import named
+from grader.report.terminal import clean, reasons
+
+
+def gradescope(result: Result) -> bytes:
+    """A test per check, all of them visible: one hidden test would hide the student's total."""
+    tests = [
+        test(todo, check, number)
+        for todo in result.todos
+        for number, check in enumerate(todo.checks, 1)
+    ]
+    return msgspec.json.format(
+        msgspec.json.encode(
+            {
+                "score": result.points,
+                "output": f"{result.points} of {result.max_points} points",
+                "output_format": "text",
+                "test_output_format": "text",
+                "visibility": "visible",
+                "stdout_visibility": "hidden",
+                "tests": tests,
+                "extra_data": {
+                    "schema": result.schema,
+                    "submission": clean(result.submission),
+                    "bonus": result.bonus,
+                    "isolation": result.isolation,
+                },
+            }
+        )
+    )
+
+
+def test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
+    return {
+        "score": check.points,
+        "max_score": check.max_points,
+        "status": "passed" if check.state == "passed" else "failed",
+        "name": named(todo, check.title),
+        "number": f"{todo.id}.{number}",
+        "output": "\n".join(reasons(check)) if check.state != "passed" else "",
+        "output_format": "text",
+        "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
+        "visibility": "visible",
+    }

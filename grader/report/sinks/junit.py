@@ -1,0 +1,50 @@
+"""JUnit XML, which GitLab, Jenkins and others show as a list of tests."""
+
+from xml.etree import ElementTree as ET
+
+from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.report.sinks import named
+from grader.report.terminal import clean, reasons
+
+TAGS: dict[State, str] = {
+    "not yet": "failure",
+    "error": "error",
+    "not started": "skipped",
+    "waiting": "skipped",
+}
+
+
+def junit(result: Result) -> bytes:
+    """A suite per TODO and a case per check, in the form of the schema junit-10."""
+    root = ET.Element("testsuites", name=clean(result.submission))
+    add_counts(root, result.todos)
+    for todo in result.todos:
+        suite = ET.SubElement(root, "testsuite", name=named(todo, todo.title))
+        add_counts(suite, [todo])
+        suite.set("skipped", str(count([todo], "skipped")))
+        for check in todo.checks:
+            add_case(suite, check)
+    ET.indent(root)
+    text = ET.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()
+
+
+def add_counts(element: ET.Element, todos: list[TodoResult]) -> None:
+    element.set("tests", str(sum(len(todo.checks) for todo in todos)))
+    element.set("failures", str(count(todos, "failure")))
+    element.set("errors", str(count(todos, "error")))
+
+
+def count(todos: list[TodoResult], tag: str) -> int:
+    return sum(TAGS.get(check.state) == tag for todo in todos for check in todo.checks)
+
+
+def add_case(suite: ET.Element, check: CheckResult) -> None:
+    """A case is named alike in every run, so that runs can be compared; GitLab shows classnames."""
+    points = "1 point" if check.max_points == 1 else f"{check.max_points} points"
+    case = ET.SubElement(suite, "testcase", classname=suite.attrib["name"])
+    case.set("name", f"{check.title} ({points})")
+    if tag := TAGS.get(check.state):
+        told = ET.SubElement(case, tag, message=clean(check.got) or check.state)
+        if tag != "skipped":
+            told.text = "\n".join(reasons(check))

@@ -1,0 +1,73 @@
+"""Markdown as GitHub shows it: the summary of a job, the text of a release."""
+
+import re
+from itertools import accumulate
+
+from grader.judge.isolation import unconfined
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.rubric import load_rubric
+from grader.report.sinks import named
+from grader.report.terminal import FAILED, clean, reasons
+
+ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 KiB
+
+
+def markdown(result: Result) -> str:
+    """A table of the TODOs, then why checks failed.
+
+    A submission's words stand in fenced lines that begin with a word of ours, so that none of them
+    can end the fence.
+    """
+    bonus = f", and {result.bonus} bonus" if result.bonus else ""
+    lines = [
+        f"## {literal(result.submission)}: {result.points} of {result.max_points} points{bonus}",
+        "",
+        "| TODO | | state | points |",
+        "|---|---|---|--:|",
+        *map(row, result.todos),
+        *hidden(result),
+        *bounded([why(todo, check) for todo in result.todos for check in failed(todo)]),
+        "",
+        f"Isolation: {', '.join(result.isolation)}.",
+    ]
+    if lacking := unconfined(result.isolation):
+        lines += ["", f"**Not confined here: {', '.join(lacking)}.**"]
+    return "\n".join(lines) + "\n"
+
+
+def row(todo: TodoResult) -> str:
+    points = f"{todo.points} / {todo.max_points}"
+    return f"| {todo.id} | {literal(todo.title)} | {todo.state} | {points} |"
+
+
+def hidden(result: Result) -> list[str]:
+    """In a student's copy of the grader: what it has no checks for."""
+    here = {todo.id for todo in result.todos}
+    points = sum(todo.hidden_points for todo in load_rubric().todos if todo.id in here)
+    words = f"{points} more points come from checks that only your instructor runs."
+    return ["", words] if points else []
+
+
+def why(todo: TodoResult, check: CheckResult) -> str:
+    """A heading and a fenced text, set apart by empty lines."""
+    heading = f"#### {named(todo, literal(check.title))}"
+    text = "\n".join(reasons(check, f", TODO {todo.id}" * (todo.id != "whole")))
+    return f"\n{heading}\n\n```text\n{text}\n```"
+
+
+def bounded(parts: list[str]) -> list[str]:
+    """As many as there is room for, and how many were left out."""
+    ends = accumulate(map(len, parts))
+    kept = [part for part, end in zip(parts, ends, strict=True) if end <= ROOM]
+    left = len(parts) - len(kept)
+    return [*kept, f"\nAnd {left} failed checks more."] if left else kept
+
+
+def failed(todo: TodoResult) -> list[CheckResult]:
+    """The checks that there is something to say about."""
+    return [check for check in todo.checks if check.state in FAILED]
+
+
+def literal(words: str) -> str:
+    """Words that mean themselves in Markdown, in its tables and in HTML."""
+    return re.sub(r"[^\w ,()/'-]|_", lambda found: f"&#{ord(found[0])};", clean(words))

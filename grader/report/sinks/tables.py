@@ -1,0 +1,69 @@
+"""Plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
+
+import csv
+import io
+import unicodedata
+from collections.abc import Iterable, Iterator
+
+import msgspec
+
+from grader.judge.result import Result
+from grader.report.terminal import clean
+
+COLUMNS = (
+    "submission",
+    "todo",
+    "check",
+    "kind",
+    "state",
+    "points",
+    "max_points",
+    "misconception",
+    "expected",
+    "got",
+    "where",
+)
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+
+
+def csv_table(results: Iterable[Result]) -> bytes:
+    """A line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow(COLUMNS)
+    for row in rows(results):
+        writer.writerow([harmless(v) if isinstance(v, str) else v for v in row.values()])
+    return out.getvalue().encode("utf-8-sig")
+
+
+def json_lines(results: Iterable[Result]) -> bytes:
+    """An object per check; no value is changed for a spreadsheet's sake."""
+    return b"".join(msgspec.json.encode(row) + b"\n" for row in rows(results))
+
+
+def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
+    """Bonus TODOs have lines as well: their names begin with a B."""
+    for result in results:
+        for todo in result.todos:
+            for check in todo.checks:
+                place = f"{check.where.file}:{check.where.line}" if check.where else ""
+                values = (
+                    clean(result.submission),
+                    todo.id,
+                    check.id,
+                    check.kind,
+                    check.state,
+                    check.points,
+                    check.max_points,
+                    clean(todo.misconception or ""),
+                    clean(check.expected),
+                    clean(check.got),
+                    clean(place),
+                )
+                yield dict(zip(COLUMNS, values, strict=True))
+
+
+def harmless(cell: str) -> str:
+    """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
+    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
+    return f"'{cell}" if plain.startswith(FORMULA) else cell

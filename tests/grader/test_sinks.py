@@ -1,0 +1,286 @@
+"""Each form says the same as the result, and no word of a submission changes its build."""
+
+import base64
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import ci_readers
+import msgspec
+import pytest
+
+from grader.judge.grade import KIT
+from grader.judge.result import CheckResult, Result, State, TodoResult, Where
+from grader.report.files import write_json
+from grader.report.sinks.classroom50 import NoRunner, classroom50
+from grader.report.sinks.github import SHOWN, annotations, commands_stopped, outputs
+from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.junit import junit
+from grader.report.sinks.markdown import markdown
+from grader.report.sinks.reporter import reporter
+from grader.report.terminal import clean
+
+RUNNER = {
+    "CLASSROOM": "physics",
+    "ASSIGNMENT": "engine",
+    "ASSIGNMENT_TYPE": "individual",
+    "OWNER": "anna",
+    "SUBMISSION_TAG": "submit/2026-10-01T10-00-00Z-0a1b2c3",
+    "COMMIT_URL": "https://git.example/commit/0a1b2c3",
+    "RELEASE_URL": "https://git.example/releases/1",
+    "REVIEW_URL": "https://git.example/compare/1...2",
+}
+HOSTILE = [
+    "::error title=Well done::100 of 100 points",
+    "\n::set-output name=points::100",
+    "words\r\n::add-mask::1\r\n::stop-commands::mine",
+    "words ##[error]100 of 100 points",
+    "##[set-output name=points]100",
+    "%0A::error::100%0D%25",
+    "points=100\nresult<<END\nforged\nEND",
+    "]]></failure></testcase><testcase name='all' classname='passed'/>",
+    "<!-- --> <script>alert(1)</script> <img src=x onerror=alert(1)>",
+    "```\n## 100 of 100 points\n```",
+    "~~~\n| 1 | all | passed | 100 / 100 |",
+    "**bold** _line_ `code` [link](javascript:alert(1)) ![](https://track.example/a.png)",
+    "@everyone see #1 and https://track.example www.track.example",
+    "&lt;b&gt; &#60;b&#62; \\<b\\>",
+    "\x1b[2J\x1b]0;title\x07 \u202e \u2028 \x00 \ufffe \ud800",
+    "a,line=1,title=b::c",
+    "long " * 100_000,
+]
+
+
+def check(state: State, words: str = "words", number: int = 1, file: str = "world.py") -> Any:
+    return CheckResult(
+        id=f"check_{number}",
+        title="Loses as much, whatever the step",
+        kind="unit",
+        state=state,
+        points=3 if state == "passed" else 0,
+        max_points=3,
+        ran=words,
+        expected=words,
+        got=words,
+        meaning=words,
+        where=Where(file, 71),
+    )
+
+
+def result(
+    words: str = "words", states: tuple[State, ...] = ("passed", "not yet", "error"), todos: int = 1
+) -> Result:
+    checks = [check(each, words, number, words) for number, each in enumerate(states)]
+    points = sum(each.points for each in checks)
+    state: State = "passed" if set(states) == {"passed"} else "not yet"
+    made = [
+        TodoResult(str(n), "Damping per second", state, points, 3 * len(states), None, checks)
+        for n in range(todos)
+    ]
+    most = 3 * len(states) * todos
+    return Result(1, words, points * todos, most, 0, ["rlimits", "landlock-files"], made)
+
+
+EVERY: tuple[State, ...] = ("passed", "not yet", "not started", "waiting", "error")
+hostile = pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
+
+
+# ---------------------------------------------------------------- GitHub
+
+
+@hostile
+def test_annotations_are_the_graders_own(words: str):
+    log = annotations(result(words, todos=2))
+    found = ci_readers.commands_in(log)
+    assert [(name, set(held)) for name, held, _ in found] == [
+        ("error", {"file", "line", "title"})
+    ] * 2
+    for _, held, message in found:
+        assert held["line"] == "71" and held["title"].endswith(": Damping per second")
+        assert held["file"] == clean(words)
+        assert clean(words) in message
+
+
+def test_an_annotation_says_where_the_line_is_in_the_repository():
+    (found,) = ci_readers.commands_in(annotations(result("world.py"), inside="week 3/engine"))
+    assert found[1]["file"] == "week 3/engine/world.py"
+
+
+def test_a_todo_is_annotated_once_and_only_if_a_check_failed():
+    (found,) = ci_readers.commands_in(annotations(result(states=("not yet", "error", "waiting"))))
+    assert "failed as well: 1" in found[2]
+    assert annotations(result(states=("passed", "not started", "waiting"))) == ""
+
+
+def test_more_errors_than_github_shows_go_on_as_warnings():
+    names = [name for name, _, _ in ci_readers.commands_in(annotations(result(todos=14)))]
+    assert names == ["error"] * SHOWN + ["warning"] * 4
+
+
+@hostile
+def test_outputs_are_three_whatever_the_words(words: str):
+    found = ci_readers.outputs_in(outputs(result(words)))
+    assert set(found) == {"points", "max-points", "result"}
+    assert (found["points"], found["max-points"]) == ("3", "9")
+    assert json.loads(base64.b64decode(found["result"])) == json.loads(reporter(result(words)))
+
+
+@hostile
+def test_what_is_printed_for_people_is_no_command(words: str, capfd: Any):
+    with commands_stopped({"GITHUB_ACTIONS": "true"}):
+        print(words.encode("utf-8", "replace").decode())
+    print("::notice::afterwards")
+    assert ci_readers.commands_in(capfd.readouterr().out) == [("notice", {}, "afterwards")]
+
+
+def test_the_word_that_lets_commands_through_again_cannot_be_known(capfd: Any):
+    for _ in range(2):
+        with commands_stopped({"GITHUB_ACTIONS": "true"}):
+            pass
+    tokens = [line[2:-2] for line in capfd.readouterr().out.splitlines()[1::2]]
+    assert len(set(tokens)) == 2 and all(len(token) >= 32 for token in tokens)
+
+
+def test_elsewhere_nothing_is_wrapped(capfd: Any):
+    with commands_stopped({}):
+        print("words")
+    assert capfd.readouterr().out == "words\n"
+
+
+# ---------------------------------------------------------------- the reporter
+
+
+@hostile
+def test_the_reporter_prints_no_command(words: str):
+    results = json.loads(reporter(result(words, EVERY)))
+    log = ci_readers.reporter_log(results)
+    assert ci_readers.commands_in(log) == [] and len(log.splitlines()) == len(EVERY)
+
+
+def test_the_reporter_adds_up_to_the_points():
+    encoded = ci_readers.outputs_in(outputs(result(states=EVERY, todos=2)))["result"]
+    results = ci_readers.reported(encoded)
+    assert sum(test["score"] for test in results["tests"]) == 6
+    assert results["max_score"] == 30 and results["status"] == "fail"
+    statuses = [test["status"] for test in results["tests"][:5]]
+    assert statuses == ["pass", "fail", "fail", "fail", "error"]
+
+
+@pytest.mark.parametrize(
+    ("states", "status"),
+    [(("passed",), "pass"), (("passed", "error"), "error"), (("error", "waiting"), "fail")],
+)
+def test_the_reporter_is_told_how_it_went(states: tuple[State, ...], status: str):
+    assert json.loads(reporter(result(states=states)))["status"] == status
+
+
+# ---------------------------------------------------------------- Markdown
+
+
+@hostile
+def test_words_change_no_markdown(words: str):
+    plain, forged = (
+        ci_readers.markdown_tokens(markdown(result(each, EVERY))) for each in ("words", words)
+    )
+    assert [token.type for token in plain if token.type != "text_special"] == [
+        token.type for token in forged if token.type not in ("text_special", "softbreak")
+    ]
+    fences = [token.content for token in forged if token.type == "fence"]
+    assert len(fences) == 2 and all(clean(words) in each for each in fences)
+    heading = next(token for token in forged if token.type == "inline")
+    assert "".join(each.content for each in heading.children).startswith(clean(words).strip())
+
+
+def test_the_summary_has_every_todo_with_its_points():
+    text = markdown(result(states=EVERY, todos=3))
+    rows = [line for line in text.splitlines() if line.endswith("| not yet | 3 / 15 |")]
+    assert len(rows) == 3 and "9 of 45 points" in text
+    assert "Not confined here: network, other processes" in text
+
+
+def test_the_longest_summary_is_short_enough_for_github():
+    longest = markdown(result("\U0001f600" * 1000, ("error",) * 8, todos=14))
+    assert len(longest.encode("utf-8")) < 1024 * 1024  # a job's summary
+    assert len(longest) < 125_000  # a release's text
+    told = sum(token.type == "fence" for token in ci_readers.markdown_tokens(longest))
+    assert told > 40 and f"And {8 * 14 - told} failed checks more." in longest
+
+
+# ---------------------------------------------------------------- the others
+
+
+@hostile
+def test_words_change_no_junit(words: str):
+    plain, forged = (ci_readers.junit_cases(junit(result(w, EVERY))) for w in ("words", words))
+    assert [[each.tag for each in case.iter()] for case in forged] == [
+        [each.tag for each in case.iter()] for case in plain
+    ]
+    error = forged[-1].find("error")
+    assert error is not None and error.attrib["message"] == (clean(words) or "error")
+    assert error.text is not None and clean(words) in error.text
+
+
+def test_junit_names_what_passed_failed_and_did_not_run():
+    cases = ci_readers.junit_cases(junit(result(states=EVERY)))
+    assert [[each.tag for each in case] for case in cases] == [
+        *([], ["failure"], ["skipped"], ["skipped"], ["error"])
+    ]
+    assert cases[0].attrib["classname"] == "TODO 0: Damping per second"
+
+
+@hostile
+def test_gradescope_gets_whole_points_and_plain_text(words: str):
+    tests = ci_readers.gradescope_tests(json.loads(gradescope(result(words, EVERY))))
+    assert [test["status"] for test in tests] == ["passed", *["failed"] * 4]
+    assert clean(words) in tests[1]["output"] and len(tests[1]["output"]) < 2500
+
+
+@hostile
+def test_classroom50_gets_whole_points(words: str):
+    marks = json.loads(classroom50(result(words, EVERY, todos=2), RUNNER))
+    assert ci_readers.classroom50_marks(marks) == 6
+    assert [test["passed"] for test in marks["tests"]] == [False, False]
+    assert words.strip() == "" or clean(words) not in json.dumps(marks)
+
+
+def test_classroom50_needs_its_runner():
+    with pytest.raises(NoRunner, match="SUBMISSION_TAG, COMMIT_URL, RELEASE_URL not set"):
+        classroom50(result(), {"CLASSROOM": "physics", "ASSIGNMENT": "engine"})
+
+
+# ---------------------------------------------------------------- the command
+
+
+def export(*args: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "grader", "export", *map(str, args)]
+    wide = {**os.environ, "COLUMNS": "500"}
+    return subprocess.run(command, cwd=KIT, env=wide, capture_output=True, encoding="utf-8")
+
+
+def test_export_writes_what_it_prints(tmp_path: Path):
+    write_json(result(states=EVERY), tmp_path / "ann.json")
+    printed = export("junit", tmp_path / "ann.json")
+    assert printed.returncode == 0, printed.stderr
+    assert len(ci_readers.junit_cases(printed.stdout.encode())) == len(EVERY)
+    done = export("junit", tmp_path / "ann.json", "--out", tmp_path / "new" / "junit.xml")
+    assert done.returncode == 0 and done.stdout == ""
+    assert (tmp_path / "new" / "junit.xml").read_text(encoding="utf-8") == printed.stdout
+
+
+def test_export_of_what_is_no_result_ends_with_a_sentence(tmp_path: Path):
+    (tmp_path / "ann.json").write_bytes(msgspec.json.encode({"points": 100}))
+    done = export("markdown", tmp_path / "ann.json")
+    assert done.returncode == 2 and "is no result of the grader" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_file_is_written_in_the_place_of_a_link_and_not_through_it(tmp_path: Path):
+    (tmp_path / "precious").write_text("as it was")
+    (tmp_path / "marks.json").symlink_to(tmp_path / "precious")
+    write_json(result(), tmp_path / "marks.json")
+    assert (tmp_path / "precious").read_text() == "as it was"
+    assert not (tmp_path / "marks.json").is_symlink()
+    assert {path.name for path in tmp_path.iterdir()} == {"precious", "marks.json"}
