@@ -1,8 +1,13 @@
-"""The right answers, in closed form: plain numbers in, plain numbers out."""
+"""The right answers, in closed form: plain numbers in, plain numbers out.
+
+What is as good as the code of a TODO is marked as an oracle. Students get its recorded answers.
+"""
 
 import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
+
+from grader.judge import recorded
 
 
 class Disc(NamedTuple):
@@ -28,6 +33,7 @@ class Touch(NamedTuple):
     py: float
 
 
+@recorded.oracle()
 def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
     """The contact of a disc with a box; several answers where faces are equally near."""
     x = min(max(disc.x, rect.x - rect.hx), rect.x + rect.hx)
@@ -43,6 +49,16 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
     return [touch for touch in ways if touch.depth <= shortest + 1e-9]
 
 
+def equally_near(disc: Disc, rect: Rect) -> bool:
+    """Whether a centre inside has two nearest faces, so that either way out is right."""
+    across, down = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
+    if min(across, down) < 0:
+        return False
+    in_the_middle = disc.x == rect.x if across < down else disc.y == rect.y
+    return across == down or in_the_middle
+
+
+@recorded.oracle()
 def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
     """The contacts by which a disc with its centre inside could leave: left, right, top, bottom."""
     left, right = rect.x - rect.hx, rect.x + rect.hx
@@ -55,6 +71,11 @@ def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
     ]
 
 
+RATES = [number / 16 for number in range(49)]  # 1/s, what properties ask about
+STEP_SIZES = [1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480]  # s
+
+
+@recorded.oracle(RATES, STEP_SIZES)
 def damped(rate: float, seconds: float) -> float:
     """The share of a speed that is left after so many seconds at a rate per second."""
     return math.exp(-rate * seconds)
@@ -88,6 +109,7 @@ def cross(first: Pair, second: Pair) -> float:
     return first[0] * second[1] - first[1] * second[0]
 
 
+@recorded.oracle()
 def effective_mass(a: Lever, b: Lever, axis: Pair) -> float:
     """The sum that effective_mass returns, in 1/kg."""
     turning = (cross((each.rx, each.ry), axis) ** 2 * inverse(each.inertia) for each in (a, b))
@@ -130,16 +152,19 @@ class Rod(NamedTuple):
         """The speed of B away from A that takes the share BETA of the error away, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
 
-    def pushed(self, impulse: float) -> tuple[Pair, Pair]:
-        """The velocities of A and B after an impulse along the axis; positive pushes them apart."""
-        (ax, ay), (bx, by), (x, y) = self.vel_a, self.vel_b, self.axis
-        a, b = impulse * inverse(self.mass_a), impulse * inverse(self.mass_b)
-        return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
+
+@recorded.oracle()
+def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
+    """The velocities of A and B after an impulse along the axis; positive pushes them apart."""
+    (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
+    a, b = impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b)
+    return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
 
 
+@recorded.oracle()
 def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
     """The velocities of A and B after a pass over the rod."""
-    return rod.pushed((rod.bias - rod.speed) / rod.k)
+    return pushed(rod, (rod.bias - rod.speed) / rod.k)
 
 
 DEPTH = 0.25  # px, the overlap of every contact that is rubbed
@@ -157,10 +182,12 @@ class Rubbing(NamedTuple):
         return max(self.jn + self.closing / k, 0.0)
 
 
+@recorded.oracle()
 def clamped(value: float, limit: float) -> float:
     return max(-limit, min(limit, value))
 
 
+@recorded.oracle()
 def friction_totals(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
     """The friction impulse on B in total after each pass, along the slip; k in 1/kg."""
     totals = [0.0]
@@ -181,11 +208,13 @@ def polynomial(coefficients: Sequence[float]) -> Accel:
     return lambda x: math.fsum(c * x**power for power, c in enumerate(coefficients))
 
 
+@recorded.oracle()
 def semi_implicit_euler(x: float, v: float, dt: float, accel: Accel) -> State:
     v += dt * accel(x)
     return x + dt * v, v
 
 
+@recorded.oracle()
 def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
     """Half a kick, the whole way, half a kick."""
     half_way = v + dt / 2 * accel(x)
@@ -193,6 +222,7 @@ def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
     return x, half_way + dt / 2 * accel(x)
 
 
+@recorded.oracle()
 def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
     """The classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
     total_dx = total_dv = 0.0

@@ -54,40 +54,40 @@ def moved(vel: Pair, axis: Pair, by: float) -> Pair:
 
 
 known("only-pulls", "The rod only pulls, like a rope; a rod also pushes when it is too short.")(
-    lambda rod: rod.pushed(min(0.0, right_impulse(rod)))
+    lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))
 )
 
 known(
     "only-pushes", "The impulse is clamped like a contact's; a rod needs no clamp, it also pulls."
-)(lambda rod: rod.pushed(max(0.0, right_impulse(rod))))
+)(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod))))
 
 known("ignores-the-bias", "The bias is left out: the rod never wins back the length it has lost.")(
-    lambda rod: rod.pushed(-rod.speed / rod.k)
+    lambda rod: exact.pushed(rod, -rod.speed / rod.k)
 )
 
 known(
     "ignores-the-speed", "The speed along the rod is left out; the impulse is for what is missing."
-)(lambda rod: rod.pushed(rod.bias / rod.k))
+)(lambda rod: exact.pushed(rod, rod.bias / rod.k))
 
 known(
     "adds-the-speed", "Speed and bias are added; the impulse is for the difference, bias - speed."
-)(lambda rod: rod.pushed((rod.bias + rod.speed) / rod.k))
+)(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k))
 
 known(
     "pushes-the-wrong-way", "Both ends are pushed the wrong way: A gets -impulse, B gets +impulse."
-)(lambda rod: rod.pushed(-right_impulse(rod)))
+)(lambda rod: exact.pushed(rod, -right_impulse(rod)))
 
 known(
     "multiplies-by-k", "The impulse is multiplied by k; k is speed per impulse, so divide by it."
-)(lambda rod: rod.pushed((rod.bias - rod.speed) * rod.k))
+)(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k))
 
 known(
     "not-divided-by-k", "The impulse lacks the division by k, the speed that one unit of it gives."
-)(lambda rod: rod.pushed(rod.bias - rod.speed))
+)(lambda rod: exact.pushed(rod, rod.bias - rod.speed))
 
 
 known("bias-has-the-wrong-sign", "The bias is turned round: a stretched rod is stretched further.")(
-    lambda rod: rod.pushed((-rod.bias - rod.speed) / rod.k)
+    lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)
 )
 
 known("impulse-is-not-applied", "No velocity changes: the impulse must reach both ends.")(
@@ -97,18 +97,18 @@ known("impulse-is-not-applied", "No velocity changes: the impulse must reach bot
 
 @known("moves-only-a", "Only A gets the impulse; B must get the opposite one.")
 def only_a(rod: Rod) -> Ends:
-    return rod.pushed(right_impulse(rod))[0], rod.vel_b
+    return exact.pushed(rod, right_impulse(rod))[0], rod.vel_b
 
 
 @known("moves-only-b", "Only B gets the impulse; A must get the opposite one.")
 def only_b(rod: Rod) -> Ends:
-    return rod.vel_a, rod.pushed(right_impulse(rod))[1]
+    return rod.vel_a, exact.pushed(rod, right_impulse(rod))[1]
 
 
 @known("pushes-both-the-same-way", "Both ends get the same impulse; A must get the opposite one.")
 def same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
-    return moved(rod.vel_a, rod.axis, by), rod.pushed(right_impulse(rod))[1]
+    return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
 
 @known(

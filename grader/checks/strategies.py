@@ -3,7 +3,7 @@
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
-from grader.checks.exact import Disc, Lever, Rect, Rod, Rubbing
+from grader.checks.exact import STEP_SIZES, Disc, Lever, Rect, Rod, Rubbing
 
 coordinates = st.integers(-1600, 1600).map(lambda n: n / 8)  # px
 radii = st.integers(8, 320).map(lambda n: n / 8)  # px
@@ -14,8 +14,8 @@ masses = st.integers(1, 400).map(lambda n: n / 8)  # kg
 masses_or_static = st.just(0.0) | masses
 impulses = st.integers(0, 800).map(lambda n: n / 8)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
-rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s
-step_sizes = st.sampled_from([1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480])  # s
+rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s, as in RATES
+step_sizes = st.sampled_from(STEP_SIZES)  # s
 
 states = st.tuples(*[st.integers(-32, 32).map(lambda n: n / 8)] * 2)  # x in px, v in px/s
 forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term

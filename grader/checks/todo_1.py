@@ -107,8 +107,8 @@ def a_mirrored_or_moved_pair_touches_alike(
 ) -> None:
     """A mirrored or moved pair touches in the mirrored or moved way"""
     disc, rect = both
-    if len(exact.circle_box(disc, rect)) > 1:
-        return  # equally near faces: either is right, and mirroring may choose the other
+    if exact.equally_near(disc, rect):
+        return  # either face is right, and mirroring may choose the other
     first = touch(lab, disc, rect)
     second = touch(
         lab,

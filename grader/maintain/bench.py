@@ -1,15 +1,18 @@
-"""What the grader costs: a full grade, the wall around it, and the simulation inside it.
+"""What the grader costs: a student's wait, a full grade, and the wall around it.
 
-All three come from one run, taken in turns; the least of the rounds counts, and the ratio is what
-to look at. Only the shipped solution is run without the wall: nothing else ever is.
+What is compared comes from one run, taken in turns; the least of the rounds counts, and the ratio
+is what to look at. Only the shipped solution is run without the wall: nothing else ever is.
 """
 
 import os
+import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
 from time import perf_counter  # kept: the scripted clock replaces the one in the module
 from typing import Any
 
@@ -21,8 +24,9 @@ from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_refere
 from grader.judge.reference import Reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import take_in
-from grader.protocol import Answered, ChildSetup, Play, Ready, Request, Simulate
+from grader.protocol import Answered, ChildSetup, Film, Play, Ready, Request, Simulate
 from grader.worker.child import answer
+from grader.worker.film import Camera
 from grader.worker.output import Output
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import Subject
@@ -45,9 +49,11 @@ class OpenChild(Child):
         self.output.install()
         self.subject = Subject(Path(setup.submission))
 
-    def ask(self, request: Request) -> Answered:
+    def ask(self, request: Request | Film) -> Answered:
+        assert not isinstance(request, Film)  # no replays are made here
         start = perf_counter()
-        reply = answer(self.subject, self.clock, self.output, request)
+        camera = Camera(self.subject)
+        reply = answer(self.subject, self.clock, self.output, camera, request)
         if isinstance(request, Simulate | Play):
             self.times.simulating += perf_counter() - start
         return Answered(0, reply)
@@ -123,8 +129,68 @@ def run_once(isolated: bool) -> Times:
     return times
 
 
+@contextmanager
+def watching(tree: Path, todo: str) -> Iterator["subprocess.Popen[str]"]:
+    """A `check --watch` that has shown its first result."""
+    command = [sys.executable, "-m", "grader", "check", "--todo", todo, "--watch"]
+    with subprocess.Popen(command, cwd=tree, stdout=subprocess.PIPE, text=True) as process:
+        read_until(process, "Watching")
+        try:
+            yield process
+        finally:
+            process.terminate()
+
+
+def read_until(process: "subprocess.Popen[str]", start: str) -> None:
+    assert process.stdout is not None
+    if not any(line.startswith(start) for line in process.stdout):
+        raise RuntimeError(f"check --watch ended before it said: {start}")
+
+
+def seconds_to_answer(tree: Path, name: str) -> float:
+    """How long a student's command takes, from the shell's prompt to the next one."""
+    start = perf_counter()
+    command = [sys.executable, "-m", "grader", name, "--todo", "4"]
+    subprocess.run(command, cwd=tree, stdout=subprocess.DEVNULL, check=True)
+    return perf_counter() - start
+
+
+def seconds_after_save(tree: Path, process: "subprocess.Popen[str]") -> float:
+    """How long a watch takes, from a save inside TODO 4 to its points."""
+    path = tree / "mini_engine" / "solver.py"
+    text = path.read_text(encoding="utf-8").replace("    # END TODO 4", "    #\n    # END TODO 4")
+    start = perf_counter()
+    path.write_text(text, encoding="utf-8")
+    read_until(process, "TODO 4:")
+    return perf_counter() - start
+
+
+def bench_check(rounds: int, console: Console) -> None:
+    """Print how long a student waits for TODO 4."""
+    cold, hint, warm = [], [], []
+    with work_folder() as work:
+        tree = work / "tree"
+        shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("__pycache__"))
+        with watching(tree, "4") as process:
+            for _ in range(rounds):
+                cold.append(seconds_to_answer(tree, "check"))
+                hint.append(seconds_to_answer(tree, "hint"))
+                warm.append(seconds_after_save(tree, process))
+    table = Table("a student waits for TODO 4", "best, s", "median, s", "ratio")
+    table.title = f"all cores, {rounds} rounds"
+    for name, times in (
+        ("check --todo 4", cold),
+        ("hint --todo 4: Python and the command line alone", hint),
+        ("check --watch, after a save", warm),
+    ):
+        ratio = f"{min(times) / min(cold):.2f}"
+        table.add_row(name, f"{min(times):.2f}", f"{median(times):.2f}", ratio)
+    console.print(table)
+
+
 def bench(rounds: int, console: Console) -> None:
-    """Print the price of a grade on one core."""
+    """Print how long a student waits, and then the price of a grade on one core."""
+    bench_check(rounds, console)
     os.environ.update(clean_environment())
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})

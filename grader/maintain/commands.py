@@ -1,5 +1,6 @@
 """The commands of those who look after the kit: each says whether all is sound."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -37,6 +38,25 @@ def verify_command(
     from grader.maintain.verify import verify
 
     raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+
+
+@app.command("release")
+def release_command(
+    out: Annotated[Path, typer.Option(help="Where to put it.")] = KIT / "build" / "release",
+    jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
+) -> None:
+    """Make the archive that students get, unless something in it gives the solution away.
+
+    Exit status 0: it is there, 2: it was not made, and why.
+    """
+    from grader.maintain.release import Refused, release
+
+    try:
+        made = release(out, jobs, console)
+    except Refused as error:
+        stop(str(error), "release")
+    for path in made:
+        console.print(f"made {path}", soft_wrap=True)
 
 
 @app.command("mutants")

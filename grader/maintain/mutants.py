@@ -259,7 +259,7 @@ def name_holds(submission: Path, todo: str, name: str) -> bool:
 
 def foretold(todo: str, name: str, seen: Sequence[Observation]) -> bool:
     """Whether a model of this mistake gives every answer it speaks of, and all others are right."""
-    misconceptions.load_known()
+    misconceptions.load_known(todo)
     models = [each for each in misconceptions.known if (each.todo, each.id) == (todo, name)]
     return any(
         misconceptions.explains(model, seen)

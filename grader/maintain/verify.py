@@ -93,7 +93,9 @@ def grade_member(member: Member) -> Verdict:
         start = time.monotonic()
         try:
             with watched(Path(folder, "temporary")) as traces:
-                result = grade(submission, options, worker)
+                # One without fork keeps processes ahead, as if left behind: not to be shared.
+                shared = worker if isinstance(worker, WarmWorker) else None
+                result = grade(submission, options, shared)
         except Exception as error:  # a judge that falls over is the worst verdict of all
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
@@ -105,7 +107,10 @@ def grade_member(member: Member) -> Verdict:
 @cache
 def shared_worker() -> WarmWorker | SpawnWorker:
     """One for all members that this process grades; it ends when this process does."""
-    return start_worker()
+    worker = start_worker()
+    if isinstance(worker, WarmWorker):
+        worker.wait_until_loaded()  # its own processes are none that a grade leaves behind
+    return worker
 
 
 def show(report: Report, console: Console) -> None:

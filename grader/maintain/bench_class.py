@@ -1,0 +1,164 @@
+"""What grading a class costs: cores, the grader's own share, memory, a second run, a cluster.
+
+The class is made from the bank. Every figure comes from `grade --class` as instructors run it.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from itertools import cycle, islice
+from pathlib import Path
+
+import psutil
+from rich.console import Console
+from rich.table import Table
+
+from grader.classroom.batch import shared_worker
+from grader.classroom.book import read_book
+from grader.judge import plugin
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.maintain.bank import members
+
+SAMPLE = 20  # submissions that are graded alone, to see what of it is checks
+
+
+@dataclass
+class Measured:
+    """One run over the class."""
+
+    seconds: float
+    results: dict[str, bytes]  # every result and the table
+    busy: float  # s that processes were grading, all together
+    early: float  # MB of all processes at most, until half is graded
+    late: float  # MB at most, after that
+
+
+def make_class(folder: Path, size: int) -> None:
+    """As many students as wanted: wrong and right members of the bank in turns."""
+    chosen = [each for each in members(KIT) if each.kind != "hostile"]
+    for number, member in enumerate(islice(cycle(chosen), size)):
+        member.build(KIT, folder / f"{number:04}-{member.name}")
+
+
+def run(
+    folder: Path,
+    out: Path,
+    *options: str,
+    cores: int = 0,
+    at: int = 0,
+    then: Callable[[psutil.Popen], None] | None = None,
+) -> Measured:
+    """Grade the class, on the first `cores` cores only; something happens `at` so many results."""
+    command = [sys.executable, "-m", "grader", "grade", "--class", str(folder), "--out", str(out)]
+    start = time.monotonic()
+    process = psutil.Popen([*command, *options], cwd=KIT, stdout=subprocess.DEVNULL)
+    if cores and hasattr(process, "cpu_affinity"):
+        process.cpu_affinity(sorted(os.sched_getaffinity(0))[:cores])
+    half, early, late = len(list(folder.iterdir())) // 2, 0.0, 0.0
+    while process.poll() is None:
+        time.sleep(0.25)
+        done = len(list(out.glob("*.json")))
+        memory = megabytes(process)
+        early, late = (max(early, memory), 0.0) if done < half else (early, max(late, memory))
+        if then is not None and done >= at:
+            then(process)
+            then = None
+    seconds = time.monotonic() - start
+    book = out.with_name(f"{out.name}.class.jsonl")
+    busy = sum(each.seconds for each in read_book(book))
+    return Measured(seconds, dict(snapshot(out)), busy, early, late)
+
+
+def snapshot(out: Path) -> Iterator[tuple[str, bytes]]:
+    for path in [out.with_name(f"{out.name}.class.csv"), *out.glob("*.json")]:
+        if path.exists():
+            yield path.name.replace(out.name, "out", 1), path.read_bytes()
+
+
+def megabytes(process: psutil.Process) -> float:
+    """Memory of a process and all it has started."""
+    try:
+        family = [process, *process.children(recursive=True)]
+        return sum(each.memory_info().rss for each in family) / 1e6
+    except psutil.Error:
+        return 0.0
+
+
+def share_of_checks(folder: Path) -> float:
+    """Of the time that grading one submission takes, the share in which checks run."""
+    inside = 0.0
+    original = plugin.run_pytest
+
+    def timed(*arguments: object) -> None:
+        nonlocal inside
+        start = time.monotonic()
+        original(*arguments)  # type: ignore[arg-type]
+        inside += time.monotonic() - start
+
+    plugin.run_pytest = timed  # type: ignore[assignment]
+    try:
+        paths = sorted(folder.iterdir())[:SAMPLE]
+        grade(paths[0], Options(shipped_reference()), shared_worker())  # all is loaded after this
+        inside, start = 0.0, time.monotonic()
+        for path in paths:
+            grade(path, Options(shipped_reference()), shared_worker())
+        return inside / (time.monotonic() - start)
+    finally:
+        plugin.run_pytest = original
+        shared_worker().close()
+
+
+def bench_class(console: Console, size: int = 200, *only: str) -> None:
+    """Print what a class of `size` costs on one core, on two, again, after a kill, on a cluster.
+
+    `only` are options of `grade` for all runs, to measure in less time: "--todo", "8a".
+    """
+    table = Table("run", "s", "result", title=f"{size} submissions from the bank")
+    with tempfile.TemporaryDirectory(prefix="class-") as temporary:
+        folder, out = Path(temporary) / "class", Path(temporary) / "out"
+        make_class(folder, size)
+        checks = share_of_checks(folder)
+        one = run(folder, Path(temporary) / "one", "--jobs", "1", *only, cores=1)
+        table.add_row("one core", f"{one.seconds:.1f}", f"{one.seconds / size:.2f} s each")
+        two = run(folder, out, "--jobs", "2", *only, cores=2)
+        own = 1 - checks * two.busy / (2 * two.seconds)
+        told = f"{one.seconds / two.seconds:.2f} times one core; {same(one, two)}"
+        table.add_row("two cores", f"{two.seconds:.1f}", told)
+        table.add_row("", "", f"{own:.0%} of the time is not spent in checks")
+        table.add_row("", "", f"{two.early:.0f} MB until half is graded, {two.late:.0f} MB after")
+        again = run(folder, out, "--jobs", "2", *only)
+        told = f"{again.seconds / two.seconds:.1%} of the first; {same(two, again)}"
+        table.add_row("a second time", f"{again.seconds:.1f}", told)
+        killed = Path(temporary) / "killed"
+        first = run(folder, killed, "--jobs", "2", *only, at=size // 2, then=psutil.Popen.kill)
+        rest = run(folder, killed, "--jobs", "2", *only)
+        table.add_row("killed in the middle", f"{first.seconds:.1f}", f"{len(first.results)} stand")
+        table.add_row("and run again", f"{rest.seconds:.1f}", same(two, rest))
+        if find_spec("distributed"):
+            there = on_cluster(folder, Path(temporary) / "there", size // 2, *only)
+            told = f"one worker killed in the middle; {same(two, there)}"
+            table.add_row("a cluster of two workers", f"{there.seconds:.1f}", told)
+    console.print(table)
+
+
+def same(one: Measured, other: Measured) -> str:
+    return "the same bytes" if one.results == other.results else "OTHER BYTES"
+
+
+def on_cluster(folder: Path, out: Path, at: int, *only: str) -> Measured:
+    """The class on two worker processes of this machine, one of which is killed."""
+    import distributed
+
+    quiet: dict[str, object] = {"dashboard_address": None, "silence_logs": "CRITICAL"}
+    workers = distributed.LocalCluster(  # type: ignore[no-untyped-call]
+        n_workers=2, threads_per_worker=1, **quiet
+    )
+    with workers as local:
+        victim = psutil.Process(next(iter(local.workers.values())).pid)
+        address = local.scheduler_address
+        return run(folder, out, "--cluster", address, *only, at=at, then=lambda _: victim.kill())

@@ -1,0 +1,105 @@
+"""Cutting Python files: what is not needed goes, what stays is kept letter by letter.
+
+A property draws its examples from its own source text, so the text of a check must not change.
+"""
+
+import ast
+from collections.abc import Iterable, Iterator
+
+
+def pruned(source: str, roots: Iterable[str]) -> str:
+    """The source without the definitions and imports that none of the `roots` leads to."""
+    tree = ast.parse(source)
+    definitions = {name: node for node in tree.body for name in defined(node)}
+    wanted = set(roots).union(*(used(node) for node in tree.body if not defined(node)))
+    needed: set[str] = set()
+    while wanted:
+        needed |= wanted
+        nodes = {id(definitions[name]): definitions[name] for name in wanted if name in definitions}
+        reached: set[str] = set().union(*map(used, nodes.values()))
+        wanted = reached - needed
+    changes: dict[ast.stmt, str] = {}
+    for node in tree.body:
+        names = list(defined(node))
+        kept = [name for name in names if name in needed]
+        if isinstance(node, ast.Import | ast.ImportFrom) and kept and kept != names:
+            node.names = [each for each in node.names if bound_by(each) in needed]
+            changes[node] = ast.unparse(node)
+        elif names and not kept:
+            changes[node] = ""
+    return replaced_nodes(source, changes)
+
+
+def with_bodies(source: str, bodies: dict[str, str]) -> str:
+    """The source with these functions stripped of decorators, and with these lines for bodies."""
+    changes: dict[ast.stmt, str] = {}
+    for node in ast.parse(source).body:
+        if isinstance(node, ast.FunctionDef) and node.name in bodies:
+            lines = source.splitlines()
+            documented = ast.get_docstring(node) is not None
+            last = node.body[0].end_lineno if documented else node.body[0].lineno - 1
+            head = lines[node.lineno - 1 : last]
+            changes[node] = "\n".join([*head, f"    {bodies[node.name]}"])
+    return replaced_nodes(source, changes)
+
+
+def replaced_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
+    """The source with other lines for whole statements; their comments above go with them."""
+    lines = source.splitlines()
+    for node, text in sorted(changes.items(), key=lambda each: -each[0].lineno):
+        decorators = getattr(node, "decorator_list", [])
+        start = min([node.lineno, *(each.lineno for each in decorators)]) - 1
+        while not text and start and lines[start - 1].startswith("#"):
+            start -= 1
+        lines[start : node.end_lineno] = text.splitlines()
+    return "\n".join(without_gaps(lines)) + "\n"
+
+
+def without_gaps(lines: list[str]) -> Iterator[str]:
+    """No more than two empty lines on end, and none at the end."""
+    text = "\n".join(lines).rstrip()
+    empty = 0
+    for line in text.splitlines():
+        empty = 0 if line else empty + 1
+        if empty <= 2:
+            yield line
+
+
+def defined(node: ast.stmt) -> Iterator[str]:
+    """The names that a statement of a module binds."""
+    match node:
+        case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+            yield name
+        case ast.Import(names=names) | ast.ImportFrom(names=names):
+            yield from map(bound_by, names)
+        case ast.Assign(targets=targets):
+            for target in targets:
+                yield from (each.id for each in ast.walk(target) if isinstance(each, ast.Name))
+        case ast.AnnAssign(target=ast.Name(id=name)):
+            yield name
+
+
+def bound_by(alias: ast.alias) -> str:
+    return alias.asname or alias.name.partition(".")[0]
+
+
+def used(node: ast.AST) -> set[str]:
+    """The names that a statement reads."""
+    return {
+        each.id
+        for each in ast.walk(node)
+        if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load)
+    }
+
+
+def asked_of(source: str, module: str) -> set[str]:
+    """The names of `grader.checks.<module>` that a file uses, imported or as attributes."""
+    tree = ast.parse(source)
+    names: set[str] = set()
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(module=name) if name == f"grader.checks.{module}":
+                names.update(each.name for each in node.names)
+            case ast.Attribute(value=ast.Name(id=owner), attr=name) if owner == module:
+                names.add(name)
+    return names

@@ -1,0 +1,220 @@
+"""The copy of the grader that students get: no solution, no closed forms, no hidden checks.
+
+The hidden checks are cut out of their files, and everything that only they use. An oracle keeps
+its name and looks its answers up, and so do the known mistakes: see judge/recorded.py.
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import wraps
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from grader.checks import exact
+from grader.judge import misconceptions
+from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.grade import KIT, Grading, Options, load_stubs, work_folder
+from grader.judge.lab import Observation
+from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
+from grader.judge.reference import Reference
+from grader.judge.result import Result
+from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.judge.submission import take_in
+from grader.maintain.cut import asked_of, pruned, with_bodies
+
+if TYPE_CHECKING:
+    from grader.judge.plugin import GradingPlugin
+
+NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
+HELPERS = ("pacing", "strategies", "exact")  # of the checks; each uses only those after it
+Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all
+
+
+def visible(rubric: Rubric) -> Rubric:
+    """The rubric of the students' copy."""
+    todos = []
+    for todo in rubric.todos:
+        shown = [check for check in todo.checks if not check.hidden]
+        points = sum(check.points for check in todo.checks if check.hidden)
+        todos.append(msgspec.structs.replace(todo, checks=shown, hidden_points=points))
+    return Rubric(todos)
+
+
+def hidden_checks(rubric: Rubric) -> list[str]:
+    """The names of the functions that no TODO shows to students."""
+    shown = {check.id for todo in visible(rubric).todos for check in todo.checks}
+    named = [check.id for todo in rubric.todos for check in todo.checks if check.hidden]
+    return [name for name in dict.fromkeys(named) if name not in shown]
+
+
+def write_copy(folder: Path, wrong: Iterable[Tree]) -> None:
+    """Write the package into `folder`.
+
+    What a check asks next may follow from an answer. So wrong submissions are asked as well: the
+    more there are, the more often a student's copy can name a mistake.
+    """
+    package = folder / "grader"
+    shutil.copytree(KIT / "grader", package, ignore=shutil.ignore_patterns(*NOT_FOR_STUDENTS))
+    checks = package / "checks"
+    texts = cut_checks(visible(load_rubric()))
+    texts["rubric.toml"] = visible_text(load_rubric())
+    table = record(wrong)
+    asked = {
+        name: each for name, each in table.oracles.items() if f"def {name}(" in texts["exact.py"]
+    }
+    table = msgspec.structs.replace(table, oracles=asked)
+    texts["recorded.json"] = json.dumps(msgspec.to_builtins(table), separators=(",", ":"))
+    for name, text in texts.items():
+        (checks / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+# ---------------------------------------------------------------- cutting
+
+
+def visible_text(rubric: Rubric) -> str:
+    """The text of rubric.toml without the hidden checks, and with what they are worth."""
+    wanted = visible(rubric)
+    points = {todo.id: todo.hidden_points for todo in wanted.todos if todo.hidden_points}
+    lines, todo = [], ""
+    for line in (CHECKS / "rubric.toml").read_text(encoding="utf-8").splitlines():
+        if named := re.match(r'id = "(.+)"', line):
+            todo = named[1]
+        if line.startswith("checks = ") and todo in points:
+            lines.append(f"hidden_points = {points[todo]}")
+        if "hidden = true" not in line and not line.startswith("# Hidden"):
+            lines.append(line)
+    text = "\n".join(lines) + "\n"
+    if msgspec.toml.decode(text, type=Rubric) != wanted:
+        raise ValueError("rubric.toml: write each check on a line of its own, hidden ones too")
+    return text
+
+
+def cut_checks(rubric: Rubric) -> dict[str, str]:
+    """The files of checks as students get them, by name."""
+    shown: dict[str, set[str]] = {}
+    for todo in rubric.todos:
+        shown.setdefault(todo.file, set()).update(check.id for check in todo.checks)
+    texts = {name: pruned(source_of(name), roots) for name, roots in shown.items()}
+    for helper in HELPERS:
+        source = source_of(helper)
+        if helper == "exact":
+            source = with_recorded_oracles(source)
+        roots = set().union(*(asked_of(text, helper) for text in texts.values()))
+        texts[helper] = pruned(source, roots)
+    return {f"{name}.py": text for name, text in texts.items()}
+
+
+def source_of(name: str) -> str:
+    return (CHECKS / f"{name}.py").read_text(encoding="utf-8")
+
+
+def with_recorded_oracles(source: str) -> str:
+    """The oracles with their names and inputs, and a look-up for what they do."""
+    bodies = {}
+    for name in oracles:
+        code = getattr(exact, name).__code__
+        inputs = ", ".join(code.co_varnames[: code.co_argcount])
+        bodies[name] = f'return recorded.answer("{name}", {inputs})'
+    return with_bodies(source, bodies)
+
+
+# ---------------------------------------------------------------- recording
+
+
+@dataclass
+class Watched(Grading):
+    """A grading run that keeps what it saw."""
+
+    seen: dict[str, list[Observation]] = field(default_factory=dict)
+
+    def result(self, plugin: "GradingPlugin", layers: list[str]) -> Result:
+        self.seen = plugin.observations
+        return super().result(plugin, layers)
+
+
+def record(wrong: Iterable[Tree]) -> Recorded:
+    """What the visible checks ask, and what the oracles and all models answer."""
+    rubric = visible(load_rubric())
+    worker = start_worker()
+    try:
+        with oracles_noted() as notes:
+            seen = watch(KIT / "solution", frozenset(), rubric, worker)
+        for path, todos in wrong:
+            seen += watch(path, todos, without_properties(rubric), worker)
+    finally:
+        worker.close()
+    for todo in load_rubric().todos:
+        misconceptions.load_known(todo.id)
+    mistakes = [
+        RecordedMistake(
+            each.todo, each.id, each.meaning, each.about, answers(each.model, each.about, seen)
+        )
+        for each in misconceptions.known
+    ]
+    right = {about: answers(model, about, seen) for about, model in misconceptions.right.items()}
+    return Recorded(notes, right, mistakes)
+
+
+def without_properties(rubric: Rubric) -> Rubric:
+    """The checks that do not ask at random."""
+    todos = [
+        msgspec.structs.replace(todo, checks=[c for c in todo.checks if c.kind != "property"])
+        for todo in rubric.todos
+    ]
+    return Rubric(todos)
+
+
+def watch(
+    path: Path, todos: frozenset[str], rubric: Rubric, worker: WarmWorker | SpawnWorker
+) -> list[Observation]:
+    """What these checks see of a submission."""
+    options = Options(reference=None, only=todos)
+    with work_folder() as work:
+        submission = take_in(path, work / "submission", rubric, load_stubs())
+        run = Watched(options, rubric, Reference(None, rubric), submission, worker, work)
+        run.run()
+    return [each for observations in run.seen.values() for each in observations]
+
+
+@contextmanager
+def oracles_noted() -> Iterator[dict[str, Answers]]:
+    """Write down what the oracles answer; those with known values are asked all of them."""
+    notes: dict[str, Answers] = {name: {} for name in oracles}
+    usual = {name: getattr(exact, name) for name in oracles}
+    for name, values in oracles.items():
+        setattr(exact, name, noted(usual[name], notes[name]))
+        for inputs in product(*values) if values else ():
+            getattr(exact, name)(*inputs)
+    try:
+        yield notes
+    finally:
+        for name, function in usual.items():
+            setattr(exact, name, function)
+
+
+def noted(function: Any, notes: Answers) -> Any:
+    @wraps(function)
+    def asked(*inputs: Any) -> Any:
+        notes[key(inputs)] = function(*inputs)
+        return notes[key(inputs)]
+
+    return asked
+
+
+def answers(model: misconceptions.Model, about: str, seen: list[Observation]) -> Answers:
+    """What a model says to everything that was observed."""
+    said = {}
+    for each in seen:
+        if each.about == about:
+            try:
+                said[key(each.inputs)] = model(*each.inputs)
+            except misconceptions.Undecided:
+                continue
+    return said

@@ -1,0 +1,478 @@
+"""The release: students can work with it at once, it marks as the instructor's grader does, and no
+line of the solution and no hidden check is in it."""
+
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+import pytest
+from rich.console import Console
+
+from grader.checks import exact
+from grader.judge import recorded
+from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.grade import KIT, Options, grade
+from grader.judge.result import Result
+from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.maintain import release as releases
+from grader.maintain.bank import Member, members
+from grader.maintain.cut import pruned, with_bodies
+from grader.maintain.leaks import Secret, leaks_in_text, secrets_of, texts_in
+from grader.maintain.pages import as_page
+from grader.maintain.release import Refused, build, build_wheel, look_for_leaks, pinned, prove
+from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, visible
+from grader.maintain.verify import Report
+
+WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
+REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
+SAMPLE = list({REGIONS[min(member.todos)]: member for member in WRONG}.values())  # one a file
+
+GRADE = """
+import json, sys
+from pathlib import Path
+from grader.judge.children import start_worker
+from grader.judge.grade import Options, grade
+from grader.report.files import as_json
+worker = start_worker()
+for line in sys.stdin:
+    path, todos = json.loads(line)
+    result = grade(Path(path), Options(reference=None, only=frozenset(todos)), worker)
+    print(as_json(result).decode().replace("\\n", ""))
+worker.close()
+"""
+
+
+@dataclass
+class Released:
+    built: Path
+    archive: Path
+    tree: Path  # the archive, unpacked
+    installed: Path  # the wheel, unpacked
+    wrong: dict[str, Path]  # the submissions it was recorded with
+
+    @property
+    def wheel(self) -> Path:
+        (wheel,) = self.tree.glob("*.whl")
+        return wheel
+
+    def grade(self, submissions: list[tuple[Path, frozenset[str]]]) -> list[Result]:
+        """What the students' copy of the grader says."""
+        asked = "\n".join(json.dumps([str(path), sorted(todos)]) for path, todos in submissions)
+        done = subprocess.run(
+            releases.alone(self.installed, f"exec({GRADE!r})"),
+            cwd=self.installed,
+            input=asked,
+            capture_output=True,
+            text=True,
+        )
+        assert not done.returncode, done.stderr
+        return [msgspec.json.decode(line, type=Result) for line in done.stdout.splitlines()]
+
+
+def make(work: Path, chosen: list[Member]) -> Released:
+    wrong = {member.name: work / "wrong" / member.name for member in chosen}
+
+    def written() -> Iterator[tuple[Path, frozenset[str]]]:
+        for member in chosen:
+            member.build(KIT, wrong[member.name])
+            yield wrong[member.name], member.todos
+
+    built = build(work, written())
+    (archive,) = built.glob("*.zip")
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(work / "unpacked")
+    return Released(built, archive, work / "unpacked" / releases.NAME, work / "installed", wrong)
+
+
+@pytest.fixture(scope="session")
+def released(tmp_path_factory: pytest.TempPathFactory) -> Released:
+    return make(tmp_path_factory.mktemp("release"), SAMPLE)
+
+
+@pytest.fixture(scope="session")
+def secrets() -> list[Secret]:
+    return secrets_of(KIT)
+
+
+# ---------------------------------------------------------------- the students' grader
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[WarmWorker | SpawnWorker]:
+    """One for all grades of the instructor's grader."""
+    started = start_worker()
+    yield started
+    started.close()
+
+
+def compare(released: Released, chosen: list[Member], worker) -> Counter[str]:
+    """Grade with both graders: every visible check must end alike. Counts the mistakes named."""
+    submissions = [(released.wrong[member.name], member.todos) for member in chosen]
+    named: Counter[str] = Counter()
+    for (path, todos), theirs in zip(submissions, released.grade(submissions), strict=True):
+        ours = grade(path, Options(reference=None, only=todos), worker)
+        for our, their in zip(ours.todos, theirs.todos, strict=True):
+            states = {check.id: (check.state, check.points) for check in our.checks}
+            shown = {check.id: (check.state, check.points) for check in their.checks}
+            assert shown == {name: states[name] for name in shown}, path.name
+            assert their.misconception in (our.misconception, None), path.name
+            if our.misconception:
+                named["same" if their.misconception else "none"] += 1
+    return named
+
+
+def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released, worker):
+    named = compare(released, SAMPLE, worker)
+    assert len(SAMPLE) == len(set(REGIONS.values())) >= 7
+    assert named["same"] > 0.7 * named.total() > 0
+
+
+@pytest.mark.soak
+def test_so_it_is_for_all_wrong_submissions(tmp_path: Path, worker):
+    released = make(tmp_path, WRONG)
+    named = compare(released, WRONG, worker)
+    assert named["same"] > 0.9 * named.total() > 0
+
+
+def test_the_points_of_both_graders_belong_together():
+    shown = visible(load_rubric())
+    assert shown.max_points + shown.hidden_points == load_rubric().max_points
+    assert load_rubric().hidden_points == 0
+    assert shown.max_points >= 0.8 * load_rubric().max_points
+    assert all(todo.checks for todo in shown.todos)
+
+
+def test_the_wheel_has_the_visible_rubric(released: Released):
+    text = (released.installed / "grader" / "checks" / "rubric.toml").read_bytes()
+    assert msgspec.toml.decode(text, type=Rubric) == visible(load_rubric())
+
+
+def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path, monkeypatch):
+    (none,) = released.grade([(KIT / "starter", frozenset())])
+    monkeypatch.setattr(releases, "grade_with", lambda *_: none)
+    with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
+        prove(released.wheel, tmp_path / "installed")
+
+
+# ---------------------------------------------------------------- nothing is given away
+
+
+def test_every_region_has_something_to_look_for(secrets: list[Secret]):
+    named = " ".join(secret.what for secret in secrets)
+    assert not [todo for todo in REGIONS if f"TODO {todo}" not in named]
+    assert {f"{name}" for name in hidden_checks(load_rubric())} <= {each.text for each in secrets}
+
+
+def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
+    names = [path.name for path in released.installed.rglob("*")]
+    assert not {"maintain", "classroom"} & set(names)
+    assert not [name for name in names if name.startswith("mistakes_")]
+    texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
+    for name in hidden_checks(load_rubric()):
+        assert not [text for text in texts if name in text]
+    theirs = (released.installed / "grader" / "checks" / "exact.py").read_text(encoding="utf-8")
+    for name in recorded.oracles:
+        found = re.search(rf'^def {name}\(.*\n    """.*"""\n    (.*)\n', theirs, re.M)
+        assert f"def {name}(" not in theirs or (found and "recorded.answer(" in found[1])
+
+
+RENAMED = {
+    "1": "c = Vector2(max(lo.x, min(m.x, hi.x)), max(lo.y, min(m.y, hi.y)))",
+    "2": "k += cross(rb,direction)**2*second.inv_inertia",
+    "3": "push = self.axis * (\n    (self.bias - v) / self.k\n)",
+    "4": "jt = max(-most, min(most, jt))",
+    "5": "share = math.exp(-world.linear_damping*step)",
+    "6": "accumulator += min(frame_seconds, MAX_FRAME)",  # given under other names
+    "7a": "space.gravity = (0, 980)",
+    "7b": "moment = pymunk.moment_for_circle(mass, 0, radius)",  # this one, too
+    "7c": "world.add(pymunk.PinJoint(world.static_body, ball, (700, 90), (0, 0)))",
+    "7d": "accumulator += min( frame_seconds,\n MAX_FRAME )",
+    "8a": "speed = speed + force(place) * h",
+    "8b": "p = p + speed * h + 0.5 * first * h**2",
+    "8c": "s3, f3 = s + 0.5 * h * f2, force(p + 0.5 * h * s2)",
+}
+
+
+@pytest.mark.parametrize("todo", RENAMED)
+def test_a_line_is_found_under_other_names(todo: str, secrets: list[Secret]):
+    text = f"Two lines.\nWrite `{RENAMED[todo]}` there.\n"
+    found = list(leaks_in_text("page.md", text, secrets))
+    assert found and found[0].line == 2
+    assert f"TODO {todo}" in found[0].what
+
+
+@pytest.mark.parametrize("tree", ["starter", "handouts"])
+def test_what_students_have_anyway_is_no_leak(tree: str, secrets: list[Secret]):
+    for path in (KIT / tree).glob("**/*.py" if tree == "starter" else "*.md"):
+        assert not list(leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
+
+
+def packed(name: str, text: str | bytes) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        archive.writestr(name, text)
+    return buffer.getvalue()
+
+
+LINE = "total = max(-limit, min(limit, total))"
+FORMS = {
+    "page.html": b"<pre><span>total</span> = max(-limit, min(limit, total))</pre>",
+    "hints.toml": f'4 = ["{LINE}"]'.encode(),
+    "cells.ipynb": json.dumps({"cells": [{"source": ["x = 1\n", LINE]}]}).encode(),
+    "windows.txt": f"one\r\n{LINE}\r\n".encode(),
+    "a.whl": packed("grader/help.py", LINE),
+    "b.zip": packed("in.whl", packed("c.py", LINE)),
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_line_is_found_in_every_kind_of_file(name: str, secrets: list[Secret]):
+    found = [
+        leak
+        for file, text in texts_in(name, FORMS[name])
+        for leak in leaks_in_text(file, text, secrets)
+    ]
+    assert {leak.what for leak in found} == {"TODO 4"}
+
+
+def test_planted_leaks_stop_the_release(released: Released, tmp_path: Path):
+    """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
+    tree = tmp_path / releases.NAME
+    shutil.copytree(released.tree, tree)
+    solver = (KIT / "solution" / "mini_engine" / "solver.py").read_text(encoding="utf-8")
+    (tree / "mini_engine" / "solver.py").write_text(solver, encoding="utf-8")
+    with open(tree / "handouts" / "lesson.html", "a", encoding="utf-8") as page:
+        page.write("<p>\n<b>keep</b> = math.exp(-self.linear_damping * h)\n</p>\n")
+    with zipfile.ZipFile(tree / released.wheel.name, "a") as wheel:
+        wheel.writestr("grader/help.py", "# left over\nspace.gravity = (0, 980)\n")
+        wheel.writestr("grader/checks/more.toml", 'x = "def rk4_weighs_four_samples"\n')
+    built = tmp_path / "built"
+    built.mkdir()
+    releases.write_zip(tree, built / "release.zip")
+    with pytest.raises(Refused) as refused:
+        look_for_leaks(built)
+    told = str(refused.value)
+    top = f"release.zip/{releases.NAME}"
+    assert re.search(rf"{top}/mini_engine/solver.py, line \d+, gives away TODO 2: ", told)
+    assert re.search(rf"{top}/mini_engine/solver.py, line \d+, gives away TODO 4: ", told)
+    assert re.search(rf"{top}/handouts/lesson.html, line \d+, gives away TODO 5: math.exp", told)
+    assert re.search(r"whl/grader/help.py, line 2, gives away TODO 7a: space.gravity", told)
+    assert re.search(r"more.toml, line 1, gives away a hidden check: rk4_weighs_four", told)
+
+
+def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr(releases, "verify", lambda *_: Report(complaints=["drift"]))
+    with pytest.raises(Refused, match="verify"):
+        releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    assert not (tmp_path / "out").exists()
+
+
+# ---------------------------------------------------------------- the student's first minute
+
+
+def test_the_readme_names_what_is_there(released: Released):
+    text = (released.tree / "README.md").read_text(encoding="utf-8")
+    files = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:py|html|txt))`", text))
+    assert {"handouts/lab-sheet.html", "MANIFEST.txt", "mini_engine/solver.py"} <= files
+    places = (released.tree, released.tree / "mini_engine")
+    assert not [name for name in files if not any((each / name).is_file() for each in places)]
+
+
+def test_the_tree_is_the_starters(released: Released):
+    for path in (KIT / "starter").rglob("*.py"):
+        inside = path.relative_to(KIT / "starter")
+        if inside.parts[0] != "build":
+            assert (released.tree / inside).read_bytes() == path.read_bytes()
+
+
+def test_every_link_of_the_pages_leads_somewhere(released: Released):
+    pages = {page.name: page.read_text(encoding="utf-8") for page in released.tree.glob("*/*.html")}
+    assert {"lab-sheet.html", "lesson.html"} <= set(pages)
+    for name, text in pages.items():
+        for link in re.findall(r'(?:href|src)="([^"]+)"', text):
+            target, _, place = link.partition("#")
+            assert (released.tree / "handouts" / (target or name)).is_file(), f"{name}: {link}"
+            assert not place or f'id="{place}"' in pages[target or name], f"{name}: {link}"
+
+
+def test_a_page_keeps_words_of_links_that_lead_nowhere():
+    page = as_page(
+        "# A <title>\n\n[here](b.md#c), [there](hints.md)\n\n## C, d\n", {"a.md", "b.md"}
+    )
+    assert '<a href="b.html#c">here</a>, there' in page
+    assert "<title>A &lt;title&gt;</title>" in page and 'id="c-d"' in page
+
+
+def test_the_manifest_knows_every_file(released: Released):
+    head, *rows = (released.tree / "MANIFEST.txt").read_text(encoding="utf-8").splitlines()
+    assert head.split()[-1] in released.wheel.name
+    content = rows.pop(0).split()[-1]
+    assert re.fullmatch("[0-9a-f]{64}", content) and content[:8] in released.archive.name
+    sums = dict(reversed(row.split("  ")) for row in rows if not row.startswith("#"))
+    files = dict(releases.files_in(released.tree))
+    assert set(sums) == set(files) - {"MANIFEST.txt"}
+    assert all(releases.sha256(files[name].read_bytes()) == sums[name] for name in sums)
+
+
+def test_the_same_content_makes_the_same_bytes(released: Released, tmp_path: Path):
+    copy = tmp_path / "copy"
+    shutil.copytree(released.installed / "grader", copy / "grader")
+    (copy / "grader" / "__init__.py").write_bytes((KIT / "grader" / "__init__.py").read_bytes())
+    shutil.rmtree(copy / "grader" / "__pycache__", ignore_errors=True)
+    for path in list(copy.rglob("__pycache__")):
+        shutil.rmtree(path)
+    version = released.wheel.name.split("-")[1]
+    (tmp_path / "wheel").mkdir()
+    again = build_wheel(copy, version, tmp_path / "wheel")
+    assert again.read_bytes() == released.wheel.read_bytes()
+    releases.write_zip(released.tree, tmp_path / "again.zip")
+    assert (tmp_path / "again.zip").read_bytes() == released.archive.read_bytes()
+
+
+@pytest.mark.soak
+def test_two_builds_are_the_same_byte_by_byte(tmp_path: Path):
+    once, again = (make(tmp_path / name, SAMPLE) for name in ("once", "again"))
+    files = [dict(releases.files_in(each.built)) for each in (once, again)]
+    assert set(files[0]) == set(files[1])
+    assert all(files[0][name].read_bytes() == files[1][name].read_bytes() for name in files[0])
+
+
+def test_only_what_runs_is_required():
+    lock = (
+        "rich==15.0.0 \\\n    --hash=sha256:aa\n    # via\n    #   kit (pyproject.toml)\n"
+        "setuptools==84.0 \\\n    --hash=sha256:bb\n    # via kit (pyproject.toml:build)\n"
+        "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n    # via rich\n"
+    )
+    assert pinned(lock) == (
+        "rich==15.0.0 \\\n    --hash=sha256:aa\n"
+        "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n"
+    )
+
+
+def test_a_student_unpacks_installs_and_checks(released: Released, tmp_path: Path):
+    """In a new environment, from the folder itself and from one within, with both trees' files."""
+    tree = tmp_path / "a course" / releases.NAME
+    shutil.copytree(released.tree, tree)
+    subprocess.run([sys.executable, "-m", "venv", ".venv"], cwd=tree, check=True)
+    python = tree / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"]
+    packages = (tree / "requirements.txt").read_text(encoding="utf-8").rsplit("./", 1)[0]
+    (tmp_path / "packages.txt").write_text(packages, encoding="utf-8")
+    if subprocess.run([*pip, tmp_path / "packages.txt"], capture_output=True).returncode:
+        pytest.skip("pip reaches no package index from here")
+    subprocess.run([*pip, "requirements.txt"], cwd=tree, check=True)
+
+    def check(folder: Path) -> tuple[int, str]:
+        command = [python, "-m", "grader", "check"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    status, words = check(tree)
+    most = visible(load_rubric()).max_points
+    assert status == 1 and f"0 / {most}" in words, words
+    for name, path in releases.files_in(KIT / "solution"):
+        if name.endswith(".py") and (tree / name).is_file():
+            shutil.copyfile(path, tree / name)
+    status, words = check(tree / "mini_engine")
+    assert status == 0 and f"{most} / {most}" in words, words
+
+
+# ---------------------------------------------------------------- cutting and recording
+
+SOURCE = '''"""What it is."""
+
+import math
+from typing import Any, NamedTuple
+
+A = 1
+B = 2  # of b alone
+
+
+def a(x: Any) -> float:
+    """Uses A."""
+    return helper(x) + A
+
+
+# Above b,
+# two lines.
+@decorated
+def b() -> float:
+    return math.pi + B
+
+
+def helper(x: float) -> float:
+    return x
+'''
+
+
+def test_what_nobody_needs_is_cut_and_the_rest_is_kept_letter_by_letter():
+    cut = pruned(SOURCE, ["a"])
+    compile(cut, "cut", "exec")
+    assert cut.startswith('"""What it is."""\n\nfrom typing import Any\n\nA = 1\n\n\ndef a(')
+    assert "import math" not in cut and "NamedTuple" not in cut and "# of b alone" not in cut
+    assert "Above" not in cut and "two lines" not in cut and "decorated" not in cut
+    kept = SOURCE[SOURCE.index("def a(") : SOURCE.index("# Above")].strip()
+    assert kept in cut and cut.endswith("def helper(x: float) -> float:\n    return x\n")
+    assert pruned(SOURCE, ["a", "b"]).count("import math") == 1
+
+
+def test_a_body_is_replaced_below_its_docstring():
+    changed = with_bodies(SOURCE, {"a": "return 5", "b": "return 6"})
+    assert 'def a(x: Any) -> float:\n    """Uses A."""\n    return 5\n' in changed
+    assert "def b() -> float:\n    return 6\n" in changed and "@decorated" not in changed
+
+
+def test_visible_checks_are_cut_out_unchanged():
+    """A property draws its examples from its own text, so that text must stay as it is."""
+    cut = cut_checks(visible(load_rubric()))
+    for todo in visible(load_rubric()).todos:
+        text = (CHECKS / f"{todo.file}.py").read_text(encoding="utf-8")
+        for check in todo.checks:
+            pattern = rf"(?:^@.+\n)*^def {check.id}\([\s\S]*?(?=\n\S|\Z)"
+            found = re.search(pattern, text, re.M)
+            assert found and found[0] in cut[f"{todo.file}.py"], check.id
+
+
+def test_no_check_imports_an_oracle_by_its_name():
+    """It is asked as exact.NAME, so that a release can write down what it answers."""
+    names = set(recorded.oracles)
+    assert names == {name for name in names if callable(getattr(exact, name))}
+    for name in [path.stem for path in CHECKS.glob("todo_*.py")] + list(HELPERS) + ["whole"]:
+        text = (CHECKS / f"{name}.py").read_text(encoding="utf-8")
+        for imported in re.findall(r"from grader.checks.exact import \(?([\w, \n]+)", text):
+            assert not names & set(re.findall(r"\w+", imported)), name
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "same"),
+    [
+        ((1, 2.0), (1.0, 2), True),
+        ([(0.0, True)], ((-0.0, True),), True),
+        ((1, True), (1, 1), False),
+        ((0.1 + 0.2,), (0.3,), False),
+        (("a", None), ("a", None), True),
+    ],
+)
+def test_what_was_asked_is_known_again(first, second, same):
+    assert (recorded.key(first) == recorded.key(second)) is same
+
+
+def test_a_question_without_a_recorded_answer_is_named():
+    with pytest.raises(LookupError, match=r"no recorded answer of damped to \(0.5, 7.0\)"):
+        recorded.answer("damped", 0.5, 7.0)
+
+
+@pytest.mark.parametrize("centre", [(0, 0), (0, 3), (39, 0), (25, 5), (-25, -5), (40, 20), (39, 1)])
+def test_a_tie_of_two_faces_is_seen_without_the_closed_form(centre):
+    disc, rect = exact.Disc(*centre, 8), exact.Rect(0, 0, 40, 20)
+    assert exact.equally_near(disc, rect) == (len(exact.circle_box(disc, rect)) > 1)
