@@ -8,8 +8,10 @@ import typer
 
 from grader.commands import console, graded, known_todos, stop
 from grader.judge.grade import Options
+from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
-from grader.report.terminal import show, show_next
+from grader.judge.submission import CannotGrade
+from grader.report.terminal import Teller, command, say, show_standing
 
 app = typer.Typer()
 
@@ -18,13 +20,27 @@ app = typer.Typer()
 def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+    watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
 ) -> None:
     """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
     folder = own_tree(path)
-    result = graded(folder, Options(reference=None, only=known_todos(todo)))
-    show(result, console)
-    show_next(result, console)
+    options = Options(reference=None, only=known_todos(todo), replays=replays_in(folder))
+    if watch:
+        result = watched(folder, options)
+    else:
+        result = graded(folder, options)
+        show_standing(result, Teller(console, options.replays))
     raise typer.Exit(0 if result.points == result.max_points else 1)
+
+
+def watched(folder: Path, options: Options) -> Result:
+    """The last result of a watch that somebody ended."""
+    from grader.watch import watch
+
+    try:
+        return watch(folder, options, console)
+    except CannotGrade as error:
+        stop(str(error), "go on")
 
 
 def own_tree(path: Path) -> Path:
@@ -35,6 +51,17 @@ def own_tree(path: Path) -> Path:
     stop(f"there is no mini_engine in {path.resolve()} or above it: go to the folder handed out")
 
 
+def replays_in(tree: Path) -> Path | None:
+    """A folder for replays that git leaves alone; None where nothing can be written."""
+    folder = tree / "build" / "replays"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / ".gitignore").write_text("*\n", encoding="utf-8")
+    except OSError:
+        return None
+    return folder
+
+
 @app.command("hint")
 def hint_command(
     todo: Annotated[str, typer.Option(help="The TODO you are at.")],
@@ -43,7 +70,10 @@ def hint_command(
     """Give a hint: first a question, then the idea, then nearly the code."""
     known_todos([todo])
     hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
-    for number, words in enumerate(hints.get(todo, [])[:level], 1):
-        console.print(f"{number}  {words}")
-    if level < len(hints.get(todo, [])):
-        console.print(f"More: python -m grader hint --todo {todo} --level {level + 1}")
+    if todo not in hints:
+        say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)
+        return
+    for number, words in enumerate(hints[todo][:level], 1):
+        say(f"{number}  {words}", console, indent=3)
+    if level < len(hints[todo]):
+        say(f"More: {command('hint', todo, level + 1)}", console)

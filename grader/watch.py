@@ -1,0 +1,264 @@
+"""`check --watch`: after each save the tree is checked again, first what the save touched.
+
+Events only wake us up. What changed is seen from the sources themselves, so it does not matter
+how an editor saves, nor whether the file system tells of it.
+"""
+
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import msgspec
+import watchfiles
+from rich.console import Console
+
+from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.grade import Options, grade
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.rubric import Todo, load_rubric
+from grader.judge.submission import (
+    CannotGrade,
+    function_named,
+    module_of,
+    plain_files,
+    source_of,
+    statements,
+)
+from grader.report.terminal import Teller, clean, say, show_next, show_standing
+from grader.todo_regions import read_source
+
+Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
+
+SETTLED = 25  # ms without another event, until a save is looked at
+WITHOUT_EVENTS = 1000  # ms, until we look all the same
+LOOK_EVERY = 0.25  # s, while checks are running
+
+
+class SavedAgain(KeyboardInterrupt):
+    """Raised between two checks: the tree is no longer the one that is being checked."""
+
+
+@dataclass
+class Watch:
+    """A tree, what was found in it, and what is to be checked again."""
+
+    folder: Path
+    options: Options
+    console: Console
+    worker: WarmWorker | SpawnWorker
+    seen: Sources = field(default_factory=dict)  # as they were when last looked at
+    checked: Sources = field(default_factory=dict)  # as they were when last checked
+    touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown
+    others: set[str] = field(default_factory=set)  # to be checked, and shown if anything is new
+    looked: float = 0.0  # s, when that was
+    result: Result = field(init=False)
+
+    def start(self) -> None:
+        """Check the whole tree."""
+        self.seen = self.checked = python_sources(self.folder)
+        self.result = grade(self.folder, self.options, self.worker)
+        show_standing(self.result, Teller(self.console, self.options.replays))
+
+    def look(self) -> None:
+        """Check again whatever was saved since the last look."""
+        again = False
+        while (now := python_sources(self.folder)) != self.seen or again:
+            if changed := sorted(differing(self.seen, now)):
+                say(f"saved: {clean(', '.join(changed))}", self.console, style="bright_black")
+            self.seen, again = now, False
+            new = sorted(differing(self.checked, now))
+            if trouble := next(filter(None, map(self.trouble_in, new)), ""):
+                say(trouble, self.console, indent=2, style="yellow")
+                continue
+            self.plan()
+            try:
+                self.check_again()
+            except SavedAgain:
+                again = True
+            except OSError as error:  # a file went away while it was read
+                say(f"cannot read the tree now ({clean(str(error))}): save again", self.console)
+
+    def trouble_in(self, file: str) -> str:
+        """Why Python cannot read a file of the programs; empty if it can."""
+        modules = {todo.module for todo in load_rubric().todos}
+        if module_of(Path(file)) not in modules:
+            return ""
+        error = syntax_error(self.seen.get(file, ""))
+        if error is None:
+            return ""
+        return f"{file}:{error.lineno or 1} is no Python yet: {clean(error.msg)}"
+
+    def plan(self) -> None:
+        """Note what to check: what the saves since the last check touched comes first."""
+        wanted = self.options.only or {todo.id for todo in load_rubric().todos}
+        for file in differing(self.checked, self.seen):
+            self.touched |= wanted & changed_todos(
+                file, self.checked.get(file, ""), self.seen.get(file, "")
+            )
+            self.others |= wanted & users_of(file)
+        self.checked = self.seen
+
+    def check_again(self) -> None:
+        """Check and show what is noted, unless a save comes in between."""
+        points, touched = self.result.points, bool(self.touched)
+        self.check(self.touched, always_show=True)
+        self.others -= self.touched
+        self.touched = set()
+        self.check(self.others, always_show=False)
+        self.others = set()
+        if self.result.points != points:
+            show_next(self.result, self.console)
+        elif not touched:
+            total = f"{self.result.points} of {self.result.max_points}"
+            say(f"nothing new: {total} points", self.console)
+
+    def check(self, todos: set[str], always_show: bool) -> None:
+        if not todos:
+            return
+        options = replace(self.options, only=frozenset(todos), progress=self.stop_if_saved)
+        teller = Teller(self.console, self.options.replays)
+        for todo in grade(self.folder, options, self.worker).todos:
+            before = self.replace(todo)
+            if always_show or without_lines(before) != without_lines(todo):
+                teller.tell_todo(todo)
+                self.show_progress(before, todo)
+
+    def stop_if_saved(self, _: CheckResult) -> None:
+        if time.monotonic() - self.looked > LOOK_EVERY:
+            self.looked = time.monotonic()
+            if python_sources(self.folder) != self.seen:
+                raise SavedAgain
+
+    def replace(self, todo: TodoResult) -> TodoResult:
+        """Put the TODO's new result in the place of the one before, which is returned."""
+        (before,) = (each for each in self.result.todos if each.id == todo.id)
+        self.result = msgspec.structs.replace(
+            self.result,
+            points=self.result.points - before.points + todo.points,
+            todos=[todo if each is before else each for each in self.result.todos],
+        )
+        return before
+
+    def show_progress(self, before: TodoResult, todo: TodoResult) -> None:
+        if before.points == todo.points:
+            say(f"TODO {todo.id}: {todo.points} of {todo.max_points} as before", self.console)
+            return
+        total = self.result.points - todo.points + before.points
+        say(
+            f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}, "
+            f"in all {total} → {self.result.points} of {self.result.max_points}",
+            self.console,
+            style="bold",
+        )
+
+
+# -------------------------------------------------------------------- what a save touched
+
+
+def differing(before: Sources, after: Sources) -> set[str]:
+    """The files that are new, gone or changed."""
+    return {file for file in before | after if before.get(file) != after.get(file)}
+
+
+def changed_todos(file: str, before: str, after: str) -> set[str]:
+    """The TODOs whose function is another one."""
+    old, new = functions_in(file, before), functions_in(file, after)
+    return {todo for todo in old | new if old.get(todo) != new.get(todo)}
+
+
+def functions_in(file: str, text: str) -> dict[str, str]:
+    """The source of each TODO's function that a file holds."""
+    body = statements(text)
+    found = {}
+    for todo in load_rubric().todos:
+        if todo.function and todo.module == module_of(Path(file)):
+            function = function_named(body, todo.function.partition(":")[2])
+            if function is not None:
+                found[todo.id] = source_of(text, function)
+    return found
+
+
+def users_of(file: str) -> set[str]:
+    """The TODOs whose checks run a file; a helper of the student's own may be used by all."""
+    todos, module = load_rubric().todos, module_of(Path(file))
+    users = {todo.id for todo in todos if module in modules_of(todo)}
+    return users or {todo.id for todo in todos}
+
+
+def modules_of(todo: Todo) -> set[str]:
+    """The modules that a TODO's checks import."""
+    return {check.module or todo.module for check in todo.checks}
+
+
+def without_lines(todo: TodoResult) -> TodoResult:
+    """A result that does not tell where: lines move whenever something is written above them."""
+    checks = [msgspec.structs.replace(check, where=None) for check in todo.checks]
+    return msgspec.structs.replace(todo, checks=checks)
+
+
+def syntax_error(text: str) -> SyntaxError | None:
+    ignored = warnings.catch_warnings(action="ignore")
+    with ignored, suppress(ValueError, RecursionError, MemoryError):
+        try:
+            compile(text, "", "exec", dont_inherit=True)
+        except SyntaxError as error:
+            return error
+    return None
+
+
+# -------------------------------------------------------------------- the tree
+
+
+def python_sources(folder: Path) -> Sources:
+    """The Python files that would be handed in. One that goes away meanwhile is left out."""
+    found = {}
+    for path in plain_files(folder):
+        if path.suffix == ".py" and not path.name.startswith("."):
+            with suppress(OSError):
+                found[path.relative_to(folder).as_posix()] = read_source(path)
+    return found
+
+
+def folders_of(folder: Path) -> list[Path]:
+    """The folders to watch, without the virtual environment and its thousands."""
+    return sorted({folder, *(each.parent for each in plain_files(folder))})
+
+
+def moments_to_look(folder: Path) -> Iterator[None]:
+    """After each event in the tree, and from time to time without one."""
+    while folder.is_dir():
+        folders = folders_of(folder)
+        try:
+            for _ in watchfiles.watch(
+                *folders,
+                watch_filter=watchfiles.PythonFilter(),
+                step=SETTLED,
+                rust_timeout=WITHOUT_EVENTS,
+                yield_on_timeout=True,
+                recursive=False,
+            ):
+                yield
+                if not folder.is_dir() or folders_of(folder) != folders:
+                    break
+        except OSError:  # a folder went away, or there are more than this machine can watch
+            time.sleep(WITHOUT_EVENTS / 1000)
+            yield
+
+
+def watch(folder: Path, options: Options, console: Console) -> Result:
+    """Check the tree, and again after each save, until Ctrl-C; returns the last result."""
+    worker = start_worker(options.spawn)
+    session = Watch(folder, options, console, worker)
+    try:
+        session.start()
+        say("Watching: save a file, and it is checked again. Ctrl-C ends this.", console)
+        with suppress(KeyboardInterrupt):
+            for _ in moments_to_look(folder):
+                session.look()
+            raise CannotGrade(f"there is no {folder} any more")
+    finally:
+        worker.close()
+    return session.result
