@@ -1,79 +1,451 @@
-"""Grading every submission of a folder, several at a time; one crash touches no other."""
+"""Grading a class, several submissions at a time; what becomes of one touches no other.
 
+Results are written as they come, and what stands from an earlier run is not graded again. The pool
+of this machine and a cluster run the same function on the same packages.
+"""
+
+import hashlib
+import multiprocessing
 import os
+import signal
+import sys
+import threading
+import time
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
-from multiprocessing import get_context
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.metadata import version
 from pathlib import Path
+from typing import Protocol, Self
 
+import msgspec
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 
-from grader.judge.grade import Options, grade
-from grader.judge.result import Result
-from grader.judge.submission import CannotGrade
-from grader.report.files import write_json
+import grader
+from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.classroom.book import Book, Outcome, outcome_of
+from grader.classroom.intake import (
+    CannotTake,
+    ClassList,
+    Found,
+    Intake,
+    Package,
+    opened_class,
+    pack,
+)
+from grader.classroom.roster import CannotRead, read_roster
+from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.grade import Options, grade, work_folder
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import CannotGrade, module_of
+from grader.report.files import as_json
 from grader.report.terminal import clean
+from grader.todo_regions import python_files
+
+NOT_DECIDING = ("classroom", "maintain", "report")  # folders of the grader that give no points
+LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
+LONGEST = 300  # rows that a terminal is given; the table as a file has them all
+AHEAD = 2  # submissions that wait, packed, for each one being graded
+NAMED = 20  # names in one note
+
+Graded = tuple[bytes, float]  # a result as JSON, and the seconds it took
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """One submission of a class: its result, or why there is none."""
-
-    name: str
-    result: Result | None
-    trouble: str = ""
+# ---------------------------------------------------------------- one submission
 
 
-def submissions_in(folder: Path) -> list[Path]:
-    """The submissions of a class: one folder each, hidden ones left out."""
-    if not folder.is_dir():
-        raise CannotGrade(f"there is no folder of submissions at {folder}")
-    found = sorted(p for p in folder.iterdir() if p.is_dir() and not p.name.startswith("."))
-    if not found:
-        raise CannotGrade(f"{folder} holds no submission: each must be a folder of its own")
-    return found
+def grade_package(package: Package, options: Options) -> Graded:
+    """Grade one submission; run in a process of the pool or of a cluster."""
+    start = time.monotonic()
+    with work_folder() as work:
+        result = grade(package.unpack(work), options, shared_worker())
+    return as_json(result), time.monotonic() - start
+
+
+@cache
+def shared_worker() -> WarmWorker | SpawnWorker:
+    """One for all submissions that this process grades; it ends when this process does."""
+    return start_worker()
+
+
+# ---------------------------------------------------------------- what a result depends on
+
+
+@cache
+def fingerprint() -> str:
+    """The hash of the grader itself and of the libraries that decide about points."""
+    top = Path(grader.__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted(top.rglob("*")):
+        inside = path.relative_to(top)
+        if path.suffix in (".py", ".toml", ".json", ".ini") and inside.parts[0] not in NOT_DECIDING:
+            digest.update(f"{inside.as_posix()}\0".encode() + path.read_bytes() + b"\0")
+    releases = [f"{name} {version(name)}" for name in LIBRARIES]
+    digest.update(f"{sys.version_info[:2]} {releases}".encode())
+    return digest.hexdigest()
+
+
+def key_of(options: Options) -> str:
+    """The hash of all that a result depends on, the submission aside."""
+    reference = packed_reference(options.reference)
+    digest = reference.digest if reference else ""
+    decides = [sorted(options.only), options.seed, options.isolation, options.spawn]
+    return hashlib.sha256(msgspec.json.encode([fingerprint(), digest, decides])).hexdigest()
+
+
+def packed_reference(folder: Path | None) -> Package | None:
+    """Of the reference, the programs that the rubric names."""
+    if folder is None:
+        return None
+    modules = {todo.module for todo in load_rubric().todos}
+    files = [
+        (path.relative_to(folder).as_posix(), path.read_bytes())
+        for path in python_files(folder)
+        if module_of(path.relative_to(folder)) in modules
+    ]
+    return Package("reference", sorted(files))
+
+
+# ---------------------------------------------------------------- who grades
+
+
+class Crew(Protocol):
+    """Processes that grade, here or elsewhere."""
+
+    def room(self) -> int:
+        """How many submissions to have under way."""
+
+    def submit(self, package: Package) -> "Future[Graded]": ...
+
+    def mend(self) -> None:
+        """A process fell over, and with it all that was under way: start anew."""
+
+    def alone(self, package: Package) -> Graded:
+        """Grade one of those that were under way then, and nothing beside it."""
+
+
+class GaveUp(Exception):
+    """The crew cannot go on; the message says why and what to do."""
+
+
+class Pool:
+    """Processes of this machine."""
+
+    work = staticmethod(grade_package)
+
+    def __init__(self, options: Options, jobs: int) -> None:
+        self.options, self.jobs = options, jobs or os.cpu_count() or 1
+        if sys.platform == "win32":
+            self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
+
+    def _start(self, jobs: int) -> ProcessPoolExecutor:
+        context = multiprocessing.get_context("spawn")
+        return ProcessPoolExecutor(jobs, context, begin_process)
+
+    def __enter__(self) -> Self:
+        self.executor = self._start(self.jobs)
+        return self
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        if kind is not None:  # somebody is tired of waiting
+            for process in multiprocessing.active_children():
+                process.kill()
+        self.executor.shutdown(cancel_futures=True)
+
+    def room(self) -> int:
+        return self.jobs * (1 + AHEAD)
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        try:
+            return self.executor.submit(self.work, package, self.options)
+        except BrokenProcessPool as error:
+            broken: Future[Graded] = Future()
+            broken.set_exception(error)
+            return broken
+
+    def mend(self) -> None:
+        self.executor.shutdown()
+        self.executor = self._start(self.jobs)
+
+    def alone(self, package: Package) -> Graded:
+        """In a pool of its own, so that it is known which one is to blame."""
+        with self._start(1) as executor:
+            return executor.submit(self.work, package, self.options).result()
+
+
+def begin_process() -> None:
+    """In a process of the pool: Ctrl-C is the parent's, and nobody works on without a parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def follow() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()
+
+
+# ---------------------------------------------------------------- a class
+
+
+@dataclass
+class Task:
+    """A submission that must be graded."""
+
+    found: Found
+    package: Package
+    key: str
+
+
+@dataclass
+class Run:
+    """One class, and what has become of it so far."""
+
+    intake: Intake
+    book: Book
+    key: str
+    adjustments: Adjustments
+    outcomes: list[Outcome] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
+    same: dict[str, list[str]] = field(default_factory=dict)  # names by the hash of their files
+
+    def tasks(self) -> Iterator[Task]:
+        """The submissions that must be graded; all others are settled on the way."""
+        for found in self.intake.found:
+            try:
+                package = pack(found)
+            except CannotTake as error:
+                self.trouble(found, str(error))
+                continue
+            self.same.setdefault(package.digest, []).append(found.name)
+            self.notes += [f"{found.name}: left out {each}" for each in package.notes]
+            key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
+            kept = self.book.kept(found.name, key)
+            if kept is None:
+                yield Task(found, package, key)
+            else:
+                self.settle("kept", found, kept)
+
+    def graded(self, task: Task, graded: Graded) -> None:
+        outcome = outcome_of(task.found.name, *graded, task.key)
+        self.book.write(outcome, graded[0])
+        self.settle("graded", task.found, outcome)
+
+    def trouble(self, found: Found, words: str) -> None:
+        self.book.forget(found.name)
+        self.settle("trouble", found, Outcome(found.name, words))
+
+    def settle(self, how: str, found: Found, outcome: Outcome) -> None:
+        final = self.adjustments.final(found, outcome.points)
+        outcome = msgspec.structs.replace(
+            outcome,
+            final=final.points if not outcome.trouble else 0,
+            reasons=list(final.reasons),
+            late=found.late,
+            handed_in=found.handed_in,
+        )
+        self.counts[how] += 1
+        self.outcomes.append(outcome)
+
+    def copies(self) -> Iterator[str]:
+        """Those who handed in the same files, unless these are worth nothing."""
+        worth = {each.name: each.points for each in self.outcomes}
+        for names in self.same.values():
+            if len(names) > 1 and worth[names[0]]:
+                yield f"the same files were handed in by {some(names)}"
 
 
 def grade_class(
-    folder: Path, out: Path | None, options: Options, jobs: int, console: Console
-) -> list[Outcome]:
-    """Grade them all; with `out`, one NAME.json each is written as soon as it is there."""
-    paths = submissions_in(folder)
+    intake: Intake,
+    out: Path,
+    key: str,
+    crew: Crew,
+    console: Console,
+    adjustments: Adjustments | None = None,
+) -> Run:
+    """Grade what is new in a class; results, book and table are in and beside the folder `out`."""
+    with Book(out) as book, counting(console) as progress:
+        run = Run(intake, book, key, adjustments or Adjustments(), notes=list(intake.notes))
+        for name, words in intake.troubles.items():
+            run.trouble(Found(name, ()), words)
+        total = len(intake.found) + len(intake.troubles)
+        bar = progress.add_task("", total=total, counts="")
+        for task, graded in grade_all(run.tasks(), crew):
+            if isinstance(graded, str):
+                run.trouble(task.found, graded)
+            else:
+                run.graded(task, graded)
+            show_counts(progress, bar, run)
+        run.outcomes.sort(key=lambda each: each.name)
+        book.close_with(run.outcomes)
+    run.notes += run.copies()
+    names = [each.name for each in run.outcomes]
+    for student in run.adjustments.unused(names):
+        run.notes.append(f"adjusted, but nothing was handed in: {student}")
+    if others := book.strangers(names):
+        run.notes.append(f"{out} also holds results of others than this class: {some(others)}")
+    return run
+
+
+def grade_all(tasks: Iterator[Task], crew: Crew) -> Iterator[tuple[Task, Graded | str]]:
+    """Each task with its result or its trouble, in the order in which they end."""
+    under_way: dict[Future[Graded], Task] = {}
+    for task in tasks:
+        under_way[crew.submit(task.package)] = task
+        if len(under_way) >= crew.room():
+            yield from finished(under_way, crew)
+    while under_way:
+        yield from finished(under_way, crew)
+
+
+def finished(
+    under_way: "dict[Future[Graded], Task]", crew: Crew
+) -> Iterator[tuple[Task, Graded | str]]:
+    """Those that have ended by now, one at least."""
+    done, _ = wait(under_way, return_when=FIRST_COMPLETED)
+    broken = any(isinstance(future.exception(), BrokenProcessPool) for future in done)
+    if broken:
+        done, _ = wait(under_way)  # at once: the pool has given all of them up
+        crew.mend()
+    for future in done:
+        task = under_way.pop(future)
+        graded: Graded | str
+        try:
+            again = isinstance(future.exception(), BrokenProcessPool)
+            graded = crew.alone(task.package) if again else future.result()
+        except BrokenProcessPool:
+            graded = "it ended the grader's own process, twice: please report it"
+        except GaveUp as error:
+            raise CannotGrade(str(error)) from error
+        except Exception as error:  # this one submission; the others go on
+            graded = f"{type(error).__name__}: {error}"
+        yield task, graded
+
+
+# ---------------------------------------------------------------- from the command line
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How a class is to be graded, as the command line says it."""
+
+    options: Options
+    out: Path | None = None  # the class folder's name and `-results`, beside it, if left out
+    jobs: int = 0
+    roster: Path | None = None  # roster.csv of the class folder, if there is one
+    adjust: Path | None = None  # adjustments.toml of the class folder, if there is one
+    cluster: str = ""  # the address of a Dask scheduler
+
+
+def run_class(path: Path, wanted: Wanted, console: Console) -> Run:
+    """Grade the class at `path`, show it, and say where the results are."""
+    path = path.resolve()
+    people = people_of(path, wanted.roster)
+    adjust = wanted.adjust or beside(path, "adjustments.toml")
+    adjustments = load_adjustments(adjust) if adjust else Adjustments()
+    out = wanted.out or path.with_name(f"{path.stem}-results")
+    with opened_class(path, people) as intake, hired(wanted) as crew:
+        run = grade_class(intake, out, key_of(wanted.options), crew, console, adjustments)
+        if absent := people.absent(intake.found):
+            run.notes.append(f"nothing was handed in by {some(absent)}")
+        if strangers := people.strangers(intake.found):
+            run.notes.append(f"not in the class list: {some(strangers)}")
+    show_class(run, console)
+    return run
+
+
+def people_of(path: Path, roster: Path | None) -> ClassList:
+    """Who is in the class, if there is a class list."""
+    roster = roster or beside(path, "roster.csv")
+    try:
+        return ClassList(read_roster(roster) if roster else None)
+    except CannotRead as error:
+        raise CannotGrade(str(error)) from error
+
+
+def beside(path: Path, name: str) -> Path | None:
+    return path / name if (path / name).is_file() else None
+
+
+def hired(wanted: Wanted) -> AbstractContextManager[Crew]:
+    if not wanted.cluster:
+        return Pool(wanted.options, wanted.jobs)
+    from grader.classroom.cluster import connected  # an extra
+
+    return connected(wanted.cluster, wanted.options)
+
+
+# ---------------------------------------------------------------- for people
+
+
+def counting(console: Console) -> Progress:
+    """A bar with the time that is left, and what has become of how many."""
     columns = (TextColumn("grading"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    outcomes = []
-    with Progress(*columns, console=console, transient=True) as progress:
-        task = progress.add_task("", total=len(paths))
-        for outcome in grade_all(paths, options, jobs):
-            outcomes.append(outcome)
-            progress.advance(task)
-            if out is not None and outcome.result is not None:
-                write_json(outcome.result, out / f"{outcome.name}.json")
-    return sorted(outcomes, key=lambda outcome: outcome.name)
+    counts = TextColumn("{task.fields[counts]}")
+    here = console.is_terminal
+    return Progress(*columns, counts, console=console, transient=True, disable=not here)
 
 
-def grade_all(paths: list[Path], options: Options, jobs: int) -> Iterator[Outcome]:
-    """In processes of their own, in the order in which they end."""
-    context = get_context("spawn")
-    with ProcessPoolExecutor(jobs or os.cpu_count(), mp_context=context) as pool:
-        futures = {pool.submit(grade, path, options): path.name for path in paths}
-        for future in as_completed(futures):
-            name = futures[future]
-            try:
-                yield Outcome(name, future.result())
-            except Exception as error:  # this one submission; the others go on
-                yield Outcome(name, None, f"{type(error).__name__}: {error}")
+def show_counts(progress: Progress, bar: TaskID, run: Run) -> None:
+    counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
+    progress.update(bar, completed=len(run.outcomes), counts=counts)
 
 
-def show_class(outcomes: list[Outcome], console: Console) -> None:
+def show_class(run: Run, console: Console) -> None:
+    """The table, how many passed each TODO, and all that a person should know."""
+    if len(run.outcomes) <= LONGEST:
+        console.print(table_of(run.outcomes))
+    results = [each for each in run.outcomes if not each.trouble]
+    if len(results) > 1:
+        console.print(rates(results))
+    for note in run.notes[:LONGEST]:
+        console.print(clean(note), soft_wrap=True)
+    counts = ", ".join(f"{count} {how}" for how, count in run.counts.items())
+    console.print(f"{len(run.outcomes)} submissions: {counts}")
+    console.print(f"results: {run.book.folder}", soft_wrap=True)
+    console.print(f"table:   {run.book.table}", soft_wrap=True)
+
+
+def table_of(outcomes: list[Outcome]) -> Table:
     table = Table("submission", "points", "not passed")
-    for outcome in outcomes:
-        if outcome.result is None:
-            table.add_row(clean(outcome.name), "none", clean(outcome.trouble))
+    for each in outcomes:
+        if each.trouble:
+            table.add_row(clean(each.name), "none", clean(each.trouble))
             continue
-        left = [todo.id for todo in outcome.result.todos if todo.state != "passed"]
-        points = f"{outcome.result.points} / {outcome.result.max_points}"
-        table.add_row(clean(outcome.name), points, ", ".join(left))
-    console.print(table)
+        points = f"{each.final} / {each.max_points}"
+        told = [f"found {each.points}; {clean('; '.join(each.reasons))}"] if each.reasons else []
+        late = ["late"] if each.late and not each.reasons else []
+        left = "all" if len(each.left) == len(each.todos) else ", ".join(each.left)
+        table.add_row(clean(each.name), points, "\n".join(filter(None, [left, *late, *told])))
+    return table
+
+
+def rates(results: list[Outcome]) -> Table:
+    """The share of submissions that pass each TODO."""
+    table = Table("TODO", "passed by", box=None)
+    for todo in load_rubric().todos:
+        asked = [each for each in results if todo.id in each.todos]
+        if asked:
+            passed = sum(todo.id not in each.left for each in asked)
+            table.add_row(f"{todo.id} {todo.title}", f"{passed / len(asked):4.0%}")
+    return table
+
+
+def some(names: list[str]) -> str:
+    """Names for one note."""
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    return ", ".join(names[:NAMED]) + more

@@ -30,6 +30,7 @@ from grader.classroom.roster import (
     parts_from_results,
     people,
     read_roster,
+    why,
 )
 from grader.commands import console, stop
 from grader.judge.grade import KIT, Options, shipped_reference
@@ -115,6 +116,56 @@ def release_command() -> None:
     console.print(f"renewed {', '.join(names) or 'nothing'}")
 
 
+@app.command("gradescope")
+def gradescope_command(
+    out: Annotated[Path, typer.Option(help="The zip to write.")] = (
+        KIT / "build" / "gradescope" / "autograder.zip"
+    ),
+    wheels: Annotated[
+        str, typer.Option(help="Put all packages in, for this Python, such as 3.11.")
+    ] = "",
+    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
+    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+) -> None:
+    """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
+    from grader.classroom.gradescope import NoWheels, write_autograder
+    from grader.classroom.gradescope.autograder import Settings
+
+    try:
+        write_autograder(out, Settings(isolation, seed), wheels)
+    except NoWheels as error:
+        stop(str(error), "go on")
+    console.print(f"made {out}", soft_wrap=True)
+
+
+@app.command("dashboard")
+def dashboard_command(
+    results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
+    submissions: Annotated[
+        Path | None, typer.Option(help="The class itself: one student's replay per known mistake.")
+    ] = None,
+    roster: Annotated[
+        Path | None, typer.Option(help="Its list, if it was graded with one.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(help="The seed it was graded with.")] = None,
+) -> None:
+    """Make a page of a class, and beside it a report for each student."""
+    from grader.classroom.batch import people_of
+    from grader.classroom.dashboard import NoResults, read_class, with_replays, write_dashboard
+    from grader.classroom.intake import opened_class
+
+    try:
+        entries = read_class(results)
+        if submissions is not None:
+            options = Options(shipped_reference(), seed=seed)
+            with opened_class(submissions, people_of(submissions, roster)) as intake:
+                entries = list(with_replays(entries, intake, options, results))
+        page = write_dashboard(results, entries)
+    except (CannotGrade, NoResults) as error:
+        stop(str(error), "go on")
+    console.print(f"made {page}", soft_wrap=True)
+
+
 List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
 Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
 
@@ -137,21 +188,25 @@ def marks_command(
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
+    from grader.classroom.dashboard import NoResults, read_class
+
     try:
         listed = read_roster(roster)
         column = listed.key(key)
         marking = load_marking(settings or (course if course else INSTRUCTOR) / "marks.toml")
         if results is not None:
             marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
-            scores = parts_from_results(read_results([results]))
+            outcomes = [each.outcome for each in read_class(results)]
+            scores = parts_from_results(outcomes)
+            told = [f"{each.name}: {why(each)}" for each in outcomes if why(each)]
         else:
-            scores = parts_from_gradebook(course or Path("."), marking)
+            scores, told = parts_from_gradebook(course or Path("."), marking), []
         made = marks(listed, column, scores, marking, so_far)
-    except (CannotRead, NoCourse) as error:
+    except (CannotRead, NoCourse, NoResults) as error:
         stop(str(error), "go on")
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_bytes(made.text.encode("utf-8"))
-    for note in made.notes:
+    for note in [*told, *made.notes]:
         console.print(clean(note))
     console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
     raise typer.Exit(0 if made.given == len(listed.rows) else 1)

@@ -17,10 +17,9 @@ from typing import Any
 import msgspec
 from rich.console import Console
 
-from grader.classroom.batch import grade_class
 from grader.judge.grade import KIT, Options
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.submission import plain_files
+from grader.judge.submission import CannotGrade, plain_files
 from grader.maintain.sync import given_files
 from grader.report import terminal
 
@@ -30,7 +29,6 @@ NOTEBOOKS = "notebooks"  # the folder of both trees
 INSTRUCTOR = KIT / "handouts" / "instructor"
 SETTINGS = ("nbgrader_config.py", "marks.toml")
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
-DEEPEST = 3  # folders around a submission that only hold the next one
 
 
 class NoCourse(Exception):
@@ -96,44 +94,38 @@ def collect(folder: Path, course: Path) -> Iterator[Taken]:
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
     starter, or beside the engine. A submission that changed will be autograded anew.
     """
+    # Imported here: taking in reads class lists, and these import this module.
+    from grader.classroom.intake import CannotTake, laid_out, opened_class
+
     need_source(course)
-    for path in folders_in(folder):
-        if not NAME.fullmatch(path.name):
-            yield Taken(path.name, "nbgrader cannot work with this name: rename it", False)
-            continue
-        target = course / "submitted" / path.name / ASSIGNMENT
-        with tempfile.TemporaryDirectory() as temporary:
-            copy = Path(temporary) / ASSIGNMENT
-            notebooks = lay_out(root_of(path), copy)
-            if target.exists() and same(copy, target):
-                yield Taken(path.name, "unchanged")
-                continue
-            shutil.rmtree(target, ignore_errors=True)
-            shutil.rmtree(course / "autograded" / path.name / ASSIGNMENT, ignore_errors=True)
-            shutil.copytree(copy, target)
-        yield Taken(path.name, f"{notebooks} notebooks" if notebooks else "no notebook")
+    try:
+        with opened_class(folder) as intake:
+            for found in intake.found:
+                try:
+                    with laid_out(found) as (path, _):
+                        yield take(found.name, path, course)
+                except CannotTake as error:
+                    yield Taken(found.name, str(error), False)
+            for name, words in intake.troubles.items():
+                yield Taken(name, words, False)
+    except CannotGrade as error:
+        raise NoCourse(str(error)) from error
 
 
-def folders_in(folder: Path) -> list[Path]:
-    if not folder.is_dir():
-        raise NoCourse(f"there is no folder of submissions at {folder}")
-    found = [path for path in sorted(folder.iterdir()) if not path.name.startswith(".")]
-    folders = [path for path in found if path.is_dir() and not path.is_symlink()]
-    if not folders:
-        raise NoCourse(f"{folder} holds no submission: each must be a folder of its own")
-    return folders
-
-
-def root_of(path: Path) -> Path:
-    """The folder that holds the work: zips often put one more folder around it."""
-    for _ in range(DEEPEST):
-        inside = [each for each in path.iterdir() if not each.name.startswith((".", "__MACOSX"))]
-        if len(inside) != 1 or not inside[0].is_dir() or inside[0].is_symlink():
-            break
-        if inside[0].name in (NOTEBOOKS, "mini_engine"):
-            break
-        path = inside[0]
-    return path
+def take(student: str, path: Path, course: Path) -> Taken:
+    """Lay one student's files where nbgrader looks for them, if they are not there already."""
+    if not NAME.fullmatch(student):
+        return Taken(student, "nbgrader cannot work with this name: rename it", False)
+    target = course / "submitted" / student / ASSIGNMENT
+    with tempfile.TemporaryDirectory() as temporary:
+        copy = Path(temporary) / ASSIGNMENT
+        notebooks = lay_out(path, copy)
+        if target.exists() and same(copy, target):
+            return Taken(student, "unchanged")
+        shutil.rmtree(target, ignore_errors=True)
+        shutil.rmtree(course / "autograded" / student / ASSIGNMENT, ignore_errors=True)
+        shutil.copytree(copy, target)
+    return Taken(student, f"{notebooks} notebooks" if notebooks else "no notebook")
 
 
 def lay_out(path: Path, target: Path) -> int:
@@ -171,17 +163,18 @@ def grade_submitted(course: Path, options: Options, jobs: int, console: Console)
     found = sorted((course / "submitted").glob(f"*/{ASSIGNMENT}"))
     if not found:
         raise NoCourse(f"there is nothing in {course / 'submitted'}: collect submissions first")
-    with tempfile.TemporaryDirectory() as temporary:
-        for path in found:
-            copy = Path(temporary) / path.parent.name
-            copy.mkdir()
-            for source in plain_files(path):
-                target = copy / source.relative_to(path)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, target)
-        shutil.rmtree(course / "results", ignore_errors=True)  # none may outlive its submission
-        outcomes = grade_class(Path(temporary), course / "results", options, jobs, console)
-    return [f"{each.name}: {each.trouble}" for each in outcomes if each.result is None]
+    # Imported here: taking in reads class lists, and these import this module.
+    from grader.classroom.batch import Pool, grade_class, key_of
+    from grader.classroom.intake import Found, Intake
+
+    intake = Intake([Found(path.parent.name, (path,)) for path in found])
+    results = course / "results"
+    for path in results.glob("*.json"):
+        if path.stem not in {each.name for each in intake.found}:
+            path.unlink()  # none may outlive its submission
+    with Pool(options, jobs) as pool:
+        run = grade_class(intake, results, key_of(options), pool, console)
+    return [f"{each.name}: {each.trouble}" for each in run.outcomes if each.trouble]
 
 
 # ---------------------------------------------------------------- marks into the gradebook

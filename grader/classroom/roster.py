@@ -11,20 +11,24 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec import Struct
 
 from grader.classroom import nbgrader
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
-from grader.judge.result import Result
+from grader.report.sinks.tables import harmless as harmless
+from grader.report.terminal import clean
+
+if TYPE_CHECKING:
+    from grader.classroom.book import Outcome
 
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 MOODLE = ("First name", "Last name", "ID number", "Email address")
 KEYS = ("SIS Login ID", "Email address", "ID number", "SIS User ID")
 POINTS_POSSIBLE = "Points Possible"  # the first cell of Canvas's second row
 TEST_STUDENT = "Student, Test"  # Canvas's own, who never hands in
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 class CannotRead(Exception):
@@ -51,6 +55,7 @@ class Part:
     points: float
     max_points: float
     waiting: bool = False  # for a person to grade it
+    note: str = ""  # why these points
 
 
 Parts = dict[str, Part]
@@ -113,14 +118,20 @@ def parts_from_gradebook(course: Path, marking: Marking) -> dict[str, Parts]:
     return found
 
 
-def parts_from_results(results: Iterable[tuple[str, Result | str]]) -> dict[str, Parts]:
-    """The engine alone, where no notebooks are used."""
-    found: dict[str, Parts] = {}
-    for student, result in results:
-        if isinstance(result, str):
-            raise CannotRead(result)
-        found[student] = {ENGINE: Part(result.points, result.max_points)}
-    return found
+def parts_from_results(outcomes: Iterable["Outcome"]) -> dict[str, Parts]:
+    """The engine alone, where no notebooks are used: after adjustments, which are its note.
+
+    What could not be graded waits for a person.
+    """
+    return {
+        each.name: {ENGINE: Part(each.final, each.max_points, bool(each.trouble), why(each))}
+        for each in outcomes
+    }
+
+
+def why(outcome: "Outcome") -> str:
+    """Why these are its points, if they are not what the checks gave."""
+    return outcome.trouble or "; ".join(outcome.reasons)
 
 
 # ---------------------------------------------------------------- the class list
@@ -248,6 +259,7 @@ def summary(parts: Parts, marking: Marking) -> str:
     """What makes the mark, for the column of feedback."""
     return "; ".join(
         f"{name} {parts[name].points:g} / {parts[name].max_points:g}"
+        + f" ({clean(parts[name].note)})" * bool(parts[name].note)
         for name in marking.shares
         if name in parts
     )
@@ -280,9 +292,3 @@ def as_csv(table: list[list[str]], roster: Roster) -> str:
     writer = csv.writer(out, delimiter=roster.delimiter, lineterminator="\r\n")
     writer.writerows([harmless(cell) for cell in row] for row in table)
     return roster.mark + out.getvalue()
-
-
-def harmless(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
-    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
-    return f"'{cell}" if plain.startswith(FORMULA) else cell

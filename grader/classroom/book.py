@@ -1,0 +1,145 @@
+"""What is kept of a graded class.
+
+- `DIR/NAME.json`: the result of each submission, byte for byte what `--json` writes.
+- `DIR.class.jsonl`: the class book, a line for each submission. A line is added as soon as a result
+  is written, so a run that was killed goes on where it stopped.
+- `DIR.class.csv`: the table, for people.
+"""
+
+import csv
+import hashlib
+import io
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Self
+
+import msgspec
+from msgspec import Struct
+
+from grader.classroom.roster import harmless
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.report.files import write_whole
+
+
+class Outcome(Struct, frozen=True):
+    """One submission of a class: its points, or why there are none."""
+
+    name: str
+    trouble: str = ""
+    points: int = 0
+    max_points: int = 0
+    todos: dict[str, int] = {}  # points by TODO
+    left: list[str] = []  # TODOs that are not passed
+    final: int = 0  # points after adjustments
+    reasons: list[str] = []  # of the adjustments
+    late: bool = False
+    handed_in: datetime | None = None
+    seconds: float = 0.0  # that grading took
+    graded: datetime | None = None
+    key: str = ""  # the hash of all that the result depends on
+    content: str = ""  # the hash of the result's file
+
+
+class Book:
+    """The results of a class in a folder, and the book beside it."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder.resolve()
+        self.path = self.folder.with_name(f"{self.folder.name}.class.jsonl")
+        self.table = self.path.with_suffix(".csv")
+        self.known = {each.name: each for each in read_book(self.path)}
+
+    def __enter__(self) -> Self:
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for part in self.folder.glob(f".*.json.{'[0-9a-f]' * 16}"):
+            part.unlink()  # of a run that was killed
+        write_whole(lines(self.known.values()), self.path)  # a line may be half there
+        self.file = open(self.path, "ab", buffering=0)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.file.close()
+
+    def result_file(self, name: str) -> Path:
+        return self.folder / f"{name}.json"
+
+    def kept(self, name: str, key: str) -> Outcome | None:
+        """What stands from an earlier run, if nothing has changed and the result is untouched."""
+        known = self.known.get(name)
+        if known is None or known.key != key:
+            return None
+        with suppress(OSError):
+            if hashlib.sha256(self.result_file(name).read_bytes()).hexdigest() == known.content:
+                return known
+        return None
+
+    def write(self, outcome: Outcome, result: bytes) -> None:
+        """The result first: a line in the book promises that it is there."""
+        write_whole(result, self.result_file(outcome.name))
+        self.file.write(lines([outcome]))
+
+    def forget(self, name: str) -> None:
+        """No result may outlive the submission that it was made from."""
+        self.result_file(name).unlink(missing_ok=True)
+
+    def close_with(self, outcomes: list[Outcome]) -> None:
+        """The book and the table as they are at the end."""
+        write_whole(lines(outcomes), self.path)
+        write_whole(as_table(outcomes).encode("utf-8-sig"), self.table)
+
+    def strangers(self, names: Iterable[str]) -> list[str]:
+        """Results in the folder that belong to no submission of this class."""
+        return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
+
+
+def adjusted(folder: Path) -> list[Outcome]:
+    """Those in a class's folder of results whose points a person has changed."""
+    known = Book(folder).known.values()
+    return [each for each in known if each.reasons and not each.trouble]
+
+
+def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
+    """What the book says about a result."""
+    decoded = msgspec.json.decode(result, type=Result)
+    return Outcome(
+        name,
+        points=decoded.points,
+        max_points=decoded.max_points,
+        todos={todo.id: todo.points for todo in decoded.todos},
+        left=[todo.id for todo in decoded.todos if todo.state != "passed"],
+        final=decoded.points,
+        seconds=round(seconds, 3),
+        graded=datetime.now(UTC).replace(microsecond=0),
+        key=key,
+        content=hashlib.sha256(result).hexdigest(),
+    )
+
+
+def lines(outcomes: Iterable[Outcome]) -> bytes:
+    return b"".join(msgspec.json.encode(each) + b"\n" for each in outcomes)
+
+
+def read_book(path: Path) -> Iterator[Outcome]:
+    """The lines of a book; of one that was cut off, those that are whole."""
+    if path.exists():
+        with open(path, "rb") as file:
+            for line in file:
+                with suppress(msgspec.MsgspecError):
+                    yield msgspec.json.decode(line, type=Outcome)
+
+
+def as_table(outcomes: Iterable[Outcome]) -> str:
+    """The class for a spreadsheet: nothing in it depends on when or how fast it was graded."""
+    todos = [todo.id for todo in load_rubric().todos]
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow(["name", "points", "found", "of", "late", "adjusted", "trouble", *todos])
+    for each in outcomes:
+        graded = [each.final, each.points, each.max_points] if not each.trouble else [""] * 3
+        told = ["late" if each.late else "", "; ".join(each.reasons), each.trouble]
+        points = [str(each.todos.get(todo, "")) for todo in todos]
+        writer.writerow([harmless(each.name), *graded, *map(harmless, told), *points])
+    return out.getvalue()

@@ -1,0 +1,260 @@
+"""A class at a glance: one page that needs nothing else, with the students' reports beside it.
+
+Everything is made from the results and the class book. Names and words of students are text in it,
+whatever they are.
+"""
+
+import statistics
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from urllib.parse import quote
+
+import msgspec
+from markupsafe import Markup
+
+from grader.classroom.book import Book, Outcome, outcome_of
+from grader.classroom.intake import CannotTake, Intake, pack
+from grader.judge.children import start_worker
+from grader.judge.grade import Options, grade, work_folder
+from grader.judge.result import Result, State, TodoResult
+from grader.judge.submission import CannotGrade
+from grader.player.page import allowed, environment, one_line, theme
+from grader.report.files import write_whole
+from grader.report.html import write_report
+
+TEMPLATES = Path(__file__).with_name("templates")
+BINS = 10  # of the distribution
+SLOWEST = 10
+MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
+    "passed": "p",
+    "not yet": "w",
+    "error": "w",
+    "waiting": "w",
+    "not started": "u",
+}
+
+
+class NoResults(Exception):
+    """There is nothing to show; the message says where results were looked for."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One submission: what the class book says of it, and its result unless it is in trouble."""
+
+    outcome: Outcome
+    result: Result | None = None
+
+    @property
+    def share(self) -> float:
+        """Of the points there are, those that count; more than 1 if points were added by hand."""
+        return self.outcome.final / self.outcome.max_points if self.outcome.max_points else 0.0
+
+    @property
+    def bin(self) -> int:
+        return max(0, min(int(self.share * BINS), BINS - 1))
+
+    @cached_property
+    def todos(self) -> dict[str, TodoResult]:
+        return {todo.id: todo for todo in self.result.todos} if self.result else {}
+
+    @property
+    def mistakes(self) -> list[str]:
+        """The known mistakes that were found in it, each as it is named in the page."""
+        return [f"{id}:{t.misconception}" for id, t in self.todos.items() if t.misconception]
+
+
+@dataclass(frozen=True)
+class Rate:
+    """How many passed a TODO, how many tried and did not, how many did not begin."""
+
+    id: str
+    title: str
+    passed: int
+    wrong: int
+    untouched: int
+
+    @property
+    def share(self) -> float:
+        return self.passed / (self.passed + self.wrong + self.untouched)
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A known mistake, who makes it, and a replay of one of them if there is any."""
+
+    todo: str
+    name: str
+    meaning: str
+    entries: list[Entry]
+    replay: str = ""
+
+    @property
+    def key(self) -> str:
+        return f"{self.todo}:{self.name}"
+
+
+# ---------------------------------------------------------------- reading
+
+
+def read_class(results: Path) -> list[Entry]:
+    """Everybody whom the class book knows; without a book, everybody who has a result."""
+    book = Book(results)
+    outcomes = list(book.known.values()) or list(unbooked(book))
+    if not outcomes:
+        raise NoResults(f"there are no results in {results}: grade a class first, with --class")
+    entries = [entry_of(book, outcome) for outcome in outcomes]
+    return sorted(entries, key=lambda each: each.outcome.name)
+
+
+def unbooked(book: Book) -> Iterator[Outcome]:
+    for path in sorted(book.folder.glob("[!.]*.json")):
+        try:
+            yield outcome_of(path.stem, path.read_bytes(), 0.0, "")
+        except msgspec.MsgspecError as error:
+            yield Outcome(path.stem, f"{path.name} is no result of the grader ({error})")
+
+
+def entry_of(book: Book, outcome: Outcome) -> Entry:
+    """The book and the result together; a result that cannot be read is trouble as well."""
+    if outcome.trouble:
+        return Entry(outcome)
+    path = book.result_file(outcome.name)
+    try:
+        return Entry(outcome, msgspec.json.decode(path.read_bytes(), type=Result))
+    except (OSError, msgspec.MsgspecError) as error:
+        return Entry(Outcome(outcome.name, f"its result cannot be read: {error}"))
+
+
+# ---------------------------------------------------------------- replays
+
+
+def with_replays(
+    entries: list[Entry], intake: Intake, options: Options, folder: Path
+) -> Iterator[Entry]:
+    """Grade one student's TODO again for each known mistake, this time with replays in `folder`."""
+    found = {each.name: each for each in intake.found}
+    wanted: dict[str, set[str]] = {}
+    for mistake in mistakes_of(entries, folder):
+        name = next((e.outcome.name for e in mistake.entries if e.outcome.name in found), None)
+        if name and not mistake.replay:
+            wanted.setdefault(name, set()).add(mistake.todo)
+    worker = start_worker()
+    try:
+        for entry in entries:
+            name = entry.outcome.name
+            todos = wanted.get(name)
+            if entry.result is None or not todos:
+                yield entry
+                continue
+            again = replace(options, only=frozenset(todos), replays=folder / name)
+            with suppress(CannotGrade, CannotTake), work_folder() as work:
+                result = grade(pack(found[name]).unpack(work), again, worker)
+                entry = Entry(entry.outcome, with_todos(entry.result, result.todos))
+            yield entry
+    finally:
+        worker.close()
+
+
+def with_todos(result: Result, todos: list[TodoResult]) -> Result:
+    """The result with its replays, where these TODOs came out as they did before."""
+    again = {todo.id: todo for todo in todos}
+    shown = [
+        again[todo.id] if todo.id in again and again[todo.id].points == todo.points else todo
+        for todo in result.todos
+    ]
+    return msgspec.structs.replace(result, todos=shown)
+
+
+# ---------------------------------------------------------------- counting
+
+
+def rates_of(entries: list[Entry]) -> list[Rate]:
+    """A rate for each TODO that any result knows, in the order of the results."""
+    ids = dict.fromkeys(id for each in entries for id in each.todos)
+    return [rate_of([each.todos[id] for each in entries if id in each.todos]) for id in ids]
+
+
+def rate_of(todos: list[TodoResult]) -> Rate:
+    passed = sum(todo.state == "passed" for todo in todos)
+    untouched = sum(todo.state == "not started" for todo in todos)
+    first = todos[0]
+    return Rate(first.id, first.title, passed, len(todos) - passed - untouched, untouched)
+
+
+def mistakes_of(entries: list[Entry], folder: Path) -> list[Mistake]:
+    """The known mistakes, the most common first."""
+    makers: dict[tuple[str, str], list[Entry]] = {}
+    for entry in entries:
+        for todo in entry.todos.values():
+            if todo.misconception:
+                makers.setdefault((todo.id, todo.misconception), []).append(entry)
+    found = [mistake_of(id, name, each, folder) for (id, name), each in makers.items()]
+    return sorted(found, key=lambda each: (-len(each.entries), each.key))
+
+
+def mistake_of(todo: str, name: str, entries: list[Entry], folder: Path) -> Mistake:
+    checks = [check for entry in entries for check in entry.todos[todo].checks]
+    meaning = next((check.meaning for check in checks if check.meaning), "")
+    replays = (check.replay for check in checks if check.replay)
+    replay = next((each for each in replays if (folder / each).is_file()), "")
+    return Mistake(todo, name, meaning, entries, replay)
+
+
+# ---------------------------------------------------------------- writing
+
+
+def write_dashboard(results: Path, entries: list[Entry]) -> Path:
+    """Write the page beside the folder of results, and into it a report per student."""
+    folder = Book(results).folder
+    for entry in entries:
+        report = folder / f"{entry.outcome.name}.html"
+        if entry.result is None:
+            report.unlink(missing_ok=True)  # none may outlive its submission
+        else:
+            write_report(entry.result, report)
+    path = folder.with_name(f"{folder.name}.class.html")
+    write_whole(dashboard(folder, entries).encode("utf-8"), path)
+    return path
+
+
+def dashboard(folder: Path, entries: list[Entry]) -> str:
+    """The page; reports and replays are linked to as they lie in `folder`, beside it."""
+    graded = [each for each in entries if each.result]
+    points = [each.outcome.final for each in graded]
+    style = theme() + (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
+    script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
+    return (
+        environment(TEMPLATES)
+        .get_template("dashboard.html")
+        .render(
+            title=folder.name,
+            folder=f"./{quote(folder.name)}/",
+            entries=entries,
+            graded=graded,
+            troubled=[each for each in entries if not each.result],
+            mean=f"{statistics.fmean(points):.1f}" if points else "none",
+            median=f"{statistics.median(points):g}" if points else "none",
+            full=sum(each.outcome.final >= each.outcome.max_points for each in graded),
+            bins=[sum(each.bin == number for each in graded) for number in range(BINS)],
+            rates=rates_of(graded),
+            mistakes=mistakes_of(graded, folder),
+            slowest=slowest(graded),
+            bonus=any(each.result.bonus for each in graded if each.result),
+            marks=MARKS,
+            clean=one_line,
+            quote=quote,
+            style=Markup(style),
+            script=Markup(script),
+            style_hash=f"'{allowed(style)}'",
+            script_hash=f"'{allowed(script)}'",
+        )
+    )
+
+
+def slowest(graded: list[Entry]) -> list[Entry]:
+    timed = [each for each in graded if each.outcome.seconds]
+    return sorted(timed, key=lambda each: -each.outcome.seconds)[:SLOWEST]

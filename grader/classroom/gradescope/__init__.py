@@ -1,0 +1,73 @@
+"""Gradescope: the zip that makes it grade with this kit.
+
+The zip holds the whole grader and the reference. It is the instructor's: students never see it.
+"""
+
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+
+from grader.classroom.gradescope.autograder import Settings
+from grader.judge.grade import KIT
+from grader.report.files import write_whole
+from grader.todo_regions import python_files
+
+HERE = Path(__file__).parent
+SCRIPTS = ("setup.sh", "run_autograder")
+NEWEST_FIRST = ("3.13", "3.12", "3.11")  # the Pythons that the kit is tested on
+DAY_ONE = (1980, 1, 1, 0, 0, 0)  # of every file: the same kit makes the same zip
+MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64")
+
+
+class NoWheels(Exception):
+    """The packages could not be had; the message says for which Python."""
+
+
+def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
+    """Write the zip; with all packages in it for one Python, if `wheels` names its version.
+
+    Then nothing but this Python itself is ever installed over the network.
+    """
+    with tempfile.TemporaryDirectory() as temporary:
+        work = Path(temporary)
+        if wheels:
+            download(wheels, work / "wheels")
+        with zipfile.ZipFile(work / "autograder.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in sorted(contents(settings, work / "wheels", wheels)):
+                entry = zipfile.ZipInfo(name, DAY_ONE)
+                entry.compress_type = zipfile.ZIP_DEFLATED
+                entry.external_attr = (0o100755 if name in SCRIPTS else 0o100644) << 16
+                archive.writestr(entry, content)
+        write_whole((work / "autograder.zip").read_bytes(), path)
+
+
+def contents(settings: Settings, wheels: Path, version: str) -> Iterator[tuple[str, bytes]]:
+    """The files of the zip by their names; scripts lie at its root, as Gradescope wants it."""
+    for name in SCRIPTS:
+        yield name, (HERE / name).read_bytes().replace(b"\r\n", b"\n")
+    yield "pythons", f"{version or ' '.join(NEWEST_FIRST)}\n".encode()
+    yield "settings.json", msgspec.json.encode(settings)
+    yield "requirements.txt", (KIT / "requirements.txt").read_bytes()
+    for file in sorted((KIT / "grader").rglob("*")):
+        inside = file.relative_to(KIT / "grader")
+        if file.is_file() and "__pycache__" not in inside.parts:
+            yield f"grader/{inside.as_posix()}", file.read_bytes()
+    for file in python_files(KIT / "solution"):
+        yield f"solution/{file.relative_to(KIT / 'solution').as_posix()}", file.read_bytes()
+    for file in wheels.glob("*.whl"):
+        yield f"wheels/{file.name}", file.read_bytes()
+
+
+def download(version: str, folder: Path) -> None:
+    """Everything in requirements.txt as packages for Gradescope's machines."""
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check", "download"]
+    machines = [f"--platform={machine}" for machine in MACHINES]
+    wanted = ["--only-binary=:all:", f"--python-version={version}", "--require-hashes"]
+    files = ["-r", str(KIT / "requirements.txt"), "-d", str(folder)]
+    if subprocess.run([*pip, *machines, *wanted, *files]).returncode:
+        raise NoWheels(f"not every package could be had for Python {version}: see above")

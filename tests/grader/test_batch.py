@@ -1,0 +1,278 @@
+"""Grading a class: what is kept, what is graded again, and what survives a kill."""
+
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+
+import psutil
+import pytest
+from rich.console import Console
+from typer.testing import CliRunner
+
+from grader.classroom import batch, commands
+from grader.classroom.adjustments import Adjust, Adjustments
+from grader.classroom.batch import Graded, Pool, Run, Wanted, grade_class, key_of, run_class
+from grader.classroom.intake import Package, opened_class
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import Result, TodoResult
+from grader.report.files import as_json
+
+QUIET = Console(quiet=True)
+ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}))  # a second instead of five
+
+
+def result_of(package: Package) -> bytes:
+    """A result that depends on the files and the name, as a real one does."""
+    points = len(package.files)
+    todo = TodoResult("8a", "", "passed" if points else "not yet", points, 2, None, [])
+    return as_json(Result(1, package.name, points, 2, 0, ["processes"], [todo]))
+
+
+def stand_in(package: Package, options: Options) -> Graded:
+    """Instead of grading: what some submissions do to the process that grades them."""
+    if package.name.startswith("killer"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    if package.name.startswith("raiser"):
+        raise ValueError("the judge fell over")
+    time.sleep(0.05)
+    return result_of(package), 0.05
+
+
+class FragilePool(Pool):
+    work = staticmethod(stand_in)
+
+
+class Inline:
+    """Grades at once, and remembers whom."""
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def room(self) -> int:
+        return 1
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        self.names.append(package.name)
+        future: Future[Graded] = Future()
+        future.set_result((result_of(package), 0.0))
+        return future
+
+
+@pytest.fixture
+def classroom(tmp_path: Path) -> Path:
+    for name in ("ann", "ben", "cem"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "integrators.py").write_text(f"# {name}\n", encoding="utf-8")
+    return tmp_path / "class"
+
+
+def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
+    """One run; `.names` of its crew are those that were graded anew."""
+    crew = Inline()
+    with opened_class(classroom) as intake:
+        run = grade_class(intake, classroom.parent / "out", key, crew, QUIET, adjustments)
+    run.names = crew.names
+    return run
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def test_only_what_changed_is_graded_again(classroom):
+    assert graded(classroom).names == ["ann", "ben", "cem"]
+    assert graded(classroom).names == []
+    (classroom / "ben" / "helper.py").write_text("", encoding="utf-8")
+    assert graded(classroom).names == ["ben"]
+    assert graded(classroom, key="another seed").names == ["ann", "ben", "cem"]
+
+
+def test_a_result_that_is_gone_or_touched_is_made_again(classroom):
+    run = graded(classroom)
+    run.book.result_file("ann").unlink()
+    run.book.result_file("cem").write_text("{}", encoding="utf-8")
+    assert graded(classroom).names == ["ann", "cem"]
+
+
+def test_a_line_cut_off_by_a_kill_costs_that_submission_only(classroom):
+    book = graded(classroom).book
+    whole = book.path.read_bytes()
+    book.path.write_bytes(whole[:-40])
+    (book.folder / f".ann.json.{'0' * 16}").write_text("half", encoding="utf-8")
+    assert graded(classroom).names == ["cem"]
+    assert sorted(path.name for path in book.folder.iterdir()) == [
+        "ann.json",
+        "ben.json",
+        "cem.json",
+    ]
+
+
+def test_no_result_outlives_its_submission(classroom):
+    assert graded(classroom).book.result_file("ann").exists()
+    shutil.rmtree(classroom / "ann")
+    (classroom / "ann.zip").write_bytes(b"not a zip")
+    run = graded(classroom)
+    assert not run.book.result_file("ann").exists()
+    assert "broken" in {each.name: each.trouble for each in run.outcomes}["ann"]
+    assert run.counts == {"graded": 0, "kept": 2, "trouble": 1}
+
+
+def test_results_of_others_in_the_folder_stay_and_are_mentioned(classroom):
+    graded(classroom)
+    shutil.rmtree(classroom / "ben")
+    run = graded(classroom)
+    assert run.book.result_file("ben").exists()
+    assert any("others than this class: ben" in note for note in run.notes)
+
+
+def test_the_key_depends_on_all_that_decides(tmp_path):
+    keys = {
+        key_of(options)
+        for options in (
+            Options(),
+            Options(seed=1),
+            Options(only=frozenset({"1"})),
+            Options(isolation="strict"),
+            Options(shipped_reference()),
+        )
+    }
+    assert len(keys) == 5 and key_of(Options(seed=1)) in keys
+
+
+# ---------------------------------------------------------------- adjustments, table, notes
+
+
+def test_adjustments_stay_on_top_and_results_as_they_are(classroom):
+    adjustments = Adjustments(adjust=[Adjust("ann", "=ill", add=40), Adjust("eve", "x", add=1)])
+    before = graded(classroom).book.result_file("ann").read_bytes()
+    for run in (graded(classroom, adjustments=adjustments), graded(classroom, "k", adjustments)):
+        assert run.book.result_file("ann").read_bytes() == before
+        with open(run.book.table, encoding="utf-8-sig", newline="") as file:
+            row = next(row for row in csv.DictReader(file) if row["name"] == "ann")
+        assert (row["points"], row["found"], row["adjusted"]) == ("41", "1", "'=ill: +40")
+        assert "adjusted, but nothing was handed in: eve" in run.notes
+    assert graded(classroom).outcomes[0].final == 1
+
+
+def test_marks_for_the_lms_are_those_after_adjustments(classroom):
+    graded(classroom, adjustments=Adjustments(adjust=[Adjust("ann", "ill", points=2)]))
+    (classroom / "list.csv").write_text("Email address\nann@x\nben@x\n", encoding="utf-8")
+    out = classroom / "marks.csv"
+    files = [str(classroom / "list.csv"), "--results", str(classroom.parent / "out")]
+    done = CliRunner().invoke(commands.app, ["marks", *files, "--out", str(out)])
+    assert done.exit_code == 0 and "ann: ill: set to 2" in done.output
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
+    assert [row["Grade"] for row in rows] == ["100.0", "50.0"]
+
+
+def test_the_same_files_from_two_people_are_mentioned(classroom):
+    shutil.copy(classroom / "ann" / "integrators.py", classroom / "cem" / "integrators.py")
+    assert "the same files were handed in by ann, cem" in graded(classroom).notes
+
+
+def test_names_and_words_are_harmless_in_the_table(classroom):
+    (classroom / "ben").rename(classroom / "=1+1")
+    with open(graded(classroom).book.table, encoding="utf-8-sig", newline="") as file:
+        assert [row["name"] for row in csv.DictReader(file)] == ["'=1+1", "ann", "cem"]
+
+
+def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
+    monkeypatch.setattr(batch, "hired", lambda wanted: FragilePool(wanted.options, 1))
+    (classroom / "roster.csv").write_text(
+        "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
+    )
+    (classroom / "adjustments.toml").write_text("[late]\nper_day = 10\n", encoding="utf-8")
+    run = run_class(classroom, Wanted(Options()), QUIET)
+    assert run.book.folder == classroom.parent / "class-results"
+    assert "nothing was handed in by dora@x" in run.notes
+    assert "not in the class list: ben, cem" in run.notes
+
+
+# ---------------------------------------------------------------- processes
+
+
+def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
+    for name in ("killer", "killer2", "raiser", *(f"more{n}" for n in range(5))):
+        shutil.copytree(classroom / "ann", classroom / name)
+    with opened_class(classroom) as intake, FragilePool(Options(), 2) as pool:
+        run = grade_class(intake, classroom.parent / "out", "key", pool, QUIET)
+    troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
+    assert troubles.keys() == {"killer", "killer2", "raiser"}
+    assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
+    assert run.counts == {"graded": 8, "kept": 0, "trouble": 3}
+
+
+def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
+    for name, tree in (("anna", "solution"), ("ben", "starter")):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        shutil.copy(KIT / tree / "integrators.py", tmp_path / "class" / name)
+    run = run_class(tmp_path / "class", Wanted(ONLY_8A, jobs=1), QUIET)
+    for name in ("anna", "ben"):
+        alone = as_json(grade(tmp_path / "class" / name, ONLY_8A))
+        assert run.book.result_file(name).read_bytes() == alone
+    assert [each.points for each in run.outcomes] == [2, 0]
+
+
+def command(classroom: Path) -> list[str]:
+    grading = ["grade", "--class", str(classroom), "--todo", "8a", "--jobs", "2"]
+    return [sys.executable, "-m", "grader", *grading]
+
+
+def test_a_kill_in_the_middle_and_a_rerun_are_an_undisturbed_run(tmp_path):
+    for number in range(8):
+        folder = tmp_path / "class" / f"student-{number}"
+        folder.mkdir(parents=True)
+        shutil.copy(KIT / "solution" / "integrators.py", folder)
+        (folder / "name.py").write_text(f"# {number}\n", encoding="utf-8")
+    shutil.copytree(tmp_path / "class", tmp_path / "undisturbed" / "class")
+
+    process = subprocess.Popen(command(tmp_path / "class"), cwd=KIT, stdout=subprocess.DEVNULL)
+    results = tmp_path / "class-results"
+    until(lambda: len(list(results.glob("*.json"))) >= 2)
+    family = psutil.Process(process.pid).children(recursive=True)
+    process.kill()
+    process.wait()
+    stands = len(list(results.glob("*.json")))
+    assert 2 <= stands < 8
+    assert not psutil.wait_procs(family, timeout=30)[1], "somebody works on without a parent"
+
+    done = subprocess.run(command(tmp_path / "class"), cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    kept = int(done.stdout.split(" kept")[0].split()[-1])
+    assert kept in (stands, stands - 1)  # one may have been written and not yet been noted
+    undisturbed = tmp_path / "undisturbed" / "class"
+    subprocess.run(command(undisturbed), cwd=KIT, stdout=subprocess.DEVNULL, check=True)
+    assert snapshot(results) == snapshot(undisturbed.with_name("class-results"))
+
+
+def snapshot(results: Path) -> dict[str, bytes]:
+    table = results.with_name(f"{results.name}.class.csv")
+    return {path.name: path.read_bytes() for path in (table, *results.iterdir())}
+
+
+def until(true: Callable[[], bool]) -> None:
+    for _ in range(600):
+        if true():
+            return
+        time.sleep(0.1)
+    raise TimeoutError
+
+
+def test_the_exit_status_says_whether_all_could_be_graded(tmp_path):
+    (tmp_path / "class" / "empty").mkdir(parents=True)
+    out = ["--out", str(tmp_path / "marks")]
+    done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, stdout=subprocess.DEVNULL)
+    assert done.returncode == 0
+    (tmp_path / "class" / "ben.zip").write_bytes(b"")
+    done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, capture_output=True)
+    assert done.returncode == 2 and b"the zip is broken" in done.stdout
+    assert json.loads((tmp_path / "marks" / "empty.json").read_bytes())["points"] == 0
+    nowhere = subprocess.run(command(tmp_path / "nowhere"), cwd=KIT, capture_output=True)
+    assert nowhere.returncode == 2 and b"no folder of submissions" in nowhere.stderr
