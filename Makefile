@@ -113,7 +113,7 @@ lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
-	$(LOCK) -o requirements-dev.txt --extra dev --extra plots -c requirements.txt
+	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
 
 clean: ## Remove .venv and everything else that can be made again
 	rm -rf .venv build solution/build starter/build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
