@@ -32,7 +32,7 @@ endef
 export CHECK_PYTHON
 
 .PHONY: help setup grade run dials accuracy effects cases compiled handouts \
-	course notebooks verify mutants sync test soak lint format bench lock clean venv
+	release course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
@@ -69,6 +69,9 @@ compiled: $(DEV) ## Compile the stable engine: the same bits, several times fast
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
 
 ##@ Handing out
+
+release: $(CORE) ## Make what students get, in build/release, once verify has no complaint
+	@$(PY) -m grader release
 
 handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py

@@ -94,7 +94,10 @@ def add_pendulum(space):
 
 
 def make_space(rng):
-    """The lab scene and a stack of four boxes. Returns (space, bodies of the stack)."""
+    """The lab scene and a stack of four boxes. Returns (space, bodies of the stack).
+
+    space.counter counts the hits of pegs.
+    """
     space = empty_space()
     add_static_box(space, (450, 580), (900, 40))
     add_static_box(space, (-20, 300), (40, 600))
@@ -106,6 +109,7 @@ def make_space(rng):
     for i in range(8):
         add_ball(space, rng, (120 + 70 * i, 60 + 40 * (i % 3)))
     stack = [add_box(space, (760, 542 - 36 * level)) for level in range(4)]
+    space.counter = count_hits(space)
     return space, stack
 
 
@@ -160,7 +164,7 @@ def drop_box(space, rng):
         add_box(space, (rng.randint(420, 700), 40))
 
 
-def draw(screen, font, space, hits):
+def draw(screen, font, space):
     """Draw the rods, the shapes and the two lines of text."""
     screen.fill(BACKGROUND)
     for joint in space.constraints:
@@ -169,7 +173,7 @@ def draw(screen, font, space, hits):
         pygame.draw.line(screen, INK, start, end, 3)
     for shape in space.shapes:
         draw_shape(screen, shape)
-    status = f"moving bodies: {len(space.bodies)}    hits of pegs: {hits}"
+    status = f"moving bodies: {len(space.bodies)}    hits of pegs: {space.counter['hits']}"
     screen.blit(font.render(status, True, INK), (12, 10))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
     pygame.display.flip()
@@ -201,7 +205,6 @@ def main():
     clock = pygame.time.Clock()
     rng = random.Random(SEED)
     space, stack = make_space(rng)
-    counter = count_hits(space)
     accumulator = 0.0  # s
     total_steps = 0
     running = True
@@ -217,10 +220,9 @@ def main():
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_r:
                 rng = random.Random(SEED)
                 space, stack = make_space(rng)
-                counter = count_hits(space)
         accumulator, steps = advance(space, accumulator, frame_seconds)
         total_steps += steps
-        draw(screen, font, space, counter["hits"])
+        draw(screen, font, space)
     pygame.quit()
     print(f"Fixed steps: {total_steps}")
     print(f"Bodies: {len(space.bodies)}")

@@ -74,16 +74,16 @@ def between(body, share):
     # END TODO B5
 
 
-def draw(screen, font, world, share):
-    """Draw everything, so much of the way through the latest step, and the lines of text."""
+def draw(screen, font, world):
+    """Draw the rods, the springs, the bodies and the lines of text."""
     screen.fill(BACKGROUND)
     if world.grid:
         draw_cells(screen)
     for joint in world.joints + world.springs:
-        ends = [between(end, share)[0] for end in (joint.a, joint.b)]
+        ends = [between(end, world.drawn)[0] for end in (joint.a, joint.b)]
         pygame.draw.line(screen, INK, *ends, 3 if joint in world.joints else 1)
     for body in world.bodies:
-        draw_body(screen, body, share)
+        draw_body(screen, body, world.drawn)
     status = f"moving bodies: {len(world.moving_bodies())}    contacts: {len(world.contacts)}"
     if world.sleeping:
         status += f"    asleep: {sleepers(world)}"
@@ -154,7 +154,8 @@ def main():
                 switch(world, event.key)
         accumulator, steps = advance(world, accumulator, frame_seconds)
         total_steps += steps
-        draw(screen, font, world, accumulator / STEP)
+        world.drawn = accumulator / STEP
+        draw(screen, font, world)
     pygame.quit()
     print(f"Fixed steps: {total_steps}")
     print(f"Pendulum length error: {pendulum_error(world):.2f} px")

@@ -29,6 +29,7 @@ class World:
         self.contacts = []
         self.sleeping = False  # whether bodies at rest may sleep
         self.grid = False  # whether a grid finds the pairs to look at
+        self.drawn = 1.0  # how much of the latest step the window shows: 0 its begin, 1 its end
         self.iterations = ITERATIONS  # passes of the solver per step
         require(self.gravity.length() < math.inf, "World.gravity", self.gravity, "finite")
         for field in ("linear_damping", "angular_damping"):

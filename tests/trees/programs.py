@@ -13,6 +13,7 @@ from grader.todo_regions import python_files, regions_in, replaced
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
 TODOS = [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c"]
+BONUS = ["B1", "B2", "B3", "B4", "B5", "B6"]
 MINI, PYMUNK, INTEGRATORS = ["-m", "mini_engine"], ["pymunk_scene.py"], ["integrators.py"]
 
 
