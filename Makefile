@@ -32,12 +32,12 @@ endef
 export CHECK_PYTHON
 
 .PHONY: help setup grade run dials accuracy effects cases compiled handouts \
-	release course notebooks verify mutants sync test soak lint format bench lock clean venv
+	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
 		/^##@ / { printf "\n%s\n", substr($$0, 5) } \
-		/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+		/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
 
 ##@ Grading
 
@@ -46,6 +46,12 @@ setup: $(CORE) ## Set up .venv for grading
 grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
 	@$(PY) -m grader grade \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
+
+dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)
+	@$(PY) -m grader dashboard "$(RESULTS)" $(if $(SUBMISSIONS),--submissions "$(SUBMISSIONS)")
+
+gradescope: $(CORE) ## Make build/gradescope/autograder.zip
+	@$(PY) -m grader gradescope
 
 run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solution
 	@cd $(WHERE) && ../$(PY) -m mini_engine

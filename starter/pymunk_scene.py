@@ -169,8 +169,9 @@ def draw(screen, font, space):
         pygame.draw.line(screen, INK, start, end, 3)
     for shape in space.shapes:
         draw_shape(screen, shape)
-    status = f"moving bodies: {len(space.bodies)}    hits of pegs: {space.counter['hits']}"
+    status = f"moving bodies: {len(space.bodies)}"
     screen.blit(font.render(status, True, INK), (12, 10))
+    screen.blit(font.render(f"hits of pegs: {space.counter['hits']}", True, INK), (310, 10))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
     pygame.display.flip()
 

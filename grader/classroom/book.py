@@ -18,10 +18,10 @@ from typing import Self
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.roster import harmless
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.report.files import write_whole
+from grader.report.sinks.tables import harmless
 
 
 class Outcome(Struct, frozen=True):

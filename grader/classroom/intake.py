@@ -35,8 +35,6 @@ from grader.judge.submission import (
     MAX_BYTES,
     MAX_FILES,
     CannotGrade,
-    Submission,
-    copy_tree,
     plain_files,
 )
 
@@ -353,18 +351,16 @@ def digest_or_trouble(each: Found) -> str:
 
 def pack(found: Found) -> Package:
     """Read what may be taken of a submission, wherever in it the program lies."""
+    bounds, files = Bounds(), []
     try:
-        with laid_out(found) as (root, left_out), tempfile.TemporaryDirectory() as temporary:
-            copy = Submission(found.name, Path(temporary) / "copy")
-            copy.folder.mkdir()
-            copy_tree(root, copy)
-            files = [
-                (path.relative_to(copy.folder).as_posix(), path.read_bytes())
-                for path in plain_files(copy.folder)
-            ]
+        with laid_out(found) as (root, left_out):
+            for path in python_first(plain_files(root)):
+                name = path.relative_to(root).as_posix()
+                if bounds.take(name, path.stat().st_size):
+                    files.append((name, path.read_bytes()))
     except OSError as error:
         raise CannotTake(f"it cannot be read: {error}") from error
-    return Package(found.name, sorted(files), [*left_out, *copy.left_out[:MENTIONED]])
+    return Package(found.name, sorted(files), [*left_out, *bounds.left_out])
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from msgspec import Struct
 
 from grader.classroom import nbgrader
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
-from grader.report.sinks.tables import harmless as harmless
+from grader.report.sinks.tables import harmless
 from grader.report.terminal import clean
 
 if TYPE_CHECKING:

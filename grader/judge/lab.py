@@ -180,7 +180,7 @@ class Lab:
             case Ref(kind=kind):
                 return "an object" if self.pieces else f"an object of type {kind}"
             case Items():
-                return f"a list of {len(value.items)}"
+                return f"a list or tuple of {len(value.items)}"
             case str() if self.pieces:
                 return "a text"
             case bool() | int() | float() | str():

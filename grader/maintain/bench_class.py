@@ -24,7 +24,7 @@ from grader.judge import plugin
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.maintain.bank import members
 
-SAMPLE = 20  # submissions that are graded alone, to see what of it is checks
+SAMPLE = 6  # submissions that are graded alone, to see what of it is checks
 
 
 @dataclass

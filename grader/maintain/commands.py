@@ -42,7 +42,9 @@ def verify_command(
 
 @app.command("release")
 def release_command(
-    out: Annotated[Path, typer.Option(help="Where to put it.")] = KIT / "build" / "release",
+    out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/release")] = KIT
+    / "build"
+    / "release",
     jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from contextlib import suppress
+from itertools import islice
 from typing import Any
 
 import pymunk
@@ -114,9 +115,14 @@ class Camera:
             for joint in thing.constraints:
                 self._add(shot.rods, MAX_RODS, pymunk_rod, joint)
         elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
-            for each in (*thing.bodies, *thing.joints, *thing.contacts):
-                self._show(each, shot)
-        elif isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
+            for name in ("bodies", "joints", "contacts"):
+                for each in islice(getattr(thing, name), MAX_TOUCHES):
+                    self._show_one(each, shot)
+        else:
+            self._show_one(thing, shot)
+
+    def _show_one(self, thing: Any, shot: Shot) -> None:
+        if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
             self._add(shot.bodies, MAX_BODIES, self._body, thing)
         elif hasattr(thing, "normal"):
             self._add(shot.touches, MAX_TOUCHES, touch, thing)

@@ -3,6 +3,7 @@
 import importlib
 import math
 import numbers
+import os
 import random
 import sys
 import traceback
@@ -303,7 +304,7 @@ class Subject:
             file = Path(str(error.filename)).relative_to(root).as_posix()
             frames.append(CodeLine(file, error.lineno or 0, "", (error.text or "").strip()[:200]))
         try:
-            message = str(error)[:MAX_TEXT]
+            message = str(error).replace(root + os.sep, "")[:MAX_TEXT]
         except Exception:
             message = ""
         return Raised(type(error).__name__[:100], message, frames[-12:])

@@ -18,7 +18,7 @@ from .constants import (
     WIDTH,
 )
 from .contacts import Contact, circle_box, circle_circle, collide
-from .game_loop import advance, between, heaviness, main
+from .game_loop import advance, main
 from .joints import DistanceJoint
 from .scenes import ball, make_world
 from .shapes import Box, Circle, cross, spin_velocity
@@ -47,13 +47,11 @@ __all__ = [
     "advance",
     "apply_impulse",
     "ball",
-    "between",
     "circle_box",
     "circle_circle",
     "collide",
     "cross",
     "effective_mass",
-    "heaviness",
     "main",
     "make_world",
     "near_pairs",

@@ -85,9 +85,9 @@ def draw(screen, font, world):
     for body in world.bodies:
         draw_body(screen, body, world.drawn)
     status = f"moving bodies: {len(world.moving_bodies())}    contacts: {len(world.contacts)}"
-    if world.sleeping:
-        status += f"    asleep: {sleepers(world)}"
     screen.blit(font.render(status, True, INK), (12, 10))
+    if world.sleeping:
+        screen.blit(font.render(f"asleep: {sleepers(world)}", True, INK), (310, 10))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
     screen.blit(font.render(BONUS_HELP, True, INK), (310, HEIGHT - 29))
     pygame.display.flip()
@@ -101,7 +101,7 @@ def draw_cells(screen):
         pygame.draw.line(screen, FAINT, (0, y), (WIDTH, y))
 
 
-def draw_body(screen, body, share):
+def draw_body(screen, body, share=1.0):
     """Draw a box, or a circle; one that can move has a spoke, one asleep is grey."""
     if isinstance(body.shape, Circle):
         radius = body.shape.radius

@@ -11,7 +11,7 @@ import pytest
 
 # What a submission may put into its names and messages: HTML, Markdown, controls, directions.
 HOSTILE = (
-    "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>&lt;b&gt; *a* \u202e\x07\n#"
+    "</script ><script>alert(1)</script>\"'><img src=x onerror=alert(2)>&lt;b&gt; *a* \u202e\x07\n#"
 )
 HARMLESS = HOSTILE.replace("\u202e", " ").replace("\x07", " ").replace("\n", " ")  # the same shown
 

@@ -71,7 +71,7 @@ def test_files_in_the_current_folder_shadow_nothing(hand_in):
 def test_hints_say_more_by_level():
     first, third = grader("hint", "--todo", "4"), grader("hint", "--todo", "4", "--level", "3")
     assert "--level 2" in first.stdout and "clamp" not in first.stdout
-    assert "max(-limit" in third.stdout
+    assert "friction_limit(c)" in third.stdout
 
 
 def test_there_are_three_hints_for_every_todo():

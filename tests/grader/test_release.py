@@ -277,6 +277,24 @@ def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monkeypatch):
+    def made(work: Path, wrong: object) -> Path:
+        (work / "built" / "bundle").mkdir(parents=True)
+        (work / "built" / "bundle" / "new").touch()
+        (work / "built" / "a.zip").write_text("new", encoding="utf-8")
+        return work / "built"
+
+    monkeypatch.setattr(releases, "verify", lambda *_: Report())
+    monkeypatch.setattr(releases, "build", made)
+    (tmp_path / "out" / "bundle").mkdir(parents=True)
+    (tmp_path / "out" / "bundle" / "old").touch()
+    (tmp_path / "out" / "a.zip").write_text("old", encoding="utf-8")
+    written = releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    assert [path.name for path in written] == ["a.zip", "bundle"]
+    assert written[0].read_text(encoding="utf-8") == "new"
+    assert [path.name for path in written[1].iterdir()] == ["new"]
+
+
 # ---------------------------------------------------------------- the student's first minute
 
 

@@ -16,14 +16,14 @@ import pytest
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
 
 import grader.judge.replay as replays
-from grader.checks import todo_3, todo_4, todo_7, whole
+from grader.checks import todo_3, todo_4, todo_7, todo_8, whole
 from grader.judge.children import ChildEnded, start_worker
 from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
 from grader.judge.plugin import Failing
 from grader.judge.replay import MOST_SHOTS, FilmingLab, Replays, Runs, filmed, record_expected
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
-from grader.maintain.bank import members, patch
+from grader.maintain.bank import Member, members, patch
 from grader.player.film import Line, Take
 from grader.player.page import page
 from grader.player.pairing import replay
@@ -439,6 +439,30 @@ def test_an_empty_film_or_a_film_of_nothing_known_breaks_nothing():
     assert both.scenes[0].yours == [] and page("title", [], both, "")
 
 
+EVERYTHING = """
+import sys
+
+class Everything:
+    def __getattr__(self, name):
+        return self
+    def __call__(self, *args, **kwargs):
+        return self
+    def __getitem__(self, key):
+        return self
+
+sys.modules[__name__] = Everything()
+"""
+
+
+def test_an_object_that_has_everything_is_looked_at_for_a_moment_only(tmp_path: Path):
+    (tmp_path / "integrators.py").write_text(EVERYTHING, encoding="utf-8")
+    rk4 = next(todo for todo in load_rubric().todos if todo.id == "8c")
+    again = todo_8.rk4_keeps_the_spring_swinging
+    with opened(tmp_path) as children:
+        lab = filmed(Failing(rk4, rk4.checks[1], again, []), children, [])
+    assert lab.failure is not None and not lab.ended
+
+
 def test_children_that_die_before_the_camera_end_the_filming(graded: Result, tmp_path: Path):
     """Marks and reasons stand; after a few deaths no more replays are tried."""
     opened_children = []
@@ -625,3 +649,28 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
     text = shown.evaluate("navigator.clipboard.readText()")
     assert text == path.with_suffix(".py").read_text(encoding="utf-8")
     context.close()
+
+
+# ---------------------------------------------------------------- the whole bank
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    "member",
+    [member for member in members(KIT) if member.kind == "wrong"][::5],
+    ids=lambda member: f"{member.name}-{member.form}",
+)
+def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tmp_path: Path):
+    tree = tmp_path / "tree"
+    member.build(KIT, tree)
+    options = Options(shipped_reference(), only=member.todos, replays=tmp_path / "pages")
+    result = grade(tree, options)
+    for check in (check for todo in result.todos for check in todo.checks):
+        if check.state == "not yet":
+            assert check.replay is not None, check.id
+            assert film_of(tmp_path / check.replay)["parting"] is not None, check.id
+            script = (tmp_path / check.replay).with_suffix(".py")
+            runs_on = "never" in member.name  # a loop that does not end
+            if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
+                done = run_script(script, tree)
+                assert done.returncode == 0 and done.stdout.strip(), (check.id, done.stderr)

@@ -124,6 +124,17 @@ def test_a_watch_of_one_todo_checks_no_other(open_session, graded):
     assert set().union(*graded) == {"8a"}
 
 
+def test_it_works_without_fork(hand_in):
+    worker = start_worker(spawn=True)
+    try:
+        few = Options(reference=None, only=frozenset({"8a"}))
+        session = Session(hand_in("starter"), worker, few)
+        assert "TODO 8a: 0 → 2 of 2" in session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
+    finally:
+        worker.close()
+    assert all(process.poll() is not None for process, _ in worker.ahead)
+
+
 def test_a_function_that_breaks_others_takes_their_points_too(open_session):
     session = open_session("solution")
     loop = "for body in self.moving_bodies():\n            body.vel *= keep_vel"

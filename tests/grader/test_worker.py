@@ -214,10 +214,11 @@ def test_no_signal_reaches_the_judge(ask: Asker):
 def test_a_process_left_behind_is_ended(forked: Asker, tmp_path: Path):
     assert isinstance(forked.worker, WarmWorker)
     server = psutil.Process(forked.worker.process.pid)
+    forked("folder")  # the child is there
     before = set(server.children(recursive=True))
     forked("leave_behind")
     left = set(server.children(recursive=True)) - before
-    assert len(left) >= 2  # the child itself, and what it left behind
+    assert left
     forked.end()
     assert not any(process.is_running() for process in left)
 

@@ -28,9 +28,8 @@ from handed_in import (
 from typer.testing import CliRunner
 
 from grader.classroom import commands, nbgrader
-from grader.classroom.batch import grade_all
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE
-from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.maintain.sync import given_files
 
 pytestmark = pytest.mark.soak
@@ -216,10 +215,10 @@ def test_nothing_is_written_to_a_folder_named_solution(course):
 
 def test_the_gradebook_holds_the_marks_of_the_grader(course, book):
     paths = sorted((course.parent / "class").iterdir())
-    outcomes = grade_all(paths, Options(shipped_reference()), jobs=1)
+    options = Options(shipped_reference())
     expected = {
-        each.name: {f"todo-{todo.id}": todo.points for todo in each.result.todos}
-        for each in outcomes
+        path.name: {f"todo-{todo.id}": todo.points for todo in grade(path, options).todos}
+        for path in paths
     }
     found = {
         student: {name: mark[0] for name, mark in notebooks[ENGINE]["grades"].items()}

@@ -6,12 +6,12 @@ import io
 import msgspec
 import pytest
 
+from grader.classroom.book import Outcome
 from grader.classroom.nbgrader import INSTRUCTOR
 from grader.classroom.roster import (
     CannotRead,
     Marking,
     Part,
-    harmless,
     load_marking,
     mark_of,
     marks,
@@ -19,7 +19,7 @@ from grader.classroom.roster import (
     people,
     read_roster,
 )
-from grader.judge.result import Result
+from grader.report.sinks.tables import harmless
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section,Essay (1),Physics engine (4711),Final Score
@@ -156,8 +156,8 @@ def test_who_is_not_in_the_list_is_named(tmp_path):
 
 
 def test_results_alone_make_marks_of_the_engine():
-    done = Result(1, "x", 87, 100, 0, [], [])
-    assert parts_from_results([("zoe", done)]) == {"zoe": {"engine": Part(87, 100)}}
+    done = Outcome("zoe", points=87, final=87, max_points=100)
+    assert parts_from_results([done]) == {"zoe": {"engine": Part(87, 100)}}
 
 
 def test_the_shipped_settings_name_the_notebooks():

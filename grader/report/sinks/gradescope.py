@@ -8,7 +8,11 @@ from grader.report.terminal import clean, reasons
 
 
 def gradescope(result: Result) -> bytes:
-    """A test per check, all of them visible: one hidden test would hide the student's total."""
+    """A test per check, all of them visible: one hidden test would hide the student's total.
+
+    The score is without bonus; what was earned there is said beside it.
+    """
+    bonus = f", and {result.bonus} bonus" if result.bonus else ""
     tests = [
         test(todo, check, number)
         for todo in result.todos
@@ -18,7 +22,7 @@ def gradescope(result: Result) -> bytes:
         msgspec.json.encode(
             {
                 "score": result.points,
-                "output": f"{result.points} of {result.max_points} points",
+                "output": f"{result.points} of {result.max_points} points{bonus}",
                 "output_format": "text",
                 "test_output_format": "text",
                 "visibility": "visible",
@@ -37,13 +41,19 @@ def gradescope(result: Result) -> bytes:
 
 def test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
     return {
-        "score": check.points,
-        "max_score": check.max_points,
+        **points(todo, check),
         "status": "passed" if check.state == "passed" else "failed",
-        "name": named(todo, check.title),
         "number": f"{todo.id}.{number}",
         "output": "\n".join(reasons(check)) if check.state != "passed" else "",
         "output_format": "text",
         "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
         "visibility": "visible",
     }
+
+
+def points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
+    """The name, and the points where they count: a bonus says them in words, so that sums hold."""
+    name = named(todo, check.title)
+    if todo.id.startswith("B"):
+        return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}
+    return {"name": name, "score": check.points, "max_score": check.max_points}
