@@ -28,6 +28,7 @@ PAGES = sorted(HANDOUTS.rglob("*.md"))
 CHECKS = KIT / "grader" / "checks"
 RUBRIC = tomllib.loads((CHECKS / "rubric.toml").read_text(encoding="utf-8"))
 TODOS = {todo["id"]: todo for todo in RUBRIC["todos"] if todo["function"]}
+BONUS = {f"B{number}" for number in range(1, 7)}
 
 # The course's plan, in minutes: the engine, pymunk, the integrators.
 MINUTES = {"1": 10, "2": 4, "3": 6, "4": 3, "5": 3, "6": 5}
@@ -205,7 +206,14 @@ def test_the_plan_names_every_todo_in_order(plan: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=lambda tree: tree.name)
 def test_the_plan_says_where_each_todo_stands(plan: dict[str, Any], tree: Path) -> None:
-    assert {todo: row["place"] for todo, row in plan.items()} == places(tree)
+    found = places(tree)
+    assert {todo: row["place"] for todo, row in plan.items()} == {t: found[t] for t in TODOS}
+    bonus = {
+        todo: (file.strip("`"), function.strip("`"))
+        for todo, file, function, _ in table_below(text_of("bonus.md"), "# Going further")
+    }
+    assert set(bonus) == BONUS and bonus == {todo: found[todo] for todo in BONUS}
+    assert set(found) == {*TODOS, *BONUS}
 
 
 def test_the_plan_has_the_points_of_the_rubric(plan: dict[str, Any]) -> None:
@@ -333,7 +341,7 @@ def test_no_line_of_a_solution_is_given_away(page: Path) -> None:
 
 def test_a_line_that_is_given_away_is_noticed() -> None:
     given_away = dict(solution_lines())
-    assert set(given_away) == set(TODOS), "each TODO must have a line that can be looked for"
+    assert set(given_away) == {*TODOS, *BONUS}, "each TODO must have a line that can be looked for"
     for todo, code in given_away.items():
         assert (todo, code) in solutions_in(f"Write `{code}` there.")
 
