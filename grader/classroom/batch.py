@@ -60,6 +60,8 @@ LONGEST = 300  # rows that a terminal is given; the table as a file has them all
 AHEAD = 2  # submissions that wait, packed, for each one being graded
 NAMED = 20  # names in one note
 
+LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
+
 Graded = tuple[bytes, float]  # a result as JSON, and the seconds it took
 
 
@@ -221,7 +223,7 @@ class Run:
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
-    same: dict[str, list[str]] = field(default_factory=dict)  # names by the hash of their files
+    same: dict[str, dict[tuple[Path, ...], str]] = field(default_factory=dict)  # names, by files
 
     def tasks(self) -> Iterator[Task]:
         """The submissions that must be graded; all others are settled on the way."""
@@ -231,7 +233,7 @@ class Run:
             except CannotTake as error:
                 self.trouble(found, str(error))
                 continue
-            self.same.setdefault(package.digest, []).append(found.name)
+            self.same.setdefault(package.digest, {})[found.sources] = found.name
             self.notes += [f"{found.name}: left out {each}" for each in package.notes]
             key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
             kept = self.book.kept(found.name, key)
@@ -262,9 +264,9 @@ class Run:
         self.outcomes.append(outcome)
 
     def copies(self) -> Iterator[str]:
-        """Those who handed in the same files, unless these are worth nothing."""
+        """Those who handed in the same files apart, unless these are worth nothing."""
         worth = {each.name: each.points for each in self.outcomes}
-        for names in self.same.values():
+        for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
                 yield f"the same files were handed in by {some(names)}"
 
@@ -317,6 +319,8 @@ def finished(
 ) -> Iterator[tuple[Task, Graded | str]]:
     """Those that have ended by now, one at least."""
     done, _ = wait(under_way, return_when=FIRST_COMPLETED)
+    if any(future.cancelled() for future in done):
+        raise CannotGrade(LOST)
     broken = any(isinstance(future.exception(), BrokenProcessPool) for future in done)
     if broken:
         done, _ = wait(under_way)  # at once: the pool has given all of them up

@@ -6,6 +6,7 @@ had under way to another one.
 """
 
 import atexit
+import logging
 import shutil
 import socket
 import tempfile
@@ -19,6 +20,7 @@ from typing import Any
 
 from grader.classroom.batch import (
     AHEAD,
+    LOST,
     GaveUp,
     Graded,
     fingerprint,
@@ -77,7 +79,10 @@ class Cluster:
         self.options = replace(options, reference=None)
 
     def room(self) -> int:
-        return max(1, len(self.client.nthreads())) * (1 + AHEAD)
+        try:
+            return max(1, len(self.client.nthreads())) * (1 + AHEAD)
+        except OSError as error:
+            raise CannotGrade(LOST) from error
 
     def submit(self, package: Package) -> "Future[Graded]":
         future: Future[Graded] = self.executor.submit(
@@ -105,6 +110,7 @@ def connected(address: str, options: Options) -> Iterator[Cluster]:
         )
     except (OSError, ValueError) as error:
         raise CannotGrade(f"there is no Dask scheduler at {address} ({error})") from error
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # we say it in a sentence
     with client:
         check_workers(client, address)
         yield Cluster(client, options)

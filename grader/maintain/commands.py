@@ -81,8 +81,15 @@ def mutants_command(
 @app.command("bench")
 def bench_command(
     rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
+    class_: Annotated[
+        int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
+    ] = 0,
 ) -> None:
-    """Measure what a grade costs, and what the isolation adds to it."""
+    """Measure what a grade costs and what the isolation adds to it; or what a class does."""
     from grader.maintain.bench import bench
+    from grader.maintain.bench_class import bench_class
 
-    bench(rounds, console)
+    if class_:
+        bench_class(console, class_)
+    else:
+        bench(rounds, console)

@@ -23,6 +23,7 @@ from grader.classroom.batch import Graded, Pool, Run, Wanted, grade_class, key_o
 from grader.classroom.intake import Package, opened_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result, TodoResult
+from grader.judge.submission import CannotGrade
 from grader.report.files import as_json
 
 QUIET = Console(quiet=True)
@@ -177,6 +178,14 @@ def test_the_same_files_from_two_people_are_mentioned(classroom):
     assert "the same files were handed in by ann, cem" in graded(classroom).notes
 
 
+def test_those_who_work_together_are_no_copies(classroom):
+    (classroom / "submission_metadata.yml").write_text(
+        "ann: {':submitters': [{':email': a@x}, {':email': b@x}]}\n", encoding="utf-8"
+    )
+    run = graded(classroom)
+    assert [each.name for each in run.outcomes] == ["a@x", "b@x", "ben", "cem"] and not run.notes
+
+
 def test_names_and_words_are_harmless_in_the_table(classroom):
     (classroom / "ben").rename(classroom / "=1+1")
     with open(graded(classroom).book.table, encoding="utf-8-sig", newline="") as file:
@@ -207,6 +216,21 @@ def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
     assert troubles.keys() == {"killer", "killer2", "raiser"}
     assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
     assert run.counts == {"graded": 8, "kept": 0, "trouble": 3}
+
+
+def test_a_crew_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
+    class Leaving(Inline):
+        def submit(self, package: Package) -> "Future[Graded]":
+            future = super().submit(package)
+            if package.name == "ben":
+                future = Future()
+                future.cancel()
+                future.set_running_or_notify_cancel()
+            return future
+
+    with opened_class(classroom) as intake, pytest.raises(CannotGrade, match="goes on from there"):
+        grade_class(intake, classroom.parent / "out", "key", Leaving(), QUIET)
+    assert graded(classroom).names == ["ben", "cem"]
 
 
 def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
