@@ -95,12 +95,6 @@ class Book:
         return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
 
 
-def adjusted(folder: Path) -> list[Outcome]:
-    """Those in a class's folder of results whose points a person has changed."""
-    known = Book(folder).known.values()
-    return [each for each in known if each.reasons and not each.trouble]
-
-
 def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
     """What the book says about a result."""
     decoded = msgspec.json.decode(result, type=Result)
