@@ -33,8 +33,11 @@ hypothesis.settings.register_profile(
     suppress_health_check=list(hypothesis.HealthCheck),
 )
 
-# Without this, examples would depend on which of our modules happen to be loaded.
-providers._get_local_constants = lambda: providers._local_constants
+# Without this, examples would depend on which of our modules happen to be loaded, and on what
+# hypothesis has drawn in this process before.
+NO_CONSTANTS = type(providers._local_constants)()
+providers._get_local_constants = lambda: NO_CONSTANTS
+providers.CONSTANTS_CACHE.cache.clear()
 
 
 @dataclass(frozen=True)
