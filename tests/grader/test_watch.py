@@ -124,6 +124,7 @@ def test_a_watch_of_one_todo_checks_no_other(open_session, graded):
     assert set().union(*graded) == {"8a"}
 
 
+@pytest.mark.soak  # a process for each check: on a crowded machine one may not start in time
 def test_it_works_without_fork(hand_in):
     worker = start_worker(spawn=True)
     try:
