@@ -86,10 +86,11 @@ def bench_command(
     ] = 0,
 ) -> None:
     """Measure what a grade costs and what the isolation adds to it; or what a class does."""
-    from grader.maintain.bench import bench
-    from grader.maintain.bench_class import bench_class
-
     if class_:
+        from grader.maintain.bench_class import bench_class
+
         bench_class(console, class_)
     else:
+        from grader.maintain.bench import bench
+
         bench(rounds, console)
