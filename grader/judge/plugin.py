@@ -125,7 +125,7 @@ class GradingPlugin:
         """The result of a check that need not run."""
         begun = self.submission.begun
         waiting = [each for each in check.needs if not begun.get(each, True)]
-        todos = [each.id for each in self.rubric.todos if each.function]
+        todos = [each.id for each in self.rubric.counted if each.function]
         none_begun = not any(begun.get(each, True) for each in todos)
         if todo.function and not begun.get(todo.id, True):
             where = self.submission.where.get(todo.id)
@@ -155,13 +155,12 @@ class GradingPlugin:
         return self._result(todo, check, title, "passed")
 
     def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
-        others = self.reference.for_the_others(todo, self.rubric, self.submission)
+        module = check.module or todo.module
+        others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
-        lab = Lab(check.module or todo.module, lambda: self.open_child(check.cpu_seconds), pieces)
-        with lab.opened(), kept_for_replay(function, lab):
+        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces)
+        with lab.opened(), kept_for_replay(function, lab), seeded(function, self.seed):
             try:
-                if self.seed is not None:
-                    function = hypothesis.seed(self.seed)(function)
                 function(lab=lab)
             except (NotYet, Broke) as failure:
                 lab.failure = failure
@@ -229,6 +228,16 @@ def kept_for_replay(function: Any, lab: Lab) -> Iterator[None]:
         yield
     finally:
         function.hypothesis.inner_test = inner
+
+
+@contextmanager
+def seeded(function: Any, seed: int | None) -> Iterator[None]:
+    """Let a property draw by this seed, this once: the function outlives the grade."""
+    hypothesis.seed(seed)(function)
+    try:
+        yield
+    finally:
+        hypothesis.seed(None)(function)
 
 
 @contextmanager

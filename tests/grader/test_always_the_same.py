@@ -1,4 +1,4 @@
-"""The same submission gives the same JSON, whatever the machine is like (`make soak`)."""
+"""The same submission gives the same JSON, whatever the machine is like (most in `make soak`)."""
 
 import multiprocessing
 import os
@@ -10,8 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.plugin import seeded, settled_environment
 from grader.maintain.bank import Member, members
 from grader.report.files import as_json
 
@@ -44,6 +47,42 @@ def test_twenty_grades_are_one(tree: str):
     with busy_machine():
         busy = {as_json(grade(KIT / tree, options)) for _ in range(10)}
     assert len(idle | busy) == 1
+
+
+def drawn(seed: int | None = None) -> list[tuple[float, int]]:
+    """What a property of the judge's would be tried on."""
+    examples = []
+    with settled_environment(), seeded(A_PROPERTY, seed):
+        A_PROPERTY(note=lambda *example: examples.append(example))
+    return examples
+
+
+with settled_environment():
+
+    @given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))
+    def A_PROPERTY(note, x: float, n: int) -> None:
+        note(x, n)
+
+
+def test_a_seed_is_forgotten_after_the_grade():
+    usual = drawn()
+    assert drawn(seed=3) == drawn(seed=3) != usual
+    assert drawn() == usual
+
+
+def test_what_hypothesis_did_before_in_this_process_changes_no_example(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Hypothesis likes the numbers it finds in modules; ours must not depend on who loaded them."""
+    usual = drawn()
+    numbers = ", ".join(f"{n}, {n}.125" for n in range(70000, 70400))
+    (tmp_path / "numbers_of_a_neighbour.py").write_text(f"NUMBERS = [{numbers}]")
+    monkeypatch.syspath_prepend(tmp_path)
+    import numbers_of_a_neighbour  # noqa: F401
+
+    another = given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))(lambda x, n: None)
+    settings(max_examples=20, database=None)(another)()
+    assert drawn() == usual
 
 
 @pytest.fixture(scope="module")

@@ -11,6 +11,7 @@ from grader.judge.grade import KIT
 
 def grader(*args: object, cwd: Path = KIT) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(KIT), "COLUMNS": "100"}
+    environment.pop("MAKELEVEL", None)  # `make test` is not `make hint`
     command = [sys.executable, "-m", "grader", *map(str, args)]
     return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
 
