@@ -52,15 +52,15 @@ def test_twenty_grades_are_one(tree: str):
 def drawn(seed: int | None = None) -> list[tuple[float, int]]:
     """What a property of the judge's would be tried on."""
     examples = []
-    with settled_environment(), seeded(A_PROPERTY, seed):
-        A_PROPERTY(note=lambda *example: examples.append(example))
+    with settled_environment(), seeded(a_property, seed):
+        a_property(note=lambda *example: examples.append(example))
     return examples
 
 
 with settled_environment():
 
     @given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))
-    def A_PROPERTY(note, x: float, n: int) -> None:
+    def a_property(note, x: float, n: int) -> None:
         note(x, n)
 
 

@@ -141,6 +141,9 @@ def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
 # ---------------------------------------------------------------- what comes of them
 
 
+SOAK = pytest.mark.soak
+
+
 def the_one(todo: str, now: str) -> Mutant:
     """The mutant of a TODO with this line in it."""
     (found,) = [each for each in all_mutants() if each.todo == todo and now in each.now.split("; ")]
@@ -150,12 +153,14 @@ def the_one(todo: str, now: str) -> Mutant:
 @pytest.mark.parametrize(
     ("todo", "now", "mistake"),
     [
-        ("1", "if distance > radius:", "touching-counts-as-overlap"),
-        ("1", "if distance >= 0:", "inside-normalises-zero"),
+        pytest.param("1", "if distance > radius:", "touching-counts-as-overlap", marks=SOAK),
+        pytest.param("1", "if distance >= 0:", "inside-normalises-zero", marks=SOAK),
         ("3", "if self.k == 1:", "divides-by-a-k-of-0"),
-        ("4", "total = max(limit, min(limit, total))", "clamp-is-turned-round"),
+        pytest.param(
+            "4", "total = max(limit, min(limit, total))", "clamp-is-turned-round", marks=SOAK
+        ),
         ("7a", "space.gravity = (980, 0)", "gravity-points-sideways"),
-        ("7b", "moment = pymunk.moment_for_circle(mass, 0, mass)", None),
+        pytest.param("7b", "moment = pymunk.moment_for_circle(mass, 0, mass)", None, marks=SOAK),
         ("7d", "steps -= 1", "steps-are-counted-down"),
         ("8a", "return (v, x + v * dt)", "velocity-returned-first"),
         ("8b", "x = x + v * dt + 0 * a_start * dt ** 2", "straight-line-in-x"),

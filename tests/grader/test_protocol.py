@@ -85,7 +85,7 @@ def test_a_message_with_a_part_missing_is_refused(missing: str):
         decoder.decode(msgspec.msgpack.encode(raw))
 
 
-@settings(max_examples=2000, deadline=None)
+@settings(max_examples=500, deadline=None)
 @given(st.binary(max_size=200))
 def test_noise_is_no_message_and_nothing_worse(data: bytes):
     with suppress(*NOT_A_MESSAGE):
@@ -99,7 +99,7 @@ json_like = st.recursive(
 )
 
 
-@settings(max_examples=1000, deadline=None)
+@settings(max_examples=300, deadline=None)
 @given(reply=json_like, number=json_like, kind=st.sampled_from(["returned", "played", "raised"]))
 def test_well_formed_nonsense_is_a_decode_error_too(reply: object, number: object, kind: str):
     reply = {**reply, "type": kind} if isinstance(reply, dict) else reply

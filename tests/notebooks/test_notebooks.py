@@ -26,6 +26,8 @@ from handed_in import (
 from grader.classroom.notebooks import engine_notebook, tidied
 from grader.judge.rubric import load_rubric
 
+pytestmark = pytest.mark.xdist_group("notebooks")  # one process makes what its tests share
+
 RUNNER = Path(__file__).with_name("run_cells.py")
 ALL = pytest.mark.parametrize("name", NAMES)
 KINDS = {
