@@ -303,6 +303,7 @@ class Subject:
         if isinstance(error, SyntaxError) and str(error.filename or "").startswith(root):
             file = Path(str(error.filename)).relative_to(root).as_posix()
             frames.append(CodeLine(file, error.lineno or 0, "", (error.text or "").strip()[:200]))
+            error.filename = error.lineno = None  # or its text would name the line once more
         try:
             message = str(error).replace(root + os.sep, "")[:MAX_TEXT]
         except Exception:

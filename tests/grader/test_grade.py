@@ -121,6 +121,7 @@ def test_what_cannot_be_imported_is_graded_with_the_reason(hand_in):
     assert result.points == 0
     check = result.todos[0].checks[0]
     assert check.state == "error" and "SyntaxError" in check.got
+    assert check.got.count("line 1") == 1
     assert check.where is not None and (check.where.file, check.where.line) == ("mini_engine.py", 1)
 
 
