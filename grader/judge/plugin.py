@@ -232,8 +232,13 @@ def kept_for_replay(function: Any, lab: Lab) -> Iterator[None]:
 
 @contextmanager
 def seeded(function: Any, seed: int | None) -> Iterator[None]:
-    """Let a property draw by this seed, this once: the function outlives the grade."""
+    """Let a property draw as the judge does, by this seed, this once.
+
+    The function outlives the grade, and may have been loaded under other settings before it.
+    """
     hypothesis.seed(seed)(function)
+    if not hasattr(function, "_hypothesis_internal_settings_applied"):  # by a decorator of its own
+        function._hypothesis_internal_use_settings = hypothesis.settings.get_profile("judge")
     try:
         yield
     finally:

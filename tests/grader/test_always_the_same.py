@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.plugin import seeded, settled_environment
+from grader.judge.plugin import EXAMPLES, seeded, settled_environment
 from grader.maintain.bank import Member, members
 from grader.report.files import as_json
 
@@ -57,11 +57,14 @@ def drawn(seed: int | None = None) -> list[tuple[float, int]]:
     return examples
 
 
-with settled_environment():
+@given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))  # under the settings of this test run
+def a_property(note, x: float, n: int) -> None:
+    note(x, n)
 
-    @given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))
-    def a_property(note, x: float, n: int) -> None:
-        note(x, n)
+
+def test_a_property_draws_by_the_judges_settings_whoever_loaded_it():
+    usual = drawn()
+    assert len(usual) == EXAMPLES and drawn() == usual
 
 
 def test_a_seed_is_forgotten_after_the_grade():
