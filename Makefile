@@ -64,7 +64,7 @@ dials: $(CORE) ## Open the window with dials: any scene in each of the three eng
 accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minutes; QUICK=1 for less)
 	@cd solution && ../$(PY) accuracy.py --out ../build/accuracy $(if $(QUICK),--quick)
 
-effects: $(DEV) ## What each effect of the stable engine costs (QUICK=1 for less)
+effects: $(DEV) ## What each effect costs, and what B1 and B3 save (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.effects --out ../build/effects $(if $(QUICK),--quick)
 
 cases: $(CORE) ## The hard cases in three engines, and the published test set (QUICK=1 for less)

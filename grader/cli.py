@@ -96,10 +96,11 @@ def finish(result: Result, out: Path | None, json: Path | None, at_least: int | 
 
         write_json(result, out / f"{result.submission}.json")
         write_report(result, out / f"{result.submission}.html")
-    wanted = result.max_points if at_least is None else at_least
-    if wanted > result.max_points:
-        stop(f"--at-least {wanted} can never be reached: there are {result.max_points} points here")
-    raise typer.Exit(0 if result.points >= wanted else 1)
+    most = result.max_points
+    if at_least is not None and at_least > most:
+        stop(f"--at-least {at_least} can never be reached: there are {most} points here")
+    enough = result.complete if at_least is None else result.points >= at_least
+    raise typer.Exit(0 if enough else 1)
 
 
 def grade_in_ci(

@@ -159,6 +159,7 @@ class Call(Struct, frozen=True, tag="call"):
     target: str
     args: list[Argument] = []
     kwargs: dict[str, Argument] = {}
+    counting: list[str] = []  # functions whose calls are counted meanwhile, as module:name
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -212,6 +213,7 @@ class Event(Struct, frozen=True):
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
     key: str = ""
+    held: str = ""  # a key that is held meanwhile, such as "left shift"
 
 
 class Play(Struct, frozen=True, tag="play"):
@@ -222,7 +224,7 @@ class Play(Struct, frozen=True, tag="play"):
     events: list[Event] = []
     physics: bool = True  # False: steps are counted and not run
     trail_every: int = 0  # record every moving body after each so many steps; 0 = never
-    picture: bool = False
+    pictures: bool = False  # False: next to nothing is drawn
 
 
 Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Play
@@ -242,6 +244,7 @@ class Film(Struct, frozen=True, tag="film"):
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
     force_calls: int = 0
+    counted: int = 0
 
 
 class CodeLine(Struct, frozen=True):
@@ -290,7 +293,7 @@ class Played(Struct, frozen=True, tag="played"):
     bodies: list[BodyValue | SpaceBody]
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
-    picture: bytes = b""  # PNG
+    pictures: list[int] = []  # a checksum of what the window showed when each frame ended
 
 
 Reply = Returned | Raised | Missing | Simulated | Played

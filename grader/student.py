@@ -30,7 +30,7 @@ def check_command(
     else:
         result = graded(folder, options)
         show_standing(result, Teller(console, options.replays))
-    raise typer.Exit(0 if result.points == result.max_points else 1)
+    raise typer.Exit(0 if result.complete else 1)
 
 
 def watched(folder: Path, options: Options) -> Result:

@@ -135,10 +135,13 @@ class Watch:
     def replace(self, todo: TodoResult) -> TodoResult:
         """Put the TODO's new result in the place of the one before, which is returned."""
         (before,) = (each for each in self.result.todos if each.id == todo.id)
+        todos = [todo if each is before else each for each in self.result.todos]
+        more = todo.points - before.points
         self.result = msgspec.structs.replace(
             self.result,
-            points=self.result.points - before.points + todo.points,
-            todos=[todo if each is before else each for each in self.result.todos],
+            points=self.result.points + more * (not todo.bonus),
+            bonus=self.result.bonus + more * todo.bonus,
+            todos=todos,
         )
         return before
 
@@ -146,13 +149,11 @@ class Watch:
         if before.points == todo.points:
             say(f"TODO {todo.id}: {todo.points} of {todo.max_points} as before", self.console)
             return
-        total = self.result.points - todo.points + before.points
-        say(
-            f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}, "
-            f"in all {total} → {self.result.points} of {self.result.max_points}",
-            self.console,
-            style="bold",
-        )
+        words = f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}"
+        if not todo.bonus:
+            total = self.result.points - todo.points + before.points
+            words += f", in all {total} → {self.result.points} of {self.result.max_points}"
+        say(words, self.console, style="bold")
 
 
 # -------------------------------------------------------------------- what a save touched

@@ -167,6 +167,26 @@ def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
     return pushed(rod, (rod.bias - rod.speed) / rod.k)
 
 
+class Spring(NamedTuple):
+    """A spring between the ends of a rod; its length is that of rest."""
+
+    rod: Rod
+    stiffness: float  # kg/s²
+    damping: float  # kg/s
+
+    @property
+    def stretch(self) -> float:
+        return math.hypot(*self.rod.offset) - self.rod.length
+
+
+@recorded.oracle()
+def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
+    """The velocities of A and B after the spring's force has worked for a step (Hooke's law)."""
+    rod = spring.rod
+    force = spring.stiffness * spring.stretch + spring.damping * rod.speed
+    return pushed(rod, -force * rod.dt)
+
+
 DEPTH = 0.25  # px, the overlap of every contact that is rubbed
 
 
@@ -248,3 +268,15 @@ def disc_moment(mass: float, radius: float) -> float:
 def rolling_speed(speed: float) -> float:
     """What is left of a full disc's speed once it rolls; friction decides only how soon."""
     return speed * 2 / 3
+
+
+# ---------------------------------------------------------------- pictures: bonus task B5
+
+Place = tuple[float, float, float]  # x and y in px, an angle in rad
+
+
+@recorded.oracle()
+def part_of_the_way(before: Place, now: Place, share: float) -> Place:
+    """So much of the way from one place and angle to another."""
+    x, y, angle = (begin + (end - begin) * share for begin, end in zip(before, now, strict=True))
+    return x, y, angle

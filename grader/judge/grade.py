@@ -157,8 +157,7 @@ class Grading:
         """A way to open children of the reference itself, to see what should happen."""
         if self.options.reference is None:
             return None
-        work = self.work / "reference"
-        work.mkdir()
+        work = Path(tempfile.mkdtemp(dir=self.work))  # a name that no submission can guess
         tree = take_in(self.options.reference, work / "tree", self.rubric, {})
         return replace(self, submission=tree, work=work).open_child
 
@@ -223,9 +222,9 @@ class Grading:
         return Result(
             schema=1,
             submission=self.submission.name,
-            points=sum(todo.points for todo in todos),
-            max_points=sum(todo.max_points for todo in todos),
-            bonus=0,
+            points=sum(todo.points for todo in todos if not todo.bonus),
+            max_points=sum(todo.max_points for todo in todos if not todo.bonus),
+            bonus=sum(todo.points for todo in todos if todo.bonus),
             isolation=layers,
             todos=todos,
         )

@@ -145,6 +145,12 @@ class Lab:
         """Call a method of an object that lives in the child."""
         return self._value(Call(f"#{thing.ref}.{method}", [plain(each) for each in args]))
 
+    def count(self, functions: Sequence[str], thing: Thing, method: str, *args: Any) -> int:
+        """How many calls of these functions of the TODO's module a method of an object makes."""
+        counting = [f"{self.module}:{each}" for each in functions]
+        arguments = [plain(each) for each in args]
+        return self._returned(Call(f"#{thing.ref}.{method}", arguments, counting=counting)).counted
+
     def get(self, thing: Thing, name: str) -> Value:
         return self._value(Get(thing.ref, name))
 
@@ -302,7 +308,7 @@ class Lab:
         *,
         physics: bool = True,
         trail_every: int = 0,
-        picture: bool = False,
+        pictures: bool = False,
         module: str = "",
     ) -> Played:
         """Run the program's real main(), one entry of `frames` (ms) per frame.
@@ -313,7 +319,7 @@ class Lab:
             self._child.end()
             self._child = None
         self._played = True
-        request = Play(module or self.module, frames, list(events), physics, trail_every, picture)
+        request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
@@ -322,10 +328,13 @@ class Lab:
     # ------------------------------------------------------------ the wire
 
     def _value(self, request: Request) -> Value:
+        return self._returned(request).value
+
+    def _returned(self, request: Request) -> Returned:
         reply = self._reply(request)
         if not isinstance(reply, Returned):
             self.fail("a value", "something else")
-        return reply.value
+        return reply
 
     def _reply(self, request: Request) -> Any:
         if self._child is None:

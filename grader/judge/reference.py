@@ -3,6 +3,7 @@
 import ast
 import builtins
 import dis
+from collections.abc import Iterator
 from pathlib import Path
 from types import CodeType
 
@@ -18,6 +19,8 @@ from grader.judge.submission import (
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
 
+Source = tuple[str, str, list[ast.stmt]]  # a file's module, its text, and that text parsed
+
 
 class Reference:
     """A complete tree, read as text; without one, no TODO can be isolated."""
@@ -29,39 +32,46 @@ class Reference:
             return
         if not folder.is_dir():
             raise CannotGrade(f"there is no reference at {folder}: name the solution's folder")
+        sources = list(sources_in(folder, {todo.module for todo in rubric.todos}))
         for todo in rubric.todos:
             if todo.function:
-                self.pieces[todo.id] = cut_out(folder, todo)
+                self.pieces[todo.id] = cut_out(sources, folder, todo)
                 self.shapes[todo.id] = shape_of(self.pieces[todo.id].source)
 
-    def for_the_others(self, todo: Todo, rubric: Rubric, submission: Submission) -> list[Piece]:
-        """The pieces of the program's other TODOs, where the submission's own differ from them.
+    def for_the_others(
+        self, todo: Todo, module: str, rubric: Rubric, submission: Submission
+    ) -> list[Piece]:
+        """The pieces of the other TODOs in `module`, where the submission's own differ from them.
 
-        None for the whole, which is the submission as it is.
+        The whole is the submission as it is, but for its bonus tasks: a mistake there costs nothing
+        elsewhere. A bonus task that was not begun does nothing, and stays.
         """
-        if not todo.function:
-            return []
+        others = [other for other in rubric.todos if other.id != todo.id and other.module == module]
         return [
             self.pieces[other.id]
-            for other in rubric.todos
+            for other in others
             if other.id in self.pieces
-            and other.id != todo.id
-            and other.module == todo.module
+            and (submission.begun[other.id] if other.bonus else bool(todo.function))
             and self.shapes[other.id] != submission.functions.get(other.id)
         ]
 
 
-def cut_out(folder: Path, todo: Todo) -> Piece:
-    path = todo.function.partition(":")[2]
+def sources_in(folder: Path, modules: set[str]) -> Iterator[Source]:
     for file in python_files(folder):
-        if module_of(file.relative_to(folder)) != todo.module:
-            continue
-        text = read_source(file)
-        found = function_named(statements(text), path)
+        module = module_of(file.relative_to(folder))
+        if module in modules:
+            text = read_source(file)
+            yield module, text, statements(text)
+
+
+def cut_out(sources: list[Source], folder: Path, todo: Todo) -> Piece:
+    path = todo.function.partition(":")[2]
+    for module, text, body in sources:
+        found = function_named(body, path) if module == todo.module else None
         if found is not None:
             source = source_of(text, found)
             parameters = [each.arg for each in found.args.args]
-            names = sorted(global_names(compile(source, str(file), "exec")))
+            names = sorted(global_names(compile(source, "<reference>", "exec")))
             return Piece(todo.function, source, plain_imports(text), parameters, names)
     raise CannotGrade(f"the reference at {folder} has no {path}, which TODO {todo.id} is about")
 

@@ -42,6 +42,11 @@ class CheckResult(Struct, frozen=True):
         return [(name, text) for name, text in words if text]
 
 
+def is_bonus(todo: str) -> bool:
+    """Whether a TODO's points are counted apart, by its id: B1, B2 and so on."""
+    return todo.startswith("B")
+
+
 class TodoResult(Struct, frozen=True):
     id: str
     title: str
@@ -51,9 +56,14 @@ class TodoResult(Struct, frozen=True):
     misconception: str | None
     checks: list[CheckResult]
 
+    @property
+    def bonus(self) -> bool:
+        """Whether its points are counted apart from those of the result."""
+        return is_bonus(self.id)
+
 
 class Result(Struct, frozen=True):
-    """Schema 1 of the JSON that `--json` writes."""
+    """Schema 1 of the JSON that `--json` writes. `points` and `max_points` are without bonus."""
 
     schema: int
     submission: str
@@ -62,6 +72,23 @@ class Result(Struct, frozen=True):
     bonus: int
     isolation: list[str]
     todos: list[TodoResult]
+
+    @property
+    def counted(self) -> list[TodoResult]:
+        """The TODOs whose points add up to those of the result."""
+        return [todo for todo in self.todos if not todo.bonus]
+
+    @property
+    def shown(self) -> list[TodoResult]:
+        """What people are shown: bonus tasks only once begun, or where nothing else was asked."""
+        begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
+        return [*self.counted, *begun] if self.counted else self.todos
+
+    @property
+    def complete(self) -> bool:
+        """Whether it has full marks or, where only bonus tasks were asked, all of theirs."""
+        wanted = self.counted or self.todos
+        return all(todo.points == todo.max_points for todo in wanted)
 
 
 def state_of(checks: list[CheckResult]) -> State:

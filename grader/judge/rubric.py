@@ -6,7 +6,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.judge.result import Kind
+from grader.judge.result import Kind, is_bonus
 
 CHECKS = Path(__file__).parents[1] / "checks"
 
@@ -37,6 +37,11 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
         return self.file.replace("todo", "mistakes")
 
     @property
+    def bonus(self) -> bool:
+        """Whether it is for those who want to go on: its points are never needed for full marks."""
+        return is_bonus(self.id)
+
+    @property
     def max_points(self) -> int:
         return sum(check.points for check in self.checks)
 
@@ -45,13 +50,18 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
     todos: list[Todo]
 
     @property
+    def counted(self) -> list[Todo]:
+        """The TODOs of the assignment itself, without the bonus tasks."""
+        return [todo for todo in self.todos if not todo.bonus]
+
+    @property
     def max_points(self) -> int:
-        return sum(todo.max_points for todo in self.todos)
+        return sum(todo.max_points for todo in self.counted)
 
     @property
     def hidden_points(self) -> int:
         """In a student's copy, the points that only the instructor's grader can give."""
-        return sum(todo.hidden_points for todo in self.todos)
+        return sum(todo.hidden_points for todo in self.counted)
 
 
 @cache

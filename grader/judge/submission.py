@@ -3,7 +3,6 @@
 import ast
 import os
 import shutil
-import stat
 import textwrap
 import warnings
 from collections.abc import Iterator
@@ -47,8 +46,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         copy_tree(path, submission)
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:
-        mode = stat.S_IRUSR | stat.S_IRGRP | stat.S_IROTH
-        each.chmod(mode | (stat.S_IXUSR if each.is_dir() else 0))
+        each.chmod(0o555 if each.is_dir() else 0o444)
     return submission
 
 
@@ -128,7 +126,7 @@ def look_at_function(
             submission.where.setdefault(todo.id, Where(file, found.lineno))
             submission.begun.setdefault(todo.id, shape != stubs.get(f"def {todo.id}"))
             return
-    submission.begun.setdefault(todo.id, True)
+    submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
 
 
 def module_of(inside: Path) -> str:

@@ -16,7 +16,7 @@ from typing import Literal
 import msgspec
 from msgspec import Struct
 
-from grader.judge.result import Result
+from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
 from grader.todo_regions import python_files, read_source, regions_in, replaced
 
@@ -58,17 +58,29 @@ class Member:
         return frozenset(region.id for region in regions_in(read_source(self.source)))
 
     @property
+    def bonus(self) -> bool:
+        """Whether it is about bonus tasks and nothing else."""
+        return self.kind != "hostile" and bool(self.todos) and all(map(is_bonus, self.todos))
+
+    @property
     def judged_by(self) -> frozenset[str]:
         """The TODOs to grade; empty for all.
 
-        A wrong member is one region of one program, and the programs share no file: the others
-        are the solution's, letter by letter. The whole is left out, it may suffer or not.
+        A patch changes regions of some programs, and the programs share no file: the others are
+        the solution's, letter by letter. The whole may suffer from a wrong member or not, so it is
+        left out; from a bonus task it must not suffer.
         """
-        if self.kind != "wrong":
+        if self.kind == "hostile" or not self.todos:
             return frozenset()
         todos = [todo for todo in load_rubric().todos if todo.function]
         touched = {todo.module for todo in todos if todo.id in self.todos}
-        return frozenset(todo.id for todo in todos if todo.module in touched)
+        wanted = {
+            todo.id
+            for todo in todos
+            if todo.module in touched and (todo.id in self.todos or not todo.bonus)
+        }
+        whole = self.kind == "right" or self.bonus
+        return frozenset(wanted | {"whole"} if whole else wanted)
 
     def build(self, kit: Path, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
@@ -97,6 +109,9 @@ class Member:
                 return f"TODO {', '.join(unharmed)} loses nothing"
             return f"TODO {', '.join(others)} must not lose anything" if others else ""
         points = result.max_points if self.entry.points is None else self.entry.points
+        begun = {todo.id for todo in result.todos if todo.state != "not started"} | self.todos
+        if self.entry.points is None and any(map(is_bonus, set(lost) & begun)):
+            return f"not the whole bonus; lost: {lost}"
         if result.points != points:
             return f"{result.points} points instead of {points}; lost: {lost}"
         if seconds > self.entry.seconds:

@@ -136,8 +136,9 @@ def in_words(reply: Reply) -> str:
             text = f"{error}: {message}"
         case Missing(what):
             text = what
-        case Played(steps=steps):
-            text = f"{sum(steps)} steps"
+        case Played(steps=steps, pictures=pictures):
+            seen = f", {len(set(pictures))} different pictures" if pictures else ""
+            text = f"{sum(steps)} steps{seen}"
         case _:
             text = ""
     line = "".join(c if c.isprintable() else " " for c in text[: 4 * MAX_ANSWER])

@@ -34,6 +34,7 @@ MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
 FEW = 40  # lines that are shown as they are
 STATE = ("pos", "vel", "angle", "omega")
+PARTS = {"mini_engine:between": "mini_engine.game_loop"}  # what a package does not pass on
 
 
 @dataclass
@@ -148,7 +149,7 @@ class Translator:
         if module == "pymunk":
             self.libraries.add(module)
             return f"pymunk.{path}"
-        self.imports.add((module, path.partition(".")[0]))
+        self.imports.add((PARTS.get(target, module), path.partition(".")[0]))
         return path
 
     # ------------------------------------------------------------ values
@@ -399,8 +400,11 @@ def looks(steps: Sequence[Step]) -> Iterator[str]:
 
 def play_again(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
     """The lab scene, fed with the same frames; clicks and keys are left to a person."""
-    if play.events or not paced:
-        person = [f"{each.kind} {each.pos}" for each in play.events[:1]]
+    if play.events or play.pictures or not paced:
+        person = [
+            f"{each.kind} {each.pos}{f' with {each.held}' if each.held else ''}"
+            for each in play.events[:2]
+        ]
         frames = f"frames of {', '.join(map(str, play.frames[:12]))} ms and so on"
         return [f"from {module} import main"], [f"main()  # {', '.join([*person, frames])}"]
     scene = "make_world(random.Random(12))"

@@ -56,18 +56,17 @@ class Teller:
     told: set[tuple[str, ...]] = field(default_factory=set)
 
     def tell(self, result: Result) -> None:
-        for todo in result.todos:
+        for todo in result.shown:
             self.tell_todo(todo)
-        bonus = f"  and {result.bonus} bonus" if result.bonus else ""
-        name = clean(result.submission)
-        words = f"{name}: {result.points} / {result.max_points}{bonus}"
+        words = f"{clean(result.submission)}: {total(result)}"
         say(words, self.console, style="bold")
 
     def tell_todo(self, todo: TodoResult) -> None:
         label, style = LABELS[todo.state]
         line = Text(label.ljust(STATES), style=style)
         line.append(f"{todo.id:<6}{todo.title:<48}", style="default")
-        line.append(f"{todo.points:>3} / {todo.max_points}", style="default")
+        bonus = " bonus" * todo.bonus
+        line.append(f"{todo.points:>3} / {todo.max_points}{bonus}", style="default")
         self.console.print(line, soft_wrap=True)
         for checks in alike(each for each in todo.checks if each.state in FAILED):
             self.tell_failed(todo, checks)
@@ -90,6 +89,14 @@ class Teller:
         if self.replays is not None and first.replay is not None:
             path = os.path.relpath(self.replays.parent / first.replay).replace(os.sep, "/")
             say(f"    {'See it':<9} {path}", self.console, indent=2, whole=True)
+
+
+def total(result: Result) -> str:
+    """The points, and the bonus apart from them; the bonus alone where nothing else was asked."""
+    if not result.counted:
+        return f"{result.bonus} bonus"
+    bonus = f"  and {result.bonus} bonus" if result.bonus else ""
+    return f"{result.points} / {result.max_points}{bonus}"
 
 
 def alike(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
@@ -118,7 +125,7 @@ def show_standing(result: Result, teller: Teller) -> None:
     """Print what a student wants to know: the result, what its words mean, and what comes next."""
     teller.tell(result)
     shown = {todo.id for todo in result.todos}
-    hidden = sum(todo.hidden_points for todo in load_rubric().todos if todo.id in shown)
+    hidden = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in shown)
     if hidden:
         words = f"{hidden} more points come from checks that only your instructor runs."
         say(words, teller.console)
@@ -130,13 +137,17 @@ def show_standing(result: Result, teller: Teller) -> None:
 def show_states(result: Result, console: Console) -> None:
     """Say what the states mean, those that are there."""
     for state, meaning in MEANINGS.items():
-        if any(todo.state == state for todo in result.todos):
+        if any(todo.state == state for todo in result.shown):
             say(f"{LABELS[state][0]:<{STATES}}{meaning}", console, STATES, "bright_black")
 
 
 def show_next(result: Result, console: Console) -> None:
-    """The one thing to do next: the first TODO that was begun, or else the first of all."""
-    left = [todo for todo in result.todos if todo.state in (*FAILED, "not started")]
+    """The one thing to do next: the first TODO that was begun, or else the first of all.
+
+    No bonus task, unless nothing else was asked.
+    """
+    asked = result.counted or result.todos
+    left = [todo for todo in asked if todo.state in (*FAILED, "not started")]
     if not left:
         return
     todo = min(left, key=lambda each: (each.id == "whole", each.state == "not started"))

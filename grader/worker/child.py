@@ -5,6 +5,8 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import msgspec
 import pygame.sysfont
@@ -94,13 +96,8 @@ def answer(
     match request:
         case Import(module, pieces):
             return Returned(",".join(subject.load(module, pieces)))
-        case Call(target, args, kwargs):
-            subject.force_calls = 0
-            result = subject.find(target)(
-                *(subject.decode(each) for each in args),
-                **{name: subject.decode(each) for name, each in kwargs.items()},
-            )
-            return Returned(subject.encode(result), subject.force_calls)
+        case Call():
+            return call(subject, request)
         case Get(ref, name):
             thing = subject.find(f"#{ref}.{name}") if name else subject.objects[ref]
             return Returned(subject.encode(thing))
@@ -116,6 +113,36 @@ def answer(
             return simulate(subject, camera, request)
         case Play():
             return play(subject, clock, output, camera, request)
+
+
+def call(subject: Subject, request: Call) -> Returned:
+    subject.force_calls = 0
+    function = subject.find(request.target)
+    args = [subject.decode(each) for each in request.args]
+    kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
+    if not request.counting:
+        return Returned(subject.encode(function(*args, **kwargs)), subject.force_calls)
+    with CallCounter([subject.find(each) for each in request.counting]) as counter:
+        result = function(*args, **kwargs)
+    return Returned(subject.encode(result), subject.force_calls, counter.calls)
+
+
+class CallCounter:
+    """Counts how often any of some functions is called, by whatever name."""
+
+    def __init__(self, functions: list[Any]) -> None:
+        self.codes = {getattr(each, "__code__", None) for each in functions}
+        self.calls = 0
+
+    def __enter__(self) -> "CallCounter":
+        sys.setprofile(self.look)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.setprofile(None)
+
+    def look(self, frame: FrameType, event: str, _: object) -> None:
+        self.calls += event == "call" and frame.f_code in self.codes
 
 
 def tidy_environment(scratch: str) -> None:

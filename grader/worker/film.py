@@ -115,8 +115,8 @@ class Camera:
             for joint in thing.constraints:
                 self._add(shot.rods, MAX_RODS, pymunk_rod, joint)
         elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
-            for name in ("bodies", "joints", "contacts"):
-                for each in islice(getattr(thing, name), MAX_TOUCHES):
+            for name in ("bodies", "joints", "springs", "contacts"):
+                for each in islice(getattr(thing, name, ()), MAX_TOUCHES):
                     self._show_one(each, shot)
         else:
             self._show_one(thing, shot)

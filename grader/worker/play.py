@@ -1,9 +1,9 @@
 """Running a program's real main() for a number of frames, and stepping a world by hand."""
 
 import importlib
-import io
 import math
 import os
+import zlib
 from typing import Any, Literal
 
 import pygame
@@ -71,12 +71,13 @@ def play(
         steps.append(counter.in_frame)
         times.append(clock.elapsed)
         counter.in_frame = 0
+        window.look()
         camera.look(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
-    picture = Picture(request.picture)
+    window = Window(request.pictures)
     camera.follow(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
@@ -89,7 +90,7 @@ def play(
         ended = "runaway"
     finally:
         counter.restore()
-        picture.restore()
+        window.restore()
     frame_over()
     camera.unfollow()
     return Played(
@@ -101,19 +102,16 @@ def play(
         bodies=all_bodies(subject, counter.last),
         rods=rods(counter.last),
         trail=counter.trail,
-        picture=picture.png,
+        pictures=window.pictures,
     )
 
 
-class Picture:
-    """Keeps the last picture shown: the program may close its window before it returns.
+class Window:
+    """The program's window. Where its pictures are not wanted, only one pixel of it is drawn."""
 
-    Where none is wanted, only one pixel of the window is drawn, whatever the program draws.
-    """
-
-    def __init__(self, wanted: bool) -> None:
-        self.png = b""
-        self.wanted = wanted
+    def __init__(self, pictures: bool) -> None:
+        self.wanted = pictures
+        self.pictures: list[int] = []
         self.real_quit, self.real_mode = pygame.quit, pygame.display.set_mode
         pygame.quit, pygame.display.set_mode = self._quit, self._set_mode
 
@@ -124,12 +122,12 @@ class Picture:
         return surface
 
     def _quit(self) -> None:
+        pygame.display.quit()  # the rest ends with this process, which is much quicker
+
+    def look(self) -> None:
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
         if self.wanted and surface is not None:
-            file = io.BytesIO()
-            pygame.image.save(surface, file, "picture.png")
-            self.png = file.getvalue()
-        pygame.display.quit()  # the rest ends with this process, which is much quicker
+            self.pictures.append(zlib.crc32(surface.get_buffer().raw))
 
     def restore(self) -> None:
         pygame.quit, pygame.display.set_mode = self.real_quit, self.real_mode

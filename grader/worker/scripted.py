@@ -18,6 +18,11 @@ from grader.protocol import Event
 BEGIN = 1000.0  # ms: no program starts at time 0
 PATIENCE = 5  # frames a program may run on after it was told to quit
 BUSY_READS = 500  # readings of the time without a frame in between, before time moves by itself
+MODIFIERS = {
+    "left shift": pygame.KMOD_LSHIFT,
+    "right shift": pygame.KMOD_RSHIFT,
+    "left ctrl": pygame.KMOD_LCTRL,
+}
 
 
 class PlayOver(BaseException):
@@ -31,6 +36,7 @@ class ScriptedClock:
         self.now = BEGIN  # ms
         self.reads = 0  # of the time, since the last frame or sleep
         self.clocks = 0  # that the program made, when it was imported or later
+        self.held = ""  # the key that is down
         self.start([], [], lambda: None)
 
     def start(
@@ -51,6 +57,7 @@ class ScriptedClock:
                 "wait": self._wait,
                 "delay": self._wait,
             },
+            pygame.key: {"get_pressed": self._pressing(pygame.key.get_pressed)},
             pygame.display: {
                 "flip": self._showing(pygame.display.flip),
                 "update": self._showing(pygame.display.update),
@@ -147,19 +154,44 @@ class ScriptedClock:
             return
         if frame >= len(self.frames):
             pygame.event.post(pygame.event.Event(pygame.QUIT))
-        for event in self.events:
-            if event.frame != frame:
-                continue
+        events = [event for event in self.events if event.frame == frame]
+        self._hold(next((event.held for event in events), ""))
+        for event in events:
             if event.kind == "click":
                 pygame.mouse.set_pos(event.pos)
                 for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
                     pygame.event.post(pygame.event.Event(kind, pos=event.pos, button=1))
             else:
-                key = pygame.key.key_code(event.key)
                 for kind in (pygame.KEYDOWN, pygame.KEYUP):
-                    pygame.event.post(
-                        pygame.event.Event(kind, key=key, mod=0, unicode=event.key, scancode=0)
-                    )
+                    self._post_key(kind, event.key, event.key)
+
+    def _hold(self, key: str) -> None:
+        """Hold this key down from now on, and no other; an empty name for none."""
+        if key == self.held:
+            return
+        released, self.held = self.held, key
+        pygame.key.set_mods(MODIFIERS.get(key, pygame.KMOD_NONE))
+        if released:
+            self._post_key(pygame.KEYUP, released)
+        if key:
+            self._post_key(pygame.KEYDOWN, key)
+
+    def _post_key(self, kind: int, name: str, unicode: str = "") -> None:
+        key, mod = pygame.key.key_code(name), pygame.key.get_mods()
+        pygame.event.post(pygame.event.Event(kind, key=key, mod=mod, unicode=unicode, scancode=0))
+
+    def _pressing(self, real: Callable[[], Any]) -> Callable[[], Any]:
+        return lambda: Pressed(real(), self.held)
+
+
+class Pressed:
+    """What `pygame.key.get_pressed()` gives a program here."""
+
+    def __init__(self, real: Any, held: str) -> None:
+        self.real, self.held = real, held
+
+    def __getitem__(self, key: int) -> bool:
+        return bool(self.real[key]) or (self.held != "" and key == pygame.key.key_code(self.held))
 
 
 class FrameClock:

@@ -71,13 +71,19 @@ class Subject:
             thing, label = self.objects[int(ref)], f"{type(self.objects[int(ref)]).__name__}.{path}"
         else:
             module, _, path = target.partition(":")
-            thing, label = importlib.import_module(module), f"{path} in {module}"
+            thing, label = self.module_with(path.partition(".")[0], module), f"{path} in {module}"
         for name in path.split("."):
             try:
                 thing = getattr(thing, name)
             except AttributeError:
                 raise NotThere(f"there is no {label}") from None
         return thing
+
+    def module_with(self, name: str, module: str) -> types.ModuleType:
+        """The module; of a package that does not pass the name on, the part that has it."""
+        whole = importlib.import_module(module)
+        parts = [part for key, part in sys.modules.items() if key.startswith(f"{module}.")]
+        return next((each for each in [whole, *parts] if name in vars(each)), whole)
 
     def swap(self, piece: Piece) -> bool:
         """Put the reference's function in the place of the submission's, wherever it is known.

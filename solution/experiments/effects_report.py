@@ -27,6 +27,7 @@ def tables(results):
         step_table(results["prices"][middle], f"One whole step with {middle} balls"),
         undeclared_table(results["undeclared"], middle),
         step_table(results["lesson"], f"The lesson's engine: one step with {middle} balls"),
+        bonus_table(results["bonus"]),
     ]
 
 
@@ -63,6 +64,21 @@ def undeclared_table(lines, middle):
         for line in lines
     ]
     return Table(f"Opcodes per step in an effect's own files, {middle} balls", heads, rows)
+
+
+def bonus_table(sizes):
+    """Before and after the bonus tasks; each pile's time before is the unit of its others."""
+    heads = ["balls", "scene", "opcodes", "ms", "share of before", "asleep", "calls to collide"]
+    rows = []
+    for balls, lines in sizes.items():
+        for line in lines:
+            ratio = line["ms"] / lines[0]["ms"]
+            cost = [f"{line['opcodes']:,}", f"{line['ms']:.3f}", f"{ratio:.3f}"]
+            done = line["done"]
+            counts = [line["asleep"], done["pairs"], done["contacts"], done["contact solves"]]
+            rows.append([balls, line["title"], *cost, *(f"{number:,}" for number in counts)])
+    title = "The lesson's engine before and after bonus tasks B1 and B3"
+    return Table(title, [*heads, "contacts", "contact solves"], rows)
 
 
 # ---------------------------------------------------------------- figures

@@ -18,16 +18,20 @@ from experiments.engines import Lesson, Stable
 from experiments.measures import deepest_overlap, top_speed
 from experiments.opcodes import count_calls, count_opcodes, files_run
 from experiments.scenes import DT, TOUCH, Ball
+from mini_engine import SLOP
+
+pytestmark = pytest.mark.xdist_group("effect prices")  # one process makes what its tests share
 
 KIT = Path(__file__).parents[2]
 SUBSTEPS = 4
 SOLVES = 2 * SUBSTEPS  # a contact or rod is solved and relaxed once in each substep
 SMALL, LARGE = 10, 25
+HEAP = 10
 
 
 @pytest.fixture(scope="module")
 def results():
-    return effects.measure((SMALL, LARGE), rounds=1)
+    return effects.measure((SMALL, LARGE), rounds=1, heaps=(HEAP,))
 
 
 @pytest.fixture(scope="module")
@@ -183,6 +187,40 @@ def test_the_lessons_engine_looks_at_every_pair_that_can_move(heap):
     static = [a for a, b in pairs if not (isinstance(a, Ball) or isinstance(b, Ball))]
     done = count(Held(Lesson(heap)), LESSON_WORK)["done"]
     assert done["pairs"] == len(pairs) - len(static)
+
+
+# ---------------------------------------------------------------- bonus tasks
+
+
+def test_a_packed_pile_touches_no_deeper_than_a_solver_leaves_alone():
+    assert 0 < deepest_overlap(Stable(effects.packed(HEAP))) < SLOP
+
+
+def test_before_the_bonus_tasks_every_pair_is_looked_at(results):
+    """n balls and three blocks: n(n - 1)/2 pairs of balls, and n with each block."""
+    before, _, awake, _ = results["bonus"][str(HEAP)]
+    for line in (before, awake):
+        assert line["done"]["pairs"] == HEAP * (HEAP - 1) / 2 + 3 * HEAP
+
+
+def test_a_grid_looks_at_fewer_pairs_and_finds_the_same_contacts(results):
+    before, grid = (line["done"] for line in results["bonus"][str(HEAP)][:2])
+    assert 0 < grid["contacts"] <= grid["pairs"] < before["pairs"]
+    assert {**grid, "pairs": 0} == {**before, "pairs": 0}
+
+
+def test_no_pair_of_sleepers_is_looked_at_or_solved(results):
+    *awake, asleep = results["bonus"][str(HEAP)]
+    assert [line["asleep"] for line in awake] == [0, 0, 0]
+    assert asleep["asleep"] == HEAP
+    assert not any(asleep["done"].values())
+
+
+def test_the_handout_has_the_bonus_tasks_at_every_size():
+    text = (KIT / "handouts" / "effects.md").read_text("utf-8")
+    for balls in effects.HEAPS:
+        for scene in ("before", "B3: a grid", "B1: sleep, all awake", "B1: asleep"):
+            assert f"| {balls} | {scene} |" in text
 
 
 # ---------------------------------------------------------------- what comes out

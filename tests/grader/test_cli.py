@@ -49,7 +49,7 @@ def test_a_class_is_graded_into_a_folder(tmp_path: Path, hand_in):
     assert done.returncode == 0, done.stderr
     marks = {
         path.stem: json.loads(path.read_text(encoding="utf-8"))["points"]
-        for path in (tmp_path / "marks").iterdir()
+        for path in (tmp_path / "marks").glob("*.json")
     }
     assert marks == {"anna": 6, "ben": 0}
 

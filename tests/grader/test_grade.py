@@ -48,12 +48,12 @@ def points(result: Result, todo: str) -> int:
 
 
 def test_the_solution_earns_everything(solution: Result):
-    assert (solution.points, solution.max_points) == (100, 100)
+    assert (solution.points, solution.max_points, solution.bonus) == (100, 100, 16)
     assert {todo.state for todo in solution.todos} == {"passed"}
 
 
 def test_the_starter_earns_nothing(starter: Result):
-    assert starter.points == 0
+    assert (starter.points, starter.bonus) == (0, 0)
     assert {check.points for todo in starter.todos for check in todo.checks} == {0}
     assert {todo.state for todo in starter.todos} == {"not started"}
 
@@ -67,12 +67,13 @@ def test_points_add_up_and_are_whole_numbers(solution: Result):
     for todo in solution.todos:
         assert todo.max_points == sum(check.max_points for check in todo.checks)
         assert all(type(check.points) is int for check in todo.checks)
-    assert solution.max_points == sum(todo.max_points for todo in solution.todos)
+    assert solution.max_points == sum(todo.max_points for todo in solution.counted)
 
 
 def test_every_todo_of_the_design_is_in_the_rubric():
     ids = [todo.id for todo in load_rubric().todos]
-    assert ids == [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c", "whole"]
+    bonus = [f"B{number}" for number in range(1, 7)]
+    assert ids == [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c", "whole", *bonus]
 
 
 def test_every_check_has_a_title_a_student_can_read(solution: Result):
@@ -111,7 +112,7 @@ def test_a_secret_seed_gives_the_solution_its_points_as_well():
 
 def test_a_missing_file_costs_its_own_todos(hand_in, solution: Result):
     result = graded(hand_in("solution", pymunk_scene_py=None))
-    lost = {todo.id for todo in result.todos if todo.points < todo.max_points}
+    lost = {todo.id for todo in result.counted if todo.points < todo.max_points}
     assert lost == {"7a", "7b", "7c", "7d", "whole"}
     assert "pymunk_scene" in result.todos[6].checks[0].got
 
@@ -140,7 +141,7 @@ def test_one_finished_todo_earns_its_own_points(tmp_path: Path, hand_in):
 
     from grader.todo_regions import python_files, regions_in, replaced
 
-    for todo in [each.id for each in load_rubric().todos if each.function]:
+    for todo in [each.id for each in load_rubric().counted if each.function]:
         folder = tmp_path / f"only-{todo}"
         shutil.copytree(KIT / "starter", folder, ignore=shutil.ignore_patterns("__pycache__"))
         for path in python_files(KIT / "solution"):

@@ -61,8 +61,9 @@ def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     tree = hand_in("starter")
     done = grader("check", cwd=tree)
     assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
-    for todo in load_rubric().todos:
+    for todo in load_rubric().counted:
         assert re.search(rf"^NOT STARTED {todo.id} +{todo.title} +0 / ", done.stdout, re.MULTILINE)
+    assert "B1" not in done.stdout  # a bonus task is shown once it is begun
     file = tree / "mini_engine" / "contacts.py"
     lines = file.read_text(encoding="utf-8").splitlines()
     (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 1:" in line)

@@ -27,8 +27,9 @@ STUDENTS = sorted(HANDOUTS.glob("*.md"))
 PAGES = sorted(HANDOUTS.rglob("*.md"))
 CHECKS = KIT / "grader" / "checks"
 RUBRIC = tomllib.loads((CHECKS / "rubric.toml").read_text(encoding="utf-8"))
-TODOS = {todo["id"]: todo for todo in RUBRIC["todos"] if todo["function"]}
-BONUS = {f"B{number}" for number in range(1, 7)}
+FUNCTIONS = {todo["id"]: todo for todo in RUBRIC["todos"] if todo["function"]}
+TODOS = {name: todo for name, todo in FUNCTIONS.items() if not name.startswith("B")}
+BONUS = {name: todo for name, todo in FUNCTIONS.items() if name.startswith("B")}
 
 # The course's plan, in minutes: the engine, pymunk, the integrators.
 MINUTES = {"1": 10, "2": 4, "3": 6, "4": 3, "5": 3, "6": 5}
@@ -208,12 +209,35 @@ def test_the_plan_names_every_todo_in_order(plan: dict[str, Any]) -> None:
 def test_the_plan_says_where_each_todo_stands(plan: dict[str, Any], tree: Path) -> None:
     found = places(tree)
     assert {todo: row["place"] for todo, row in plan.items()} == {t: found[t] for t in TODOS}
-    bonus = {
-        todo: (file.strip("`"), function.strip("`"))
-        for todo, file, function, _ in table_below(text_of("bonus.md"), "# Going further")
-    }
-    assert set(bonus) == BONUS and bonus == {todo: found[todo] for todo in BONUS}
+    bonus = {row["todo"]: row["place"] for row in bonus_rows()}
+    assert bonus == {todo: found[todo] for todo in BONUS}
     assert set(found) == {*TODOS, *BONUS}
+
+
+def bonus_rows() -> list[dict[str, Any]]:
+    """The table of the bonus tasks."""
+    return [
+        {
+            "todo": re.sub(r"\[(.+)\].*", r"\1", todo),
+            "points": int(points),
+            "place": (file.strip("`"), function.strip("`")),
+        }
+        for todo, points, file, function, _ in table_below(text_of("bonus.md"), "# Going further")
+    ]
+
+
+def test_the_bonus_tasks_have_the_points_of_the_rubric() -> None:
+    points = {
+        todo: sum(check["points"] for check in known["checks"]) for todo, known in BONUS.items()
+    }
+    assert [row["todo"] for row in bonus_rows()] == [f"B{number}" for number in range(1, 7)]
+    assert {row["todo"]: row["points"] for row in bonus_rows()} == points
+    in_all = sum(points.values())
+    assert f"They give bonus points, {in_all} in all," in text_of("bonus.md")
+    assert f"for {in_all} bonus points" in text_of("lab-sheet.md")
+    heads, guide = re.findall(r"^\|(?: B1 sleeping| 4 ).*\|$", text_of("instructor/guide.md"), re.M)
+    assert re.findall(r"B\d", heads) == list(points)
+    assert [*map(int, guide.strip("|").split("|"))] == [*points.values(), in_all]
 
 
 def test_the_plan_has_the_points_of_the_rubric(plan: dict[str, Any]) -> None:

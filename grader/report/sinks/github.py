@@ -17,11 +17,12 @@ SHOWN = 10  # errors, and as many warnings: GitHub shows no more of one step
 def annotations(result: Result, inside: str = "") -> str:
     """A workflow command for each TODO with a failed check, at the student's line.
 
+    A bonus task is no error: nothing is missing without it.
     `inside` is the folder of the submission in the repository, empty for its root.
     """
-    todos = [todo for todo in result.todos if failed(todo)]
+    todos = [todo for todo in result.shown if failed(todo)]
     lines = [
-        annotation("error" if number < SHOWN else "warning", todo, inside)
+        annotation("error" if number < SHOWN and not todo.bonus else "warning", todo, inside)
         for number, todo in enumerate(todos)
     ]
     return "".join(f"{line}\n" for line in lines)

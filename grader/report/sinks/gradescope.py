@@ -15,7 +15,7 @@ def gradescope(result: Result) -> bytes:
     bonus = f", and {result.bonus} bonus" if result.bonus else ""
     tests = [
         test(todo, check, number)
-        for todo in result.todos
+        for todo in result.shown
         for number, check in enumerate(todo.checks, 1)
     ]
     return msgspec.json.format(
@@ -54,6 +54,6 @@ def test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]
 def points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
     """The name, and the points where they count: a bonus says them in words, so that sums hold."""
     name = named(todo, check.title)
-    if todo.id.startswith("B"):
+    if todo.bonus:
         return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}
     return {"name": name, "score": check.points, "max_score": check.max_points}

@@ -24,9 +24,9 @@ def markdown(result: Result) -> str:
         "",
         "| TODO | | state | points |",
         "|---|---|---|--:|",
-        *map(row, result.todos),
+        *map(row, result.shown),
         *hidden(result),
-        *bounded([why(todo, check) for todo in result.todos for check in failed(todo)]),
+        *bounded([why(todo, check) for todo in result.shown for check in failed(todo)]),
         "",
         f"Isolation: {', '.join(result.isolation)}.",
     ]
@@ -36,14 +36,14 @@ def markdown(result: Result) -> str:
 
 
 def row(todo: TodoResult) -> str:
-    points = f"{todo.points} / {todo.max_points}"
+    points = f"{todo.points} / {todo.max_points}" + " bonus" * todo.bonus
     return f"| {todo.id} | {literal(todo.title)} | {todo.state} | {points} |"
 
 
 def hidden(result: Result) -> list[str]:
     """In a student's copy of the grader: what it has no checks for."""
     here = {todo.id for todo in result.todos}
-    points = sum(todo.hidden_points for todo in load_rubric().todos if todo.id in here)
+    points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
     words = f"{points} more points come from checks that only your instructor runs."
     return ["", words] if points else []
 

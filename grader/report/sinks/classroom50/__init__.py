@@ -7,7 +7,7 @@ from pathlib import Path
 
 import msgspec
 
-from grader.judge.result import Result
+from grader.judge.result import Result, TodoResult
 from grader.report.sinks import named
 from grader.report.terminal import clean
 
@@ -37,15 +37,6 @@ def classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
             f"{', '.join(missing)} not set: this form is for the runner of Classroom 50, which "
             "sets them"
         )
-    tests = [
-        {
-            "test-name": named(todo, clean(todo.title)),
-            "passed": todo.state == "passed",
-            "score": todo.points,
-            "max-score": todo.max_points,
-        }
-        for todo in result.todos
-    ]
     marks = {
         "schema": "classroom50/result/v1",
         **{field: environment[name] for field, name in NEEDED.items()},
@@ -54,9 +45,22 @@ def classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
         "datetime": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         "score": result.points,
         "max-score": result.max_points,
-        "tests": tests,
+        "tests": [test(todo) for todo in result.shown],
     }
     return msgspec.json.format(msgspec.json.encode(marks)) + b"\n"
+
+
+def test(todo: TodoResult) -> dict[str, str | bool | int]:
+    """One TODO; a bonus is said in words, so that the points add up."""
+    name = named(todo, clean(todo.title))
+    if todo.bonus:
+        name += f" (bonus: {todo.points} of {todo.max_points})"
+    return {
+        "test-name": name,
+        "passed": todo.state == "passed",
+        "score": 0 if todo.bonus else todo.points,
+        "max-score": 0 if todo.bonus else todo.max_points,
+    }
 
 
 def write_bundle(folder: Path, wheel: Path, requirements: Path) -> None:

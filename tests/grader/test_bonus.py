@@ -1,0 +1,187 @@
+"""Bonus tasks: graded like all others, and no part of any sum."""
+
+import base64
+import io
+import json
+import shutil
+from pathlib import Path
+
+import msgspec
+import pytest
+from rich.console import Console
+
+from grader.classroom.batch import rates, table_of
+from grader.classroom.book import outcome_of
+from grader.classroom.dashboard import Entry, rates_of
+from grader.classroom.notebooks import engine_notebook
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.maintain.verify import shared_worker
+from grader.report.files import as_json
+from grader.report.sinks.classroom50 import NEEDED, classroom50
+from grader.report.sinks.github import annotations, outputs
+from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.junit import junit
+from grader.report.sinks.markdown import markdown
+from grader.report.terminal import Teller, show_next, total
+from grader.todo_regions import python_files, regions_in, replaced
+
+BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
+WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
+RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 tells about a submission
+
+
+def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
+    return grade(folder, Options(shipped_reference(), only=only), shared_worker())
+
+
+def bonus_of(donor: str, base: str, folder: Path) -> Path:
+    """The tree `base` with the bonus tasks of another."""
+    shutil.copytree(KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__", "notebooks"))
+    for path in python_files(KIT / donor):
+        regions = regions_in(path.read_text(encoding="utf-8"))
+        lines = {each.id: each.lines for each in regions if each.id in BONUS}
+        target = folder / path.relative_to(KIT / donor)
+        if lines:
+            text = replaced(target.read_text(encoding="utf-8"), lines)
+            target.write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def without_bonus(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """The solution as of somebody who did no bonus task."""
+    folder = tmp_path_factory.mktemp("none") / "ann"
+    return graded(bonus_of("starter", "solution", folder))
+
+
+@pytest.fixture(scope="module")
+def with_bonus(without_bonus: Result) -> Result:
+    """Full marks, half of the first bonus task and all of the second."""
+    first, second = (todo for todo in without_bonus.todos if todo.id in ("B1", "B2"))
+    half = [msgspec.structs.replace(each, state="not yet", got="42") for each in first.checks]
+    half[0] = msgspec.structs.replace(half[0], state="passed", points=half[0].max_points)
+    begun = msgspec.structs.replace(first, state="not yet", points=half[0].points, checks=half)
+    passed = [
+        msgspec.structs.replace(each, state="passed", points=each.max_points)
+        for each in second.checks
+    ]
+    done = msgspec.structs.replace(second, state="passed", points=second.max_points, checks=passed)
+    new = {"B1": begun, "B2": done}
+    todos = [new.get(todo.id, todo) for todo in without_bonus.todos]
+    earned = begun.points + done.points
+    return msgspec.structs.replace(without_bonus, bonus=earned, todos=todos)
+
+
+# ---------------------------------------------------------------- marks
+
+
+def test_the_rubric_counts_the_bonus_apart():
+    rubric = load_rubric()
+    assert rubric.max_points == 100
+    assert {todo.id: todo.max_points for todo in rubric.todos if todo.bonus} == WORTH
+
+
+def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result):
+    assert (without_bonus.points, without_bonus.max_points, without_bonus.bonus) == (100, 100, 0)
+    assert without_bonus.complete
+    assert {t.state for t in without_bonus.todos if t.bonus} == {"not started"}
+
+
+def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(tmp_path: Path):
+    """The reference stands in for all that is not done."""
+    result = graded(bonus_of("solution", "starter", tmp_path / "ben"), BONUS)
+    assert {todo.id: todo.points for todo in result.todos} == WORTH
+    assert (result.points, result.max_points, result.bonus) == (0, 0, sum(WORTH.values()))
+
+
+def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Path):
+    folder = tmp_path / "old"
+    folder.mkdir()
+    single = KIT / "tests" / "bank" / "single_file" / "mini_engine.py"
+    shutil.copyfile(single, folder / "mini_engine.py")
+    result = graded(folder, BONUS)
+    assert {todo.state for todo in result.todos} == {"not started"}
+
+
+def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Result):
+    first, second = ([t for t in with_bonus.todos if t.id == name] for name in ("B1", "B2"))
+    assert with_bonus.complete
+    assert not msgspec.structs.replace(with_bonus, todos=first).complete
+    assert msgspec.structs.replace(with_bonus, todos=second).complete
+
+
+# ---------------------------------------------------------------- reports and sums
+
+
+def told(result: Result) -> str:
+    console = Console(width=80, record=True, file=io.StringIO())
+    Teller(console).tell(result)
+    show_next(result, console)
+    return console.export_text()
+
+
+def test_the_terminal_shows_the_bonus_apart(without_bonus: Result, with_bonus: Result):
+    assert total(without_bonus) == "100 / 100" and "B1" not in told(without_bonus)
+    text = told(with_bonus)
+    assert total(with_bonus) == "100 / 100  and 4 bonus"
+    assert "1 / 4 bonus" in text and "3 / 3 bonus" in text and "B3" not in text
+    assert "Next" not in text and max(map(len, text.splitlines())) <= 80
+
+
+def test_a_student_who_asks_for_a_bonus_task_is_led_on(with_bonus: Result):
+    only = [todo for todo in with_bonus.todos if todo.id in ("B1", "B3")]
+    text = told(msgspec.structs.replace(with_bonus, points=0, max_points=0, bonus=1, todos=only))
+    assert "Next: TODO B1" in text and "NOT STARTED B3" in text and ": 1 bonus" in text
+
+
+def test_every_form_adds_up_without_the_bonus(with_bonus: Result):
+    for form in (classroom50(with_bonus, RUNNER), gradescope(with_bonus)):
+        made = json.loads(form)
+        assert made["score"] == 100
+        assert sum(test.get("score", 0) for test in made["tests"]) == 100
+        assert sum(test.get("max-score", test.get("max_score", 0)) for test in made["tests"]) == 100
+    encoded = outputs(with_bonus).partition("result=")[2]
+    reported = json.loads(base64.b64decode(encoded))
+    assert reported["status"] == "pass" and reported["max_score"] == 100
+    assert sum(test["score"] for test in reported["tests"]) == 100
+
+
+def test_a_bonus_task_that_was_not_begun_is_in_no_report(without_bonus: Result):
+    forms = (gradescope(without_bonus), junit(without_bonus), markdown(without_bonus).encode())
+    assert not [form for form in forms if b"TODO B" in form or b"| B" in form]
+
+
+def test_a_bonus_task_is_a_warning_and_no_error(with_bonus: Result):
+    assert annotations(with_bonus).startswith("::warning ")
+    assert "::error" not in annotations(with_bonus)
+
+
+def test_the_class_book_counts_no_bonus(without_bonus: Result, with_bonus: Result):
+    outcomes = [outcome_of("ann", as_json(each), 1.0, "") for each in (without_bonus, with_bonus)]
+    assert [(each.points, each.left) for each in outcomes] == [(100, [])] * 2
+    assert not [cell for cell in rates(outcomes).columns[0].cells if str(cell).startswith("B")]
+    starter = msgspec.structs.replace(
+        outcomes[0], left=[todo for todo in outcomes[0].todos if todo not in BONUS]
+    )
+    assert list(table_of([starter]).columns[2].cells) == ["all"]
+
+
+def test_a_dashboard_lists_the_bonus_tasks_that_somebody_began(
+    without_bonus: Result, with_bonus: Result
+):
+    entries = [
+        Entry(outcome_of(name, as_json(each), 1.0, ""), each)
+        for name, each in (("ann", without_bonus), ("ben", with_bonus))
+    ]
+    listed = [
+        [rate.id for rate in rates_of(some) if rate.id in BONUS] for some in (entries[:1], entries)
+    ]
+    assert listed == [[], ["B1", "B2"]]
+
+
+def test_the_notebook_with_the_marks_is_worth_100():
+    cells = engine_notebook(load_rubric())["cells"]
+    points = [cell["metadata"].get("nbgrader", {}).get("points", 0) for cell in cells]
+    assert sum(points) == 100

@@ -1,0 +1,84 @@
+"""What the child adds for bonus tasks: keys that are held, and how often a function is called."""
+
+from pathlib import Path
+
+import pytest
+
+from grader.judge.grade import opened
+from grader.judge.lab import Lab
+from grader.protocol import Event
+
+PROGRAM = """
+import pygame
+
+def seen():
+    keys = pygame.key.get_pressed()
+    asked = bool(keys[pygame.K_LSHIFT]), bool(keys[pygame.K_RSHIFT])
+    return asked, bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+
+def main():
+    pygame.init()
+    pygame.display.set_mode((50, 50))
+    clock, down, running = pygame.time.Clock(), set(), True
+    while running:
+        clock.tick(60)
+        for event in pygame.event.get():
+            if event.type == pygame.QUIT:
+                running = False
+            elif event.type == pygame.KEYDOWN:
+                down.add(event.key)
+            elif event.type == pygame.KEYUP:
+                down.discard(event.key)
+            elif event.type == pygame.MOUSEBUTTONDOWN:
+                print("click", *seen(), sorted(down) == [] )
+    print("end", *seen(), down)
+"""
+
+CALLS = """
+def inner(): return 1
+
+other_name = inner
+
+def outer(n):
+    return sum(other_name() for _ in range(n))
+
+class Box:
+    def open(self, n): return outer(n) + self.shut()
+    def shut(self): return inner()
+    def quit(self): raise ValueError
+
+def make(): return Box()
+"""
+
+
+@pytest.fixture
+def lab(tmp_path: Path, request: pytest.FixtureRequest):
+    (tmp_path / "program.py").write_text(request.param, encoding="utf-8")
+    with opened(tmp_path) as children, Lab("program", lambda: children(5), []).opened() as lab:
+        yield lab
+
+
+@pytest.mark.parametrize("lab", [PROGRAM], indirect=True)
+def test_a_held_key_is_down_for_the_events_of_its_frame_and_no_longer(lab: Lab):
+    clicks = [
+        Event(2, "click", (5, 5)),
+        Event(3, "click", (5, 5), held="left shift"),
+        Event(4, "click", (5, 5), held="right shift"),
+        Event(5, "click", (5, 5)),
+    ]
+    played = lab.play([17] * 8, clicks, physics=False)
+    assert played.lines == [
+        "click (False, False) False True",
+        "click (True, False) True False",
+        "click (False, True) True False",
+        "click (False, False) False True",
+        "end (False, False) False set()",
+    ]
+
+
+@pytest.mark.parametrize("lab", [CALLS], indirect=True)
+def test_calls_are_counted_by_whatever_name_and_only_while_asked(lab: Lab):
+    box = lab.thing(lab.call("make"))
+    assert lab.count(["inner"], box, "open", 5) == 6
+    assert lab.count(["inner", "Box.shut"], box, "open", 5) == 7
+    assert lab.count(["make"], box, "open", 5) == 0
