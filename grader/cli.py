@@ -1,6 +1,8 @@
 """The command line: `python -m grader COMMAND`."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -29,7 +31,8 @@ app = typer.Typer(
 @app.command("grade")
 def grade_command(
     path: Annotated[
-        Path | None, typer.Argument(help="The submission; the shipped trees if left out.")
+        Path | None,
+        typer.Argument(help="The submission: folder, file or zip. Left out: the shipped trees."),
     ] = None,
     class_: Annotated[
         bool, typer.Option("--class", help="PATH holds submissions: a folder or zip of them.")
@@ -75,8 +78,25 @@ def grade_command(
     elif ci is not None:
         grade_in_ci(path, ci, out, json, at_least, options)
     else:
-        replays = None if out is None else out / path.resolve().name
-        finish(shown(path, replace(options, replays=replays)), out, json, at_least)
+        with submission_at(path) as folder:
+            replays = None if out is None else out / folder.resolve().name
+            result = shown(folder, replace(options, replays=replays))
+        finish(result, out, json, at_least)
+
+
+@contextmanager
+def submission_at(path: Path) -> Iterator[Path]:
+    """The submission itself: what a zip holds is unpacked, in the instructor's grader."""
+    if path.suffix.lower() != ".zip" or not find_spec("grader.classroom"):
+        yield path
+        return
+    from grader.classroom.intake import opened_submission
+
+    try:
+        with opened_submission(path) as folder:
+            yield folder
+    except CannotGrade as error:
+        stop(str(error))
 
 
 def shown(path: Path, options: Options) -> Result:

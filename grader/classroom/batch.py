@@ -48,6 +48,7 @@ from grader.classroom.intake import (
 from grader.classroom.roster import CannotRead, read_roster
 from grader.judge.children import SpawnWorker, WarmWorker, start_worker
 from grader.judge.grade import Options, grade, work_folder
+from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade, module_of
 from grader.report.files import as_json
@@ -57,6 +58,7 @@ from grader.todo_regions import python_files
 NOT_DECIDING = ("classroom", "maintain", "report")  # folders of the grader that give no points
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
+LONGEST_PAGE = 2000  # rows of the page: its makers hold all results at once, 35 kB each
 AHEAD = 2  # submissions that wait, packed, for each one being graded
 NAMED = 20  # names in one note
 
@@ -369,7 +371,17 @@ def run_class(path: Path, wanted: Wanted, console: Console) -> Run:
         if strangers := people.strangers(intake.found):
             run.notes.append(f"not in the class list: {some(strangers)}")
     show_class(run, console)
+    console.print(page_of(run), soft_wrap=True)
     return run
+
+
+def page_of(run: Run) -> str:
+    """Make the page of the class, and say where it is; of too many there is none by itself."""
+    if len(run.outcomes) > LONGEST_PAGE:
+        return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {run.book.folder}`"
+    from grader.classroom.dashboard import read_class, write_dashboard  # jinja: not in the pool
+
+    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder))}"
 
 
 def people_of(path: Path, roster: Path | None) -> ClassList:
@@ -433,15 +445,16 @@ def table_of(outcomes: list[Outcome]) -> Table:
         points = f"{each.final} / {each.max_points}"
         told = [f"found {each.points}; {clean('; '.join(each.reasons))}"] if each.reasons else []
         late = ["late"] if each.late and not each.reasons else []
-        left = "all" if len(each.left) == len(each.todos) else ", ".join(each.left)
+        nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
+        left = "all" if nothing else ", ".join(each.left)
         table.add_row(clean(each.name), points, "\n".join(filter(None, [left, *late, *told])))
     return table
 
 
 def rates(results: list[Outcome]) -> Table:
-    """The share of submissions that pass each TODO."""
+    """The share of submissions that pass each TODO of the assignment."""
     table = Table("TODO", "passed by", box=None)
-    for todo in load_rubric().todos:
+    for todo in load_rubric().counted:
         asked = [each for each in results if todo.id in each.todos]
         if asked:
             passed = sum(todo.id not in each.left for each in asked)

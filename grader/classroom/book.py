@@ -103,7 +103,7 @@ def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
         points=decoded.points,
         max_points=decoded.max_points,
         todos={todo.id: todo.points for todo in decoded.todos},
-        left=[todo.id for todo in decoded.todos if todo.state != "passed"],
+        left=[todo.id for todo in decoded.counted if todo.state != "passed"],
         final=decoded.points,
         seconds=round(seconds, 3),
         graded=datetime.now(UTC).replace(microsecond=0),

@@ -173,8 +173,9 @@ def with_todos(result: Result, todos: list[TodoResult]) -> Result:
 
 
 def rates_of(entries: list[Entry]) -> list[Rate]:
-    """A rate for each TODO that any result knows, in the order of the results."""
-    ids = dict.fromkeys(id for each in entries for id in each.todos)
+    """A rate for each TODO that any result shows, in the order of the results."""
+    shown = {todo.id for each in entries if each.result for todo in each.result.shown}
+    ids = [id for id in dict.fromkeys(id for each in entries for id in each.todos) if id in shown]
     return [rate_of([each.todos[id] for each in entries if id in each.todos]) for id in ids]
 
 

@@ -44,6 +44,8 @@ MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,0
 METADATA = "submission_metadata.yml"  # Gradescope's
 SIDE_FILES = {METADATA, "adjustments.toml", "roster.csv"}  # of the class folder itself
 DROPPINGS = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
+ARCHIVES = {".7z", ".bz2", ".gz", ".rar", ".tar", ".tgz", ".xz"}
+WORK = ARCHIVES | {".py", ".ipynb"}  # what is somebody's, though it cannot be graded like this
 PORTS = {f"{port}{number}" for port in ("com", "lpt") for number in range(10)}
 DEVICES = PORTS | {"con", "prn", "aux", "nul"}  # what Windows takes for no file
 MENTIONED = 5  # of the files that are left out
@@ -213,8 +215,10 @@ def in_files(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[F
             wordless[name] = path
         elif path.is_dir() or is_zip(path) or is_canvas(path) or is_moodle(path):
             groups.setdefault(name, []).append((path, late))
+        elif path.suffix.lower() in WORK:
+            intake.troubles[name] = f"{path.name} is no folder and no zip: put it into a folder"
         elif path.name not in SIDE_FILES and path.suffix.lower() != ".csv":
-            intake.troubles[name] = f"{path.name} is no folder and no zip: unpack it into a folder"
+            intake.notes.append(f"{path.name} is no submission: left out")
     for name, group in groups.items():
         handed_in = tuple(path for path, _ in group)
         late = any(late for _, late in group)
@@ -347,6 +351,23 @@ def digest_or_trouble(each: Found) -> str:
 
 
 # ---------------------------------------------------------------- one submission
+
+
+@contextmanager
+def opened_submission(path: Path) -> Iterator[Path]:
+    """The submission at `path`; what a zip holds is there, in a folder of its name, until the end.
+
+    Raises CannotGrade where a zip cannot be taken.
+    """
+    if not is_zip(path) or not path.is_file():
+        yield path
+        return
+    with tempfile.TemporaryDirectory(prefix="submission-") as temporary:
+        try:
+            package = pack(Found(portable(path.stem), (path,)))
+        except CannotTake as error:
+            raise CannotGrade(f"{path}: {error}") from error
+        yield package.unpack(Path(temporary))
 
 
 def pack(found: Found) -> Package:

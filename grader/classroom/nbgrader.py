@@ -250,7 +250,7 @@ def fill_one(book: Any, api: ModuleType, cells: list[Any], student: str, result:
             notes.append(f"{cell.name}: {todo.max_points} points here, {cell.max_score:g} there")
         if write_mark(book, cell, student, todo):
             notes.append(f"{cell.name}: a mark given by hand counts instead")
-    extra = set(todos) - {cell.name for cell in cells}
+    extra = {f"todo-{todo.id}" for todo in result.counted} - {cell.name for cell in cells}
     notes += [f"{name}: no such cell in the notebook" for name in sorted(extra)]
     notebook = book.find_submission_notebook(ENGINE, ASSIGNMENT, student)
     return Filled(student, notebook.score, notebook.max_score, tuple(notes))

@@ -31,9 +31,9 @@ With the feedback you get the reasons for missing points in the same places.\
 
 
 def engine_notebook(rubric: Rubric) -> Cell:
-    """A notebook with a cell for each TODO, worth its points."""
+    """A notebook with a cell for each TODO, worth its points; bonus tasks are no part of a sum."""
     cells = [markdown("title", INTRO, {})]
-    for todo in rubric.todos:
+    for todo in rubric.counted:
         name = f"TODO {todo.id}" if todo.function else "The whole"
         noun = "point" if todo.max_points == 1 else "points"
         text = f"### {name}: {todo.title}\n\n{todo.max_points} {noun}"

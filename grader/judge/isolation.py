@@ -8,7 +8,7 @@ Isolation = Literal["auto", "strict", "none"]
 LAYERS = {
     "files": {"landlock-files"},
     "network": {"network-namespace", "landlock-tcp"},
-    "other processes": {"pid-namespace", "landlock-scope"},
+    "other processes": {"pid-namespace", "landlock-scope", "own-user"},
 }
 STRICT = ("files", "network")  # what --isolation=strict insists on
 

@@ -19,7 +19,16 @@ from typer.testing import CliRunner
 
 from grader.classroom import batch, commands
 from grader.classroom.adjustments import Adjust, Adjustments
-from grader.classroom.batch import Graded, Pool, Run, Wanted, grade_class, key_of, run_class
+from grader.classroom.batch import (
+    Graded,
+    Pool,
+    Run,
+    Wanted,
+    grade_class,
+    key_of,
+    page_of,
+    run_class,
+)
 from grader.classroom.intake import Package, opened_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result, TodoResult
@@ -242,6 +251,16 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
         alone = as_json(grade(tmp_path / "class" / name, ONLY_8A))
         assert run.book.result_file(name).read_bytes() == alone
     assert [each.points for each in run.outcomes] == [2, 0]
+    assert "anna" in (tmp_path / "class-results.class.html").read_text(encoding="utf-8")
+    assert (tmp_path / "class-results" / "anna.html").is_file()
+
+
+def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
+    run = graded(classroom)
+    monkeypatch.setattr(batch, "LONGEST_PAGE", 2)
+    assert "more than 2, by `grader dashboard" in page_of(run)
+    monkeypatch.setattr(batch, "LONGEST_PAGE", 3)
+    assert page_of(run).endswith("out.class.html")
 
 
 def command(classroom: Path) -> list[str]:

@@ -5,10 +5,13 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import bare_container
 import ci_readers
 import msgspec
 import pytest
@@ -31,6 +34,24 @@ for target in (place, os.path.dirname(place) + "/stdout"):
         pass
 print('{{"score": 100, "tests": []}}', flush=True)
 os._exit(0)
+"""
+
+# Ends a right program that is able to do what it must not be.
+BURGLAR = """
+import os
+top = {top!r}
+broken = []
+def attempt(action, *arguments):
+    try:
+        broken.append(action(*arguments))
+    except OSError:
+        pass
+for name in ("results/results.json", "results/new", "run_autograder", "source/settings.json"):
+    attempt(open, os.path.join(top, name), "a")
+attempt(open, os.path.join(top, "source/solution/integrators.py"))
+attempt(os.listdir, os.path.join(top, "source"))
+attempt(os.kill, os.getppid(), 0)
+assert not broken, broken
 """
 
 
@@ -70,11 +91,11 @@ def hand_in(top: Path, tree: str) -> Path:
     return target
 
 
-def run(top: Path, expected: int = 0) -> dict[str, Any]:
+def run(top: Path, expected: int = 0, inside: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Run it, `inside` another command if there is one, and read the results."""
+    command = [*inside, top / "run_autograder", top]
     environment = {"PATH": os.environ["PATH"]}
-    done = subprocess.run(
-        [top / "run_autograder", top], cwd=top, env=environment, capture_output=True, text=True
-    )
+    done = subprocess.run(command, cwd=top, env=environment, capture_output=True, text=True)
     assert done.returncode == expected, done.stdout + done.stderr
     (top / "log").write_text(done.stdout)
     results = json.loads((top / "results" / "results.json").read_bytes())
@@ -123,14 +144,54 @@ def test_a_submission_gets_its_points(top: Path, tree: str, points: int):
 
 
 def test_a_hostile_submission_cannot_reach_the_marks(top: Path):
-    """It loses the 6 points of the file that it gave up for the attack, and wins none."""
-    engine = hand_in(top, "solution")
     place = str(top / "results" / "results.json")
-    (engine / "integrators.py").write_text(FORGED.format(place=place))
+    (top / "submission" / "integrators.py").write_text(FORGED.format(place=place))
     results = run(top)
-    assert results["score"] == 94
+    assert results["score"] == 0
     failed = [test for test in ci_readers.gradescope_tests(results) if test["status"] == "failed"]
-    assert {test["number"].partition(".")[0] for test in failed} == {"8a", "8b", "8c"}
+    assert {"8a", "8b", "8c"} <= {test["number"].partition(".")[0] for test in failed}
+
+
+# ---------------------------------------------------------------- where nothing confines
+
+
+@pytest.fixture
+def open_top(archive: Path) -> Iterator[Path]:
+    """/autograder where every account may look in, with a Python that every account may run."""
+    python = next(filter(for_everybody, pythons()), None)
+    if not sys.platform.startswith("linux") or os.geteuid() != 0 or python is None:
+        pytest.skip("only root can become another user, and that one needs a Python it can read")
+    with tempfile.TemporaryDirectory(prefix="autograder-") as temporary:
+        top = Path(temporary)
+        top.chmod(0o755)
+        lay_out(archive, top)
+        subprocess.run([python, "-m", "venv", "--without-pip", top / "python"], check=True)
+        packages = next((top / "python").glob("lib/python*/site-packages"))
+        (packages / "kit.pth").write_text("\n".join(each for each in sys.path if "site-" in each))
+        yield top
+
+
+def pythons() -> list[Path]:
+    """This one, and the system's of the same version."""
+    this = Path(sys.executable).resolve()
+    return [this, Path("/usr/bin/python{}.{}".format(*sys.version_info))]
+
+
+def for_everybody(path: Path) -> bool:
+    return path.exists() and all(each.stat().st_mode & 0o001 for each in [path, *path.parents])
+
+
+def test_root_without_namespaces_and_landlock_keeps_marks_and_reference(open_top: Path):
+    program = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    burglar = open_top / "submission" / "integrators.py"
+    burglar.write_text(program + BURGLAR.format(top=str(open_top)), encoding="utf-8")
+    results = run(open_top, inside=(sys.executable, bare_container.__file__))
+    log = (open_top / "log").read_text()
+    assert results["score"] == 6, log
+    assert "own-user" in log and "not confined here: files, network." in log
+
+
+# ---------------------------------------------------------------- when something is wrong
 
 
 def test_what_cannot_be_graded_gets_the_reason(top: Path):
@@ -195,6 +256,6 @@ def test_it_is_set_up_from_its_own_packages_and_grades(tmp_path: Path):
     here = Path(sys.base_prefix, "bin")
     environment = {"PATH": f"{here}:/usr/bin:/bin", "PIP_INDEX_URL": (tmp_path / "none").as_uri()}
     subprocess.run(["/bin/sh", top / "source" / "setup.sh", top], env=environment, check=True)
-    assert (top / "source").stat().st_mode & 0o777 == 0o700
     hand_in(top, "solution")
     assert run(top)["score"] == 100
+    assert [(top / each).stat().st_mode & 0o777 for each in ("source", "results")] == [0o700] * 2

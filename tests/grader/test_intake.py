@@ -11,7 +11,15 @@ from pathlib import Path
 import pytest
 
 from grader.classroom import intake
-from grader.classroom.intake import CannotTake, ClassList, Found, opened_class, pack, portable
+from grader.classroom.intake import (
+    CannotTake,
+    ClassList,
+    Found,
+    opened_class,
+    opened_submission,
+    pack,
+    portable,
+)
 from grader.classroom.roster import read_roster
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
@@ -206,11 +214,26 @@ def test_folders_checkouts_and_droppings(classroom):
 
 
 def test_nothing_is_dropped_in_silence(classroom):
-    write(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x"})
+    write(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x", "read me.txt": ""})
     (classroom / "link").symlink_to(classroom / "ann")
     with opened_class(classroom) as taken:
         assert taken.troubles.keys() == {"ben", "cem"}
-        assert ["link is a link" in note for note in taken.notes] == [True]
+        linked, loose = taken.notes
+        assert "link is a link" in linked and loose == "read me.txt is no submission: left out"
+
+
+def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
+    path = tmp_path / "ann.zip"
+    path.write_bytes(zipped(under("work")))
+    with opened_submission(path) as folder:
+        assert folder.name == "ann"
+        assert {name for name in PROGRAM if (folder / name).is_file()} == set(PROGRAM)
+    assert not folder.exists()
+    path.write_bytes(zipped({"../up.py": ""}))
+    with pytest.raises(CannotGrade, match="reaches outside"), opened_submission(path):
+        pass
+    with opened_submission(tmp_path) as folder:
+        assert folder == tmp_path
 
 
 def test_one_submission_is_not_taken_for_a_class(classroom):

@@ -32,8 +32,3 @@ else
     set --
 fi
 "$top/python/bin/python" -m pip install --require-hashes "$@" -r "$source/requirements.txt"
-
-# The reference and the checks are for root alone; so are the marks.
-chmod 700 "$source"
-mkdir -p "$top/results"
-chmod 700 "$top/results"

@@ -1,0 +1,357 @@
+"""The same six checks graded by this kit, by nbgrader and by otter-grader, in turns in one run.
+
+    .venv/bin/python tests/benchmarks/other_graders/compare.py VENV
+
+VENV holds the other two, from the requirements.txt beside this file. Every grader takes the class
+as its documentation says for one machine, one submission after the other, on one core.
+"""
+
+import json
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple
+
+import attacks
+import psutil
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from grader.judge.grade import KIT
+from grader.maintain.bench_class import megabytes
+
+HERE = Path(__file__).parent
+CHECKS = (HERE / "checks.py").read_text(encoding="utf-8")
+ASKED = [
+    'want_steps("semi_implicit_euler", semi_implicit_euler)',
+    "want_spring(semi_implicit_euler, 1, 1.878, -2.38)",
+    'want_steps("velocity_verlet", velocity_verlet)',
+    "want_spring(velocity_verlet, 2, 0.665, -0.01)",
+    'want_steps("rk4", rk4)',
+    "want_spring(rk4, 4, 0.018, -0.03)",
+]
+POINTS = len(ASKED)
+LIMIT = 30.0  # s of processor time for a submission; a grader that takes more is stopped
+
+Class = dict[str, str]  # what each student handed in
+Points = dict[str, float]  # what each got; whoever is missing could not be graded
+
+
+class Grader(NamedTuple):
+    """How to lay out a class for a grader, what to run then, and where the points are."""
+
+    name: str
+    prepare: Callable[[Path, Class], list[str]]
+    points: Callable[[Path], Points]
+
+
+@dataclass
+class Run:
+    """One class graded."""
+
+    seconds: float
+    cpu: float  # s of processor time
+    memory: float  # MB of all processes at most
+    points: Points
+    stopped: bool  # by us, after LIMIT
+
+
+class Cost(NamedTuple):
+    """A class of one, which shows what it costs to begin, and a larger one."""
+
+    alone: Run
+    whole: Run
+
+    def one_more(self, kind: str) -> float:
+        """What one submission more takes, in `seconds` or processor time, `cpu`."""
+        more = len(self.whole.points) - len(self.alone.points)
+        return (getattr(self.whole, kind) - getattr(self.alone, kind)) / more
+
+
+# ---------------------------------------------------------------- this kit
+
+
+def prepare_kit(folder: Path, handed_in: Class) -> list[str]:
+    for student, program in handed_in.items():
+        (folder / "class" / student).mkdir(parents=True)
+        (folder / "class" / student / "integrators.py").write_text(program, encoding="utf-8")
+    todos = [word for todo in ("8a", "8b", "8c") for word in ("--todo", todo)]
+    grade = [sys.executable, "-m", "grader", "grade", "--class", str(folder / "class")]
+    return [*grade, "--out", str(folder / "out"), "--jobs", "1", *todos]
+
+
+def points_of_kit(folder: Path) -> Points:
+    results = [json.loads(path.read_bytes()) for path in (folder / "out").glob("*.json")]
+    return {each["submission"]: each["points"] for each in results}
+
+
+# ---------------------------------------------------------------- notebooks
+
+
+def code_cell(number: int, text: str, **metadata: Any) -> dict[str, Any]:
+    cell = {"cell_type": "code", "id": f"cell-{number}", "metadata": metadata, "source": text}
+    return cell | {"outputs": [], "execution_count": None}
+
+
+def notebook(cells: list[dict[str, Any]]) -> str:
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    about = {"metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(about | {"cells": cells})
+
+
+# ---------------------------------------------------------------- nbgrader
+
+
+def marked(name: str, **of: Any) -> dict[str, Any]:
+    """The metadata by which nbgrader knows a cell."""
+    usual = {"grade": False, "locked": False, "solution": False, "task": False}
+    return {"nbgrader": usual | {"schema_version": 3, "grade_id": name} | of}
+
+
+def prepare_nbgrader(folder: Path, handed_in: Class) -> list[str]:
+    (folder / "nbgrader_config.py").write_text(
+        f"c = get_config()\nc.CourseDirectory.root = {str(folder)!r}\n", encoding="utf-8"
+    )
+    cells = [code_cell(0, "### BEGIN SOLUTION\n### END SOLUTION", **marked("work", solution=True))]
+    for number, asked in enumerate(ASKED, 1):
+        text = asked if number > 1 else f"{CHECKS}\n{asked}"
+        hidden = f"# A test\n### BEGIN HIDDEN TESTS\n{text}\n### END HIDDEN TESTS"
+        about = marked(f"test-{number}", grade=True, locked=True, points=1)
+        cells.append(code_cell(number, hidden, **about))
+    (folder / "source" / "ps1").mkdir(parents=True)
+    (folder / "source" / "ps1" / "ps1.ipynb").write_text(notebook(cells), encoding="utf-8")
+    generate = ["nbgrader", "generate_assignment", "ps1"]
+    subprocess.run(generate, cwd=folder, check=True, capture_output=True)
+    released = json.loads((folder / "release" / "ps1" / "ps1.ipynb").read_bytes())
+    for student, program in handed_in.items():
+        released["cells"][0]["source"] = program
+        place = folder / "submitted" / student / "ps1"
+        place.mkdir(parents=True)
+        (place / "ps1.ipynb").write_text(json.dumps(released), encoding="utf-8")
+    return ["nbgrader", "autograde", "ps1"]
+
+
+def points_of_nbgrader(folder: Path) -> Points:
+    """What its gradebook says of those whose notebook it has graded."""
+    ask = (
+        "import json; from nbgrader.api import Gradebook\n"
+        "with Gradebook('sqlite:///gradebook.db') as book:\n"
+        "    each = book.assignment_submissions('ps1')\n"
+        "    print(json.dumps({one.student.id: one.score for one in each}))"
+    )
+    told = subprocess.run(["python", "-c", ask], cwd=folder, capture_output=True, check=True)
+    graded = {path.parts[-3] for path in folder.glob("autograded/*/ps1/ps1.ipynb")}
+    return {name: points for name, points in json.loads(told.stdout).items() if name in graded}
+
+
+# ---------------------------------------------------------------- otter-grader
+
+OTTER_TEST = """\
+from otter.test_files import test_case
+
+OK_FORMAT = False
+name = "q{number}"
+points = 1
+
+{checks}
+
+@test_case()
+def asked(env):
+    globals().update({{name: env[name] for name in env if name in {names}}})
+    {asked}
+"""
+NAMES = ("semi_implicit_euler", "velocity_verlet", "rk4")
+
+# In one process, so that loading it is paid for once, as by the other two.
+OTTER_GRADES = """
+import json, sys
+from pathlib import Path
+from otter.api import grade_submission
+for path in sorted(Path("class").glob("*.ipynb")):
+    try:
+        points = grade_submission(str(path), "autograder.zip", quiet=True).total
+    except Exception as error:
+        print(path.stem, type(error).__name__, error, file=sys.stderr)
+        continue
+    with open("points.jsonl", "a") as file:
+        file.write(json.dumps([path.stem, points]) + "\\n")
+"""
+
+
+def prepare_otter(folder: Path, handed_in: Class) -> list[str]:
+    for name in ("tests", "class"):
+        (folder / name).mkdir()
+    for number, asked in enumerate(ASKED, 1):
+        text = OTTER_TEST.format(number=number, checks=CHECKS, names=NAMES, asked=asked)
+        (folder / "tests" / f"q{number}.py").write_text(text, encoding="utf-8")
+    generate = ["otter", "generate", "--no-requirements", "--no-environment", "-t", "tests"]
+    subprocess.run(generate, cwd=folder, check=True, capture_output=True)
+    for student, program in handed_in.items():
+        path = folder / "class" / f"{student}.ipynb"
+        path.write_text(notebook([code_cell(0, program)]), encoding="utf-8")
+    return ["python", "-c", OTTER_GRADES]
+
+
+def points_of_otter(folder: Path) -> Points:
+    path = folder / "points.jsonl"
+    return dict(map(json.loads, path.read_text().splitlines())) if path.exists() else {}
+
+
+# ---------------------------------------------------------------- measuring
+
+
+def run(grader: Grader, handed_in: Class) -> Run:
+    with tempfile.TemporaryDirectory(prefix="compared-") as temporary:
+        folder = Path(temporary)
+        folder.chmod(0o755)
+        command = grader.prepare(folder, handed_in)
+        cwd = KIT if grader.name == "this kit" else folder
+        before, start, memory, used = processor_time(), time.monotonic(), 0.0, 0.0
+        process = psutil.Popen(
+            command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        process.cpu_affinity([min(os.sched_getaffinity(0))])
+        while process.poll() is None and used < LIMIT * len(handed_in):
+            memory, used = max(memory, megabytes(process)), used_by(process)
+            time.sleep(0.1)
+        stopped = process.poll() is None
+        end_all(process)
+        seconds, cpu = time.monotonic() - start, processor_time() - before
+        return Run(seconds, cpu, memory, grader.points(folder), stopped)
+
+
+def used_by(process: psutil.Process) -> float:
+    """Processor time of a process that runs, and of all it has started, s."""
+    try:
+        family = [process, *process.children(recursive=True)]
+        return sum(sum(each.cpu_times()[:4]) for each in family)
+    except psutil.Error:
+        return 0.0
+
+
+def processor_time() -> float:
+    """Of all that this process has started and that has ended, s."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def end_all(process: psutil.Popen) -> None:
+    if process.poll() is None:
+        for each in [*process.children(recursive=True), process]:
+            each.kill()
+    process.wait()
+
+
+def right_program() -> str:
+    """The solution's three functions; nothing of its file would run in a notebook."""
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    return text[text.index("def semi_implicit_euler") : text.index("def spring")]
+
+
+def measure_costs(graders: list[Grader], sizes: list[int], rounds: int) -> dict[str, list[Cost]]:
+    """Every grader once in each round, so that whatever slows the machine meets all of them."""
+    costs: dict[str, list[Cost]] = {each.name: [] for each in graders}
+    for number in range(rounds):
+        turn = number % len(graders)
+        for grader in graders[turn:] + graders[:turn]:
+            costs[grader.name].append(Cost(*[graded_right(grader, size) for size in sizes]))
+    return costs
+
+
+def graded_right(grader: Grader, size: int) -> Run:
+    """A class of right submissions, no two the same."""
+    handed_in = {f"student-{n:02}": f"# {n}\n{right_program()}" for n in range(size)}
+    done = run(grader, handed_in)
+    if done.points != dict.fromkeys(handed_in, POINTS):
+        raise SystemExit(f"{grader.name} does not give right submissions their points: {done}")
+    return done
+
+
+def attacked(grader: Grader, instructor: Path) -> dict[str, Run]:
+    """A class of two for each attack: the hostile one, and its neighbour."""
+    answers = instructor / "answers.py"
+    tried = {
+        "ends the process": attacks.ENDS,
+        "never ends": attacks.NEVER_ENDS,
+        "takes the answers from memory": attacks.TAKES_ANSWERS,
+        "forges its points": attacks.FORGES[grader.name],
+        "reads and writes the instructor's files": attacks.READS_FILES.format(answers=str(answers)),
+    }
+    runs = {}
+    for name, text in tried.items():
+        answers.write_text(right_program(), encoding="utf-8")
+        runs[name] = run(grader, {"hostile": text, "neighbour": right_program()})
+    return runs
+
+
+# ---------------------------------------------------------------- telling
+
+
+def table_of(costs: dict[str, list[Cost]], size: int) -> Table:
+    """The medians of the rounds, and how many times this kit's they are."""
+    title = f"{POINTS} checks on one core, one submission after the other"
+    table = Table("", *costs, title=title)
+    ours = next(iter(costs))
+    rows: dict[str, Callable[[Cost], float]] = {
+        "one submission more, s of processor time": lambda cost: cost.one_more("cpu"),
+        "for each of its checks": lambda cost: cost.one_more("cpu") / POINTS,
+        "one submission more, s on the clock": lambda cost: cost.one_more("seconds"),
+        "a class of one, s of processor time": lambda cost: cost.alone.cpu,
+        f"a class of {size}, s of processor time": lambda cost: cost.whole.cpu,
+        "memory at most, MB": lambda cost: cost.whole.memory,
+    }
+    for words, figure in rows.items():
+        middle = {name: statistics.median(map(figure, each)) for name, each in costs.items()}
+        told = [f"{each:.3g} ({each / middle[ours]:.1f} times)" for each in middle.values()]
+        table.add_row(words, *told)
+    return table
+
+
+def outcomes(runs: dict[str, dict[str, Run]]) -> Table:
+    """What a hostile submission got, after how long, and whether the next one got its own."""
+    table = Table("a submission that", *runs, title=f"points of {POINTS}; it deserves 0")
+    for attack in next(iter(runs.values())):
+        table.add_row(attack, *[told(each[attack]) for each in runs.values()])
+    return table
+
+
+def told(one: Run) -> str:
+    points = one.points.get("hostile")
+    words = [f"{points:g} points" if points is not None else "no points"]
+    if one.points.get("neighbour") != POINTS:
+        words.append("the next one not graded")
+    ended = "stopped by us" if one.stopped else "ended"
+    return ", ".join([*words, f"{ended} after {one.seconds:.0f} s"])
+
+
+def main(
+    venv: Annotated[Path, typer.Argument(help="Where nbgrader and otter-grader are installed.")],
+    size: Annotated[int, typer.Option(help="Submissions in the class.")] = 10,
+    rounds: Annotated[int, typer.Option(help="How often each grader takes it.")] = 3,
+) -> None:
+    """Compare cost and safety of three graders on the same six checks."""
+    os.environ["PATH"] = f"{venv.absolute() / 'bin'}{os.pathsep}{os.environ['PATH']}"
+    graders = [
+        Grader("this kit", prepare_kit, points_of_kit),
+        Grader("nbgrader", prepare_nbgrader, points_of_nbgrader),
+        Grader("otter-grader", prepare_otter, points_of_otter),
+    ]
+    console = Console()
+    console.print(table_of(measure_costs(graders, [1, size], rounds), size))
+    with tempfile.TemporaryDirectory(prefix="instructor-") as temporary:
+        Path(temporary).chmod(0o755)
+        console.print(outcomes({each.name: attacked(each, Path(temporary)) for each in graders}))
+
+
+if __name__ == "__main__":
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(main)
+    app()
