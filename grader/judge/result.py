@@ -87,8 +87,9 @@ class Result(Struct, frozen=True):
     @property
     def complete(self) -> bool:
         """Whether it has full marks or, where only bonus tasks were asked, all of theirs."""
-        wanted = self.counted or self.todos
-        return all(todo.points == todo.max_points for todo in wanted)
+        asked = self.counted or self.todos
+        earned = all(todo.points == todo.max_points for todo in asked)
+        return earned and self.points == self.max_points
 
 
 def state_of(checks: list[CheckResult]) -> State:

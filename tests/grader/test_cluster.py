@@ -53,7 +53,7 @@ def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
     wanted = Wanted(ONLY_8A, classroom.parent / out, **how)
     run = run_class(classroom, wanted, QUIET)
     assert not any(each.trouble for each in run.outcomes)
-    files = {path.name: path.read_bytes() for path in run.book.folder.iterdir()}
+    files = {path.name: path.read_bytes() for path in run.book.folder.glob("*.json")}
     assert len(files) == SIZE
     return {**files, "table": run.book.table.read_bytes()}
 
