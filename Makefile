@@ -101,7 +101,7 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
 
 test: $(DEV) ## Run the test suite
-	@$(PY) -m pytest tests -n 2 --dist loadgroup
+	@$(PY) -m pytest tests -n 2 --dist loadfile
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak

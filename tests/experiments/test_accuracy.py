@@ -20,8 +20,6 @@ from experiments.engines import State
 from experiments.scenes import G, drop, pendulum
 from experiments.table import BEGIN, END, Table, number, times, write_markdown
 
-pytestmark = pytest.mark.xdist_group("accuracy")  # one process makes what its tests share
-
 ROOT = Path(__file__).parents[2]
 HANDOUT = ROOT / "handouts" / "accuracy.md"
 TINY = ["--quick", "--scale", "0.05"]

@@ -20,8 +20,6 @@ from experiments.opcodes import count_calls, count_opcodes, files_run
 from experiments.scenes import DT, TOUCH, Ball
 from mini_engine import SLOP
 
-pytestmark = pytest.mark.xdist_group("effect prices")  # one process makes what its tests share
-
 KIT = Path(__file__).parents[2]
 SUBSTEPS = 4
 SOLVES = 2 * SUBSTEPS  # a contact or rod is solved and relaxed once in each substep

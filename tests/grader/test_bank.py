@@ -18,8 +18,8 @@ def cases() -> list[Any]:
     """What `make test` has time for; `make verify` and `make soak` grade all members on all.
 
     Of the wrong packages, every sixth is graded on its whole program, the others on the TODO that
-    they spoil. Of bonus tasks, one right and one wrong member of each. Of the wrong single files,
-    one a TODO.
+    they spoil. Of bonus tasks, one right and one wrong member of each; of the wrong single files,
+    one a TODO; of the other right ones every second.
     """
     wrong = [m for m in MEMBERS if m.kind == "wrong" and m.form == "package" and not m.bonus]
     single = [m for m in MEMBERS if m.kind == "wrong" and m.form == "single file" and not m.bonus]
@@ -28,13 +28,15 @@ def cases() -> list[Any]:
         *{m.todos: m for m in single}.values(),
     ]
     briefly = [m for m in [*wrong, *one_each] if m.kind == "wrong" and m not in wrong[::6]]
-    fully = [m for m in MEMBERS if m.kind != "wrong" and (not m.bonus or m in one_each)]
+    right = [m for m in MEMBERS if m.kind == "right" and not m.bonus]
+    hostile = [m for m in MEMBERS if m.kind == "hostile"]
+    fully = [*wrong[::6], *right[::2], *hostile, *(m for m in one_each if m.kind == "right")]
     return [
         *(pytest.param(m, m.todos, id=f"{named(m)} alone") for m in briefly),
         *(
             pytest.param(m, m.judged_by, id=named(m), marks=() if now else pytest.mark.soak)
             for m in MEMBERS
-            for now in [m in fully or m in wrong[::6]]
+            for now in [m in fully]
         ),
     ]
 

@@ -19,8 +19,6 @@ from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.maintain.bank import members
 from grader.report.files import as_json, write_json
 
-pytestmark = pytest.mark.xdist_group("dashboard")  # one process makes what its tests share
-
 STATES: list[State] = ["passed", "not yet", "not started", "error"]
 TODOS = 14
 WORTH = 7  # of each TODO

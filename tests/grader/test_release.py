@@ -33,8 +33,6 @@ from grader.maintain.release import Refused, build, build_wheel, look_for_leaks,
 from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, visible
 from grader.maintain.verify import Report
 
-pytestmark = pytest.mark.xdist_group("release")  # one process makes what its tests share
-
 WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
 REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
 SAMPLE = list({REGIONS[min(member.todos)]: member for member in WRONG}.values())  # one a file

@@ -41,8 +41,6 @@ from grader.protocol import (
 )
 from grader.report.files import as_json
 
-pytestmark = pytest.mark.xdist_group("replay")  # one process makes what its tests share
-
 MISTAKES = (
     "1-clamp-is-turned-round",
     "3-bias-has-the-wrong-sign",

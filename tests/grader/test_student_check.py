@@ -206,6 +206,7 @@ def test_a_terminal_that_knows_few_letters_gets_question_marks(hand_in):
 def test_control_c_ends_a_check_without_a_traceback(hand_in):
     tree = hand_in("starter")
     fill_in(tree, INTEGRATORS, _8a="    while True:\n        pass")
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
     process = subprocess.Popen(
         [sys.executable, "-m", "grader", "check", "--todo", "8a"],
         cwd=tree,

@@ -288,6 +288,7 @@ def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatc
 def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
     tree = hand_in("starter")
     command = [sys.executable, "-m", "grader", "check", "--todo", "5", "--watch"]
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
     process = subprocess.Popen(
         command,
         cwd=tree / "mini_engine",

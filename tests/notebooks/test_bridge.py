@@ -11,8 +11,6 @@ import pytest
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse, fill, read_results, reasons
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 
-pytestmark = pytest.mark.xdist_group("bridge")  # one process makes what its tests share
-
 POINTS = {"4": 10, "5": 8, "8a": 2}
 
 
