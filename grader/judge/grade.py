@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,6 +81,7 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
             worker.close()
 
 
+@cache
 def load_stubs() -> dict[str, str]:
     """The shapes of the starter's stubs: of each region, and of the function around it."""
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])

@@ -4,6 +4,7 @@ import ast
 import builtins
 import dis
 from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 from types import CodeType
 
@@ -19,7 +20,10 @@ from grader.judge.submission import (
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
 
-Source = tuple[str, str, list[ast.stmt]]  # a file's module, its text, and that text parsed
+Source = tuple[str, str]  # a file's module and its text
+
+parsed = lru_cache(maxsize=32)(statements)  # the same reference serves a whole class
+shape = lru_cache(maxsize=64)(shape_of)
 
 
 class Reference:
@@ -35,8 +39,8 @@ class Reference:
         sources = list(sources_in(folder, {todo.module for todo in rubric.todos}))
         for todo in rubric.todos:
             if todo.function:
-                self.pieces[todo.id] = cut_out(sources, folder, todo)
-                self.shapes[todo.id] = shape_of(self.pieces[todo.id].source)
+                self.pieces[todo.id] = piece_for(todo, sources, folder)
+                self.shapes[todo.id] = shape(self.pieces[todo.id].source)
 
     def for_the_others(
         self, todo: Todo, module: str, rubric: Rubric, submission: Submission
@@ -61,19 +65,30 @@ def sources_in(folder: Path, modules: set[str]) -> Iterator[Source]:
         module = module_of(file.relative_to(folder))
         if module in modules:
             text = read_source(file)
-            yield module, text, statements(text)
+            yield module, text
 
 
-def cut_out(sources: list[Source], folder: Path, todo: Todo) -> Piece:
-    path = todo.function.partition(":")[2]
-    for module, text, body in sources:
-        found = function_named(body, path) if module == todo.module else None
-        if found is not None:
-            source = source_of(text, found)
-            parameters = [each.arg for each in found.args.args]
-            names = sorted(global_names(compile(source, "<reference>", "exec")))
-            return Piece(todo.function, source, plain_imports(text), parameters, names)
-    raise CannotGrade(f"the reference at {folder} has no {path}, which TODO {todo.id} is about")
+def piece_for(todo: Todo, sources: list[Source], folder: Path) -> Piece:
+    for module, text in sources:
+        piece = cut_out(text, todo.function) if module == todo.module else None
+        if piece is not None:
+            return piece
+    raise CannotGrade(
+        f"the reference at {folder} has no {todo.function.partition(':')[2]}, "
+        f"which TODO {todo.id} is about"
+    )
+
+
+@lru_cache(maxsize=512)
+def cut_out(text: str, target: str) -> Piece | None:
+    """The function that `target` names, as module:function, if this file has it."""
+    found = function_named(parsed(text), target.partition(":")[2])
+    if found is None:
+        return None
+    source = source_of(text, found)
+    parameters = [each.arg for each in found.args.args]
+    names = sorted(global_names(compile(source, "<reference>", "exec")))
+    return Piece(target, source, plain_imports(text), parameters, names)
 
 
 def global_names(code: CodeType) -> set[str]:
@@ -87,7 +102,7 @@ def plain_imports(text: str) -> str:
     """The imports of libraries; the program's own names are found in the submission."""
     return "\n".join(
         ast.unparse(node)
-        for node in ast.parse(text).body
+        for node in parsed(text)
         if isinstance(node, ast.Import | ast.ImportFrom)
         and not getattr(node, "level", 0)
         and "lab_runtime" not in ast.unparse(node)
