@@ -654,6 +654,13 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
 # ---------------------------------------------------------------- the whole bank
 
 
+# What cannot be seen where a scene is filmed by itself.
+UNSEEN = {
+    "B3-remembers-the-first-grid": "right in the first scene",
+    "B3-one-large-cell": "right everywhere, and slow",
+}
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize(
     "member",
@@ -668,7 +675,8 @@ def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tm
     for check in (check for todo in result.todos for check in todo.checks):
         if check.state == "not yet":
             assert check.replay is not None, check.id
-            assert film_of(tmp_path / check.replay)["parting"] is not None, check.id
+            parts = film_of(tmp_path / check.replay)["parting"] is not None
+            assert parts or member.name in UNSEEN, check.id
             script = (tmp_path / check.replay).with_suffix(".py")
             runs_on = "never" in member.name  # a loop that does not end
             if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
