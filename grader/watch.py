@@ -136,13 +136,7 @@ class Watch:
         """Put the TODO's new result in the place of the one before, which is returned."""
         (before,) = (each for each in self.result.todos if each.id == todo.id)
         todos = [todo if each is before else each for each in self.result.todos]
-        more = todo.points - before.points
-        self.result = msgspec.structs.replace(
-            self.result,
-            points=self.result.points + more * (not todo.bonus),
-            bonus=self.result.bonus + more * todo.bonus,
-            todos=todos,
-        )
+        self.result = self.result.with_todos(todos)
         return before
 
     def show_progress(self, before: TodoResult, todo: TodoResult) -> None:

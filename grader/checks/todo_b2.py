@@ -4,10 +4,9 @@ import math
 from itertools import pairwise
 
 from grader.checks import exact
-from grader.checks.exact import Pair, Rod, Spring
+from grader.checks.exact import Rod, Spring
+from grader.checks.todo_3 import FAST, SLOW, STILL, say, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment
-
-STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
 def want_exact(lab: Lab, spring: Spring) -> None:
@@ -22,8 +21,7 @@ def want_exact(lab: Lab, spring: Spring) -> None:
     b = lab.circle(rod.offset, 10.0, rod.mass_b, vel=rod.vel_b)
     made = lab.call("SpringJoint", a, b, spring.stiffness, spring.damping, rod.length)
     lab.tell(lab.thing(made, "a SpringJoint"), "apply", rod.dt)
-    ends = [lab.state(end) for end in (a, b)]
-    answer = tuple((end.vel.x, end.vel.y) for end in ends)
+    answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)
     # Sums of a few numbers below 1000 px/s, each rounded by a share of 1e-16.
@@ -32,14 +30,6 @@ def want_exact(lab: Lab, spring: Spring) -> None:
         say(*right),
         say(*answer),
     )
-
-
-def weight(mass: float) -> str:
-    return f"{mass:g} kg" if mass else "static"
-
-
-def say(vel_a: Pair, vel_b: Pair) -> str:
-    return f"A ({vel_a[0]:.3f}, {vel_a[1]:.3f}), B ({vel_b[0]:.3f}, {vel_b[1]:.3f}) px/s"
 
 
 def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:

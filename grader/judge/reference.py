@@ -22,9 +22,6 @@ from grader.todo_regions import python_files, read_source, shape_of
 
 Source = tuple[str, str]  # a file's module and its text
 
-parsed = lru_cache(maxsize=32)(statements)  # the same reference serves a whole class
-shape = lru_cache(maxsize=64)(shape_of)
-
 
 class Reference:
     """A complete tree, read as text; without one, no TODO can be isolated."""
@@ -36,11 +33,17 @@ class Reference:
             return
         if not folder.is_dir():
             raise CannotGrade(f"there is no reference at {folder}: name the solution's folder")
-        sources = list(sources_in(folder, {todo.module for todo in rubric.todos}))
+        sources = tuple(sources_in(folder, {todo.module for todo in rubric.todos}))
+        found = functions_of(sources, tuple(t.function for t in rubric.todos if t.function))
         for todo in rubric.todos:
-            if todo.function:
-                self.pieces[todo.id] = piece_for(todo, sources, folder)
-                self.shapes[todo.id] = shape(self.pieces[todo.id].source)
+            if not todo.function:
+                continue
+            if todo.function not in found:
+                raise CannotGrade(
+                    f"the reference at {folder} has no {todo.function.partition(':')[2]}, "
+                    f"which TODO {todo.id} is about"
+                )
+            self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
     def for_the_others(
         self, todo: Todo, module: str, rubric: Rubric, submission: Submission
@@ -64,31 +67,32 @@ def sources_in(folder: Path, modules: set[str]) -> Iterator[Source]:
     for file in python_files(folder):
         module = module_of(file.relative_to(folder))
         if module in modules:
-            text = read_source(file)
-            yield module, text
+            yield module, read_source(file)
 
 
-def piece_for(todo: Todo, sources: list[Source], folder: Path) -> Piece:
+@lru_cache(maxsize=4)  # the same reference serves a whole class
+def functions_of(
+    sources: tuple[Source, ...], targets: tuple[str, ...]
+) -> dict[str, tuple[Piece, str]]:
+    """The functions that these files have, by module:function, each with its shape."""
+    found: dict[str, tuple[Piece, str]] = {}
     for module, text in sources:
-        piece = cut_out(text, todo.function) if module == todo.module else None
-        if piece is not None:
-            return piece
-    raise CannotGrade(
-        f"the reference at {folder} has no {todo.function.partition(':')[2]}, "
-        f"which TODO {todo.id} is about"
-    )
+        body = statements(text)
+        for target in targets:
+            place, _, path = target.partition(":")
+            here = place.partition(".")[0] == module  # the program, of which it may name a part
+            function = function_named(body, path) if here else None
+            if function is not None and target not in found:
+                piece = cut_out(target, function, text, plain_imports(body))
+                found[target] = piece, shape_of(piece.source)
+    return found
 
 
-@lru_cache(maxsize=512)
-def cut_out(text: str, target: str) -> Piece | None:
-    """The function that `target` names, as module:function, if this file has it."""
-    found = function_named(parsed(text), target.partition(":")[2])
-    if found is None:
-        return None
-    source = source_of(text, found)
-    parameters = [each.arg for each in found.args.args]
+def cut_out(target: str, function: ast.FunctionDef, text: str, imports: str) -> Piece:
+    source = source_of(text, function)
+    parameters = [each.arg for each in function.args.args]
     names = sorted(global_names(compile(source, "<reference>", "exec")))
-    return Piece(target, source, plain_imports(text), parameters, names)
+    return Piece(target, source, imports, parameters, names)
 
 
 def global_names(code: CodeType) -> set[str]:
@@ -98,11 +102,11 @@ def global_names(code: CodeType) -> set[str]:
     return names.union(*map(global_names, inner)) - set(vars(builtins))
 
 
-def plain_imports(text: str) -> str:
+def plain_imports(body: list[ast.stmt]) -> str:
     """The imports of libraries; the program's own names are found in the submission."""
     return "\n".join(
         ast.unparse(node)
-        for node in parsed(text)
+        for node in body
         if isinstance(node, ast.Import | ast.ImportFrom)
         and not getattr(node, "level", 0)
         and "lab_runtime" not in ast.unparse(node)

@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from msgspec import Struct
+from msgspec import Struct, structs
 
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
@@ -72,6 +72,17 @@ class Result(Struct, frozen=True):
     bonus: int
     isolation: list[str]
     todos: list[TodoResult]
+
+    def with_todos(self, todos: list[TodoResult]) -> "Result":
+        """The result with these TODOs for its own, and the points that they add up to."""
+        counted = [todo for todo in todos if not todo.bonus]
+        return structs.replace(
+            self,
+            points=sum(todo.points for todo in counted),
+            max_points=sum(todo.max_points for todo in counted),
+            bonus=sum(todo.points for todo in todos if todo.bonus),
+            todos=todos,
+        )
 
     @property
     def counted(self) -> list[TodoResult]:

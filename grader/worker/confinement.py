@@ -84,6 +84,7 @@ def confine(setup: ChildSetup) -> list[str]:
         layers.append("process-group")
     layers += limit(setup.limits)
     if sys.platform.startswith("linux"):
+        # In a user namespace nobody becomes another user: where no Landlock follows, this is first.
         if landlock_version() < 1:
             layers += own_user(setup)
         layers += own_namespaces(setup)

@@ -43,11 +43,13 @@ class Reader(html.parser.HTMLParser):
 @contextmanager
 def chromium() -> Iterator[Any]:
     """A browser, where this machine has one."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+    sync_api = pytest.importorskip(
+        "playwright.sync_api", reason="needs playwright, of the extra `dev`"
+    )
     names = ("chromium", "chromium-browser", "google-chrome")
     path = next(filter(None, map(shutil.which, names)), None)
     if path is None:
-        pytest.skip("needs Chromium on the PATH")
+        pytest.skip("needs Chromium on the PATH, to open a page as a person would")
     with sync_api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
         yield browser

@@ -20,7 +20,7 @@ from ruamel.yaml import YAML
 
 from grader.cli import finish
 from grader.judge.grade import KIT
-from grader.judge.result import Result
+from grader.judge.result import Result, is_bonus
 from grader.maintain.bank import patch
 from grader.maintain.release import build
 from grader.report.ci import own_folder
@@ -180,7 +180,7 @@ def in_agreement(run: Run) -> Run:
 
 def unbegun_bonus(todo: dict[str, Any]) -> bool:
     """Nothing is said of a bonus task until it is begun."""
-    return todo["id"].startswith("B") and todo["state"] == "not started"
+    return is_bonus(todo["id"]) and todo["state"] == "not started"
 
 
 def test_the_solution_is_green(tmp_path: Path):

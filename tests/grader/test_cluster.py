@@ -22,7 +22,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
 from grader.report.files import as_json
 
-distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
+distributed = pytest.importorskip("distributed", reason="needs the extra `cluster`")
 
 QUIET = Console(quiet=True)
 ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}))
