@@ -128,12 +128,12 @@ class Rng(Struct, frozen=True, tag="rng"):
 
 
 class Force(Struct, frozen=True, tag="force"):
-    """Becomes `accel(x)`: a polynomial in x, lowest power first; the child counts its calls."""
+    """Becomes `accel(x)`: a polynomial in x, lowest power first."""
 
     coefficients: list[float]
 
 
-Argument = None | bool | int | float | str | Vec | Ref | Rng | Force
+Argument = None | bool | int | float | str | Vec | Ref | Rng
 
 # ---------------------------------------------------------------- judge to child
 
@@ -206,6 +206,17 @@ class Simulate(Struct, frozen=True, tag="simulate"):
     contacts: bool = False
 
 
+class Integrate(Struct, frozen=True, tag="integrate"):
+    """Call an integrator `steps` times, each time with the (x, v) that it answered last."""
+
+    target: str  # module:name
+    x: float
+    v: float
+    dt: float
+    force: Force
+    steps: int = 1
+
+
 class Event(Struct, frozen=True):
     """What the person does when so many frames, one or more, are over."""
 
@@ -227,7 +238,7 @@ class Play(Struct, frozen=True, tag="play"):
     pictures: bool = False  # False: next to nothing is drawn
 
 
-Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Play
+Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
 
 
 class Film(Struct, frozen=True, tag="film"):
@@ -243,7 +254,6 @@ class Film(Struct, frozen=True, tag="film"):
 
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
-    force_calls: int = 0
     counted: int = 0
 
 

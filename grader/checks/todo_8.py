@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from itertools import islice, pairwise
 from typing import NamedTuple
 
 from hypothesis import given
@@ -10,7 +11,6 @@ from grader.checks import exact
 from grader.checks.exact import Accel, State
 from grader.checks.strategies import forces, long_steps, states
 from grader.judge.lab import Lab
-from grader.protocol import Force
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
 SPRING = (0.0, -(OMEGA**2))
@@ -46,7 +46,7 @@ def want_step(lab: Lab, method: Method, state: State, dt: float, force: Polynomi
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
         f"with accel(x) = {formula(force)}"
     )
-    answer = lab.integrate(method.name, x, v, dt, Force(list(force)))
+    (answer,) = lab.integrate(method.name, state, dt, force)
     lab.saw(method.name, (x, v, dt, force), answer)
     right = RIGHT[method](x, v, dt, exact.polynomial(force))
     # Every order of adding up is right: rounding is a share of the terms, whatever their signs.
@@ -69,13 +69,11 @@ def say(state: State) -> str:
 
 def swing(lab: Lab, method: Method, steps: int, seconds: float) -> State:
     """Where the spring's body is after so many steps; it is let go at X0."""
-    x, v, dt = X0, 0.0, seconds / steps
-    for number in range(steps):
-        answer = lab.integrate(method.name, x, v, dt, Force(list(SPRING)))
-        if number < TELLING:
-            lab.saw(method.name, (x, v, dt, SPRING), answer)
-        x, v = answer
-    return x, v
+    start, dt = (X0, 0.0), seconds / steps
+    states = lab.integrate(method.name, start, dt, SPRING, steps)
+    for before, answer in islice(pairwise([start, *states]), TELLING):
+        lab.saw(method.name, (*before, dt, SPRING), answer)
+    return states[-1]
 
 
 def want_order(lab: Lab, method: Method) -> None:

@@ -21,6 +21,7 @@ from grader.protocol import (
     Force,
     Get,
     Import,
+    Integrate,
     Items,
     MakeBody,
     MakeWorld,
@@ -297,9 +298,16 @@ class Lab:
             self.fail("a pymunk Space", self.describe(value))
         return value
 
-    def integrate(self, method: str, x: float, v: float, dt: float, force: Force) -> Pair:
-        """One step of an integrator under `force`, a polynomial in x."""
-        return self.pair(self.call(method, x, v, dt, force), f"what {method} returns")
+    def integrate(
+        self, method: str, start: Pair, dt: float, force: Sequence[float], steps: int = 1
+    ) -> list[Pair]:
+        """The states (x, v) after each step of an integrator under `force`, a polynomial in x."""
+        target = f"{self.module}:{method}"
+        request = Integrate(target, *start, dt, Force(list(force)), steps)
+        answers = self.items(self._value(request), f"what {method} returns")
+        states = [self.pair(each, f"what {method} returns") for each in answers]
+        self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
+        return states
 
     def play(
         self,

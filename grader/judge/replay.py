@@ -30,14 +30,16 @@ from grader.protocol import (
     Call,
     Film,
     Filmed,
-    Force,
     Get,
     Import,
+    Integrate,
+    Items,
     MakeBody,
     MakeWorld,
     Missing,
     Piece,
     Play,
+    Reply,
     Request,
     Returned,
     Set,
@@ -117,9 +119,11 @@ class FilmingLab(Lab):
         step = self._note(request, answered)
         step.place = take, len(take.lines)
         shots = bounded(filmed.shots)
-        if isinstance(request, Call) and isinstance(request.args[-1] if request.args else 0, Force):
+        answer = in_words(filmed.reply) if isinstance(request, Call | Play) else ""
+        if isinstance(request, Integrate):
             take.curve, take.names = True, {1: "it"}
-            shots = on_a_curve(request, answered, take)
+            shots = on_a_curve(request, filmed.reply)
+            answer = in_words(last_of(filmed.reply))
         for number, look in islice(filmed.looks.items(), MOST_BODIES):
             take.looks[number] = look
             name = self.translator.names.get(look.ref, "")
@@ -127,7 +131,6 @@ class FilmingLab(Lab):
         self._taken += len(shots)
         if sets_up(request) and take.lines and take.lines[-1].sets_up:
             take.lines[-1] = msgspec.structs.replace(take.lines[-1], shots=[])
-        answer = in_words(filmed.reply) if isinstance(request, Call | Play) else ""
         take.lines.append(
             Line(sign(request), answer, shots, sets_up(request), "\n".join(step.code))
         )
@@ -140,9 +143,8 @@ class FilmingLab(Lab):
         code = self.translator.code(request, reply)
         before = self.steps[-1][-1].bodies if self.steps[-1] else {}
         value = reply.value if isinstance(reply, Returned) else reply
-        pair = (value.x, value.y) if isinstance(value, Vec) else None
         watched = self.translator.watched(request)
-        step = Step(request, code, value is None, pair, watched, before)
+        step = Step(request, code, value is None, watched, before)
         self.steps[-1].append(step)
         return step
 
@@ -185,17 +187,21 @@ def sets_up(request: Request) -> bool:
     return isinstance(request, MakeBody | MakeWorld | Set)
 
 
-def on_a_curve(request: Call, answered: Answered, take: Take) -> list[Shot]:
+def last_of(reply: Reply) -> Reply:
+    """The last of several answers."""
+    many = isinstance(reply, Returned) and isinstance(reply.value, Items) and reply.value.items
+    return Returned(many[-1]) if many else reply
+
+
+def on_a_curve(request: Integrate, reply: Reply) -> list[Shot]:
     """An integrator's x and v over the time, as the one body of the picture."""
-    x, v, dt = (each if isinstance(each, float) else 0.0 for each in request.args[:3])
-    last = take.lines[-1].shots[-1] if take.lines and take.lines[-1].shots else None
-    goes_on = last is not None and (last.bodies[0].x, last.bodies[0].vx) == (x, v)
-    time = last.time if goes_on and last is not None else 0.0
-    shots = [] if goes_on else [Shot(0.0, 0, [BodyRow(1, x, 0.0, v, 0.0, 0.0, 0.0)], [], [])]
-    if isinstance(answered.reply, Returned) and isinstance(answered.reply.value, Vec):
-        x, v = answered.reply.value
-    shots.append(Shot(time + dt, 1, [BodyRow(1, x, 0.0, v, 0.0, 0.0, 0.0)], [], []))
-    return shots
+    states = [Vec(request.x, request.v)]
+    if isinstance(reply, Returned) and isinstance(reply.value, Items):
+        states += [each for each in reply.value.items[: request.steps] if isinstance(each, Vec)]
+    return [
+        Shot(number * request.dt, number, [BodyRow(1, x, 0.0, v, 0.0, 0.0, 0.0)], [], [])
+        for number, (x, v) in enumerate(states)
+    ]
 
 
 def filmed(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -> FilmingLab:

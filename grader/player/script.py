@@ -11,8 +11,8 @@ from grader.protocol import (
     BodyValue,
     Call,
     ContactValue,
-    Force,
     Get,
+    Integrate,
     Items,
     MakeBody,
     MakeWorld,
@@ -44,7 +44,6 @@ class Step:
     request: Request
     code: list[str]
     silent: bool  # nothing came back
-    pair: tuple[float, float] | None  # what an integrator gave
     watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
     bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
     place: tuple[Take, int] | None = None  # where it is in the film: a take and its line
@@ -78,9 +77,20 @@ class Translator:
             case Simulate(ref, dt, steps):
                 stepping = f"{self.name(ref)}.step({number(dt)})"
                 return [f"for _ in range({steps}):", f"    {stepping}"] if steps > 1 else [stepping]
+            case Integrate():
+                return self._integration(request)
             case Play(frames=frames):
                 return [f"main()  # {len(frames)} frames"]
         return []
+
+    def _integration(self, request: Integrate) -> list[str]:
+        x, v, dt = map(number, (request.x, request.v, request.dt))
+        accel = polynomial(request.force.coefficients)
+        step = f"x, v = {self._called(request.target)}(x, v, {dt}, {accel})"
+        start = f"x, v = {x}, {v}"
+        if request.steps == 1:
+            return [start, step]
+        return [start, f"for _ in range({request.steps}):", f"    {step}"]
 
     def watched(self, request: Request) -> list[str]:
         """The names of the bodies, or of the space, whose state a request is after."""
@@ -163,8 +173,6 @@ class Translator:
             case Rng(seed):
                 self.libraries.add("random")
                 return f"random.Random({seed})"
-            case Force(coefficients):
-                return polynomial(coefficients)
         return number(value) if isinstance(value, float) else repr(value)
 
     def pair(self, x: float, y: float) -> str:
@@ -242,7 +250,7 @@ def script(
     if plays:
         imports, body = play_again(translator.module, plays[-1], paced)
     else:
-        body = chained(steps, translator) or list(shortened(steps, parting))
+        body = list(shortened(steps, parting))
         imports = list(imported(translator, "\n".join(body)))
     comments = [f"# {comment(each)}" for each in words if each]
     head = [f"# {comment(title)}", "# Run it in the folder of your own files.", "import sys"]
@@ -295,6 +303,8 @@ def shortened(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
         for line in step.code:
             answers = isinstance(step.request, Call | Get) and not assigned(line)
             yield f"print({shown(line)})" if answers and (last or not step.silent) else line
+        if isinstance(step.request, Integrate):
+            yield "print(x, v)"
     yield from looks(chosen)
 
 
@@ -309,31 +319,6 @@ def shown(code: str) -> str:
     if code.endswith(".find_contacts()"):
         return f"[(each.normal, each.depth, each.point) for each in {code}]"
     return code
-
-
-def chained(steps: Sequence[Step], translator: Translator) -> list[str]:
-    """Integrator steps that go on from one another, as loops; nothing where there are none."""
-    chains: list[list[Call]] = []
-    came = None
-    for step in steps:
-        call = step.request
-        if not isinstance(call, Call) or not any(isinstance(each, Force) for each in call.args):
-            return []
-        same = chains and chains[-1][0].args[2:] == call.args[2:]
-        if same and came == tuple(call.args[:2]):
-            chains[-1].append(call)
-        else:
-            chains.append([call])
-        came = step.pair
-    if all(len(chain) == 1 for chain in chains):
-        return []
-    lines = []
-    for first, count in ((chain[0], len(chain)) for chain in chains):
-        x, v, *rest = map(translator.argument, first.args)
-        call_again = f"{first.target.rpartition(':')[2]}(x, v, {', '.join(rest)})"
-        lines += [f"x, v = {x}, {v}", f"for _ in range({count}):", f"    x, v = {call_again}"]
-        lines.append("print(x, v)")
-    return lines
 
 
 def assigned(line: str) -> bool:
@@ -357,6 +342,8 @@ def rounds(steps: Sequence[Step]) -> tuple[int, int]:
 def sign(request: Request) -> str:
     """Which request it is, its numbers and those of its objects aside: runs may differ in both."""
     match request:
+        case Integrate(target):
+            return f"integrate {target}"
         case Call(target):
             return f"call {target.partition('.')[2] if target.startswith('#') else target}"
         case Get(name=name):

@@ -22,6 +22,7 @@ from grader.protocol import (
     Filmed,
     Get,
     Import,
+    Integrate,
     MakeBody,
     MakeWorld,
     Missing,
@@ -111,20 +112,21 @@ def answer(
             return Returned(subject.encode(subject.make_world(request)))
         case Simulate():
             return simulate(subject, camera, request)
+        case Integrate():
+            return Returned(subject.integrate(request))
         case Play():
             return play(subject, clock, output, camera, request)
 
 
 def call(subject: Subject, request: Call) -> Returned:
-    subject.force_calls = 0
     function = subject.find(request.target)
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
     if not request.counting:
-        return Returned(subject.encode(function(*args, **kwargs)), subject.force_calls)
+        return Returned(subject.encode(function(*args, **kwargs)))
     with CallCounter([subject.find(each) for each in request.counting]) as counter:
         result = function(*args, **kwargs)
-    return Returned(subject.encode(result), subject.force_calls, counter.calls)
+    return Returned(subject.encode(result), counter.calls)
 
 
 class CallCounter:

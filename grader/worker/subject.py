@@ -20,7 +20,7 @@ from grader.protocol import (
     BodyValue,
     CodeLine,
     ContactValue,
-    Force,
+    Integrate,
     Items,
     MakeBody,
     MakeWorld,
@@ -52,7 +52,6 @@ class Subject:
         self.folder = folder
         self.objects: dict[int, Any] = {}
         self.refs: dict[int, int] = {}
-        self.force_calls = 0
         self.pair: Callable[[float, float], Any] = pygame.Vector2  # what the program's pairs are
         sys.path.insert(0, str(folder))
 
@@ -151,19 +150,20 @@ class Subject:
                 return self.objects[ref]
             case Rng(seed):
                 return random.Random(seed)
-            case Force(coefficients):
-                return self._force(coefficients)
         return argument
 
-    def _force(self, coefficients: list[float]) -> Callable[..., float]:
-        def accel(x: float, *_: Any) -> float:
-            self.force_calls += 1
-            total = 0.0
-            for coefficient in reversed(coefficients):
-                total = total * x + coefficient
-            return total
-
-        return accel
+    def integrate(self, request: Integrate) -> Items:
+        """What the integrator answers, step by step, as far as each is a state to go on from."""
+        method, accel = self.find(request.target), polynomial(request.force.coefficients)
+        x, v = request.x, request.v
+        answers: list[Value] = []
+        for _ in range(request.steps):
+            answer = self.encode(method(x, v, request.dt, accel))
+            answers.append(answer)
+            if not isinstance(answer, Vec) or not all(map(math.isfinite, answer)):
+                break
+            x, v = map(float, answer)
+        return Items(answers)
 
     def make_body(self, request: MakeBody) -> Any:
         module = request.module
@@ -315,6 +315,16 @@ class Subject:
         except Exception:
             message = ""
         return Raised(type(error).__name__[:100], message, frames[-12:])
+
+
+def polynomial(coefficients: list[float]) -> Callable[..., float]:
+    def accel(x: float, *_: Any) -> float:
+        total = 0.0
+        for coefficient in reversed(coefficients):
+            total = total * x + coefficient
+        return total
+
+    return accel
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:

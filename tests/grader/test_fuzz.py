@@ -51,6 +51,7 @@ VALUES = [
     Vec(1.0, 2.0),
     Ref(3, "World"),
     Items([1.0, Vec(0.0, 1.0)]),
+    Items([Vec(0.0, 1.0)] * 3),
     BodyValue(1, Vec(0, 0), Vec(0, 0), 0.0, 0.0, 1.0, 1.0, 10.0),
     ContactValue(1, 2, 3, Vec(0, 1), 0.5, Vec(0, 0), 0.0, 0.0),
 ]
