@@ -6,7 +6,7 @@ import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ import msgspec
 from grader.judge import misconceptions
 from grader.judge.children import Child, SpawnWorker, WarmWorker, start_worker
 from grader.judge.isolation import STRICT, Isolation, unconfined
-from grader.judge.lab import Broke, Lab, NotYet
+from grader.judge.lab import Broke, Lab, NotYet, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
@@ -110,24 +110,27 @@ class Grading:
     submission: Submission
     worker: WarmWorker | SpawnWorker
     work: Path
+    layers: list[str] = field(default_factory=list)  # what shuts its children in
+    observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
 
     def run(self) -> Result:
         # Imported here: pytest and hypothesis load while the worker loads its libraries.
         from grader.judge.plugin import GradingPlugin, run_pytest
 
-        layers = self.layers()
+        unusable = self.find_unusable()
         plugin = GradingPlugin(
             self.submission,
             self.rubric,
             self.reference,
             self.open_child,
-            self.find_unusable(),
+            unusable,
             self.options.only,
             self.options.seed,
             self.options.progress,
+            observations=self.observations,
         )
         run_pytest(plugin, self.rubric)
-        result = self.result(plugin, layers)
+        result = self.result(plugin)
         folder = self.options.replays
         if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
             return result
@@ -143,7 +146,7 @@ class Grading:
         scratch = Path(tempfile.mkdtemp(dir=self.work))
         bytecode = self.work / "bytecode"
         bytecode.mkdir(exist_ok=True)
-        return self.worker.open(
+        child = self.worker.open(
             ChildSetup(
                 submission=str(self.submission.folder),
                 scratch=str(scratch),
@@ -154,6 +157,8 @@ class Grading:
                 compiles=compiles,
             )
         )
+        self.layers = self.layers_around(child)
+        return child
 
     def expected_children(self) -> Callable[[int], Child] | None:
         """A way to open children of the reference itself, to see what should happen."""
@@ -163,15 +168,14 @@ class Grading:
         tree = take_in(self.options.reference, work / "tree", self.rubric, {})
         return replace(self, submission=tree, work=work).open_child
 
-    def layers(self) -> list[str]:
-        """What shuts a child in on this machine, found out with an empty one."""
-        child = self.open_child(10)
-        child.end()
-        layers = ["processes", *child.ready.layers, *self.worker.layers]
+    def layers_around(self, child: Child) -> list[str]:
+        """What shuts this child in; CannotGrade, with nothing run, if that is not enough."""
         if self.options.isolation == "none":
             return ["processes"]
+        layers = ["processes", *child.ready.layers, *self.worker.layers]
         open_to_it = [what for what in unconfined(layers) if what in STRICT]
         if self.options.isolation == "strict" and open_to_it:
+            child.end()
             raise CannotGrade(
                 f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} "
                 f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
@@ -199,7 +203,7 @@ class Grading:
 
     # ------------------------------------------------------------ the result
 
-    def result(self, plugin: "GradingPlugin", layers: list[str]) -> Result:
+    def result(self, plugin: "GradingPlugin") -> Result:
         todos = []
         for todo in self.rubric.todos:
             if not plugin.wanted(todo):
@@ -207,7 +211,7 @@ class Grading:
             checks = count_guards(todo, [plugin.results[todo.id, c.id] for c in todo.checks])
             mistake = None
             if any(check.state in FAILED for check in checks):
-                mistake = misconceptions.named(todo.id, plugin.observations.get(todo.id, []))
+                mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
             if mistake is not None:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
             todos.append(
@@ -227,7 +231,7 @@ class Grading:
             points=0,
             max_points=0,
             bonus=0,
-            isolation=layers,
+            isolation=self.layers,
             todos=[],
         )
         return nothing.with_todos(todos)

@@ -13,7 +13,7 @@ import textwrap
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from multiprocessing import get_context
 from os import cpu_count
@@ -30,7 +30,6 @@ from grader.judge import misconceptions
 from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
-from grader.judge.plugin import GradingPlugin
 from grader.judge.reference import Reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
@@ -211,17 +210,6 @@ def grade_mutant(mutant: Mutant) -> Outcome:
     return outcome
 
 
-@dataclass
-class Watched(Grading):
-    """A run of the checks that keeps what was asked and answered."""
-
-    observations: dict[str, list[Observation]] = field(default_factory=dict)
-
-    def result(self, plugin: GradingPlugin, layers: list[str]) -> Result:
-        self.observations = plugin.observations
-        return super().result(plugin, layers)
-
-
 def watched(
     path: Path, only: frozenset[str], seed: int | None = None
 ) -> tuple[Result, dict[str, list[Observation]]]:
@@ -230,7 +218,7 @@ def watched(
     with work_folder() as work:
         submission = take_in(path, work / "submission", rubric, load_stubs())
         reference = Reference(options.reference, rubric)
-        grading = Watched(options, rubric, reference, submission, shared_worker(), work)
+        grading = Grading(options, rubric, reference, submission, shared_worker(), work)
         result = grading.run()
     return result, grading.observations
 

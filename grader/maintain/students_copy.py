@@ -9,11 +9,10 @@ import re
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from functools import wraps
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -24,13 +23,9 @@ from grader.judge.grade import KIT, Grading, Options, load_stubs, work_folder
 from grader.judge.lab import Observation
 from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
 from grader.judge.reference import Reference
-from grader.judge.result import Result
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.judge.submission import take_in
 from grader.maintain.cut import asked_of, pruned, with_bodies
-
-if TYPE_CHECKING:
-    from grader.judge.plugin import GradingPlugin
 
 NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
 HELPERS = ("pacing", "strategies", "exact")  # of the checks; each uses only those after it
@@ -128,17 +123,6 @@ def with_recorded_oracles(source: str) -> str:
 # ---------------------------------------------------------------- recording
 
 
-@dataclass
-class Watched(Grading):
-    """A grading run that keeps what it saw."""
-
-    seen: dict[str, list[Observation]] = field(default_factory=dict)
-
-    def result(self, plugin: "GradingPlugin", layers: list[str]) -> Result:
-        self.seen = plugin.observations
-        return super().result(plugin, layers)
-
-
 def record(wrong: Iterable[Tree]) -> Recorded:
     """What the visible checks ask, and what the oracles and all models answer."""
     rubric = visible(load_rubric())
@@ -178,9 +162,9 @@ def watch(
     options = Options(reference=None, only=todos)
     with work_folder() as work:
         submission = take_in(path, work / "submission", rubric, load_stubs())
-        run = Watched(options, rubric, Reference(None, rubric), submission, worker, work)
+        run = Grading(options, rubric, Reference(None, rubric), submission, worker, work)
         run.run()
-    return [each for observations in run.seen.values() for each in observations]
+    return [each for observations in run.observations.values() for each in observations]
 
 
 @contextmanager

@@ -50,6 +50,12 @@ class PathBeneathAttr(ctypes.Structure):
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
+@cache
+def libc() -> ctypes.CDLL:
+    """The C library; loaded once before the fork, it costs no child anything."""
+    return ctypes.CDLL(None, use_errno=True)
+
+
 def prepare_server(keep: int) -> list[str]:
     """Once for the warm process: leave the network and other processes behind.
 
@@ -58,18 +64,17 @@ def prepare_server(keep: int) -> list[str]:
     """
     if not sys.platform.startswith("linux"):
         return []
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back to this process
+    libc().prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back here
     layers = []
-    if libc.unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
+    if libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
         layers.append("network-namespace")
-    if libc.unshare(CLONE_NEWPID) == 0:
+    if libc().unshare(CLONE_NEWPID) == 0:
         layers.append("pid-namespace")
         first = os.fork()
         if first:
             os.close(keep)
             os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
-        libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     return layers
 
 
@@ -117,9 +122,8 @@ def own_user(setup: ChildSetup) -> list[str]:
         return []
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    libc.prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)  # /proc/self is its own again, for namespaces to come
+    libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    libc().prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)  # /proc/self is its own again, for namespaces to come
     return ["own-user"]
 
 
@@ -130,20 +134,20 @@ def own_namespaces(setup: ChildSetup) -> list[str]:
     """
     if not enter_user_namespace(CLONE_NEWIPC | CLONE_NEWNS):
         return []
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.mount(None, b"/", None, MS_REC | MS_SLAVE, None)
+    libc().mount(None, b"/", None, MS_REC | MS_SLAVE, None)
     size = f"size={setup.limits.scratch_mb}m,nr_inodes={setup.limits.scratch_files}"
     flags = MS_NOSUID | MS_NODEV | MS_NOEXEC
-    mounted = libc.mount(b"tmpfs", os.fsencode(setup.scratch), b"tmpfs", flags, size.encode()) == 0
+    mounted = (
+        libc().mount(b"tmpfs", os.fsencode(setup.scratch), b"tmpfs", flags, size.encode()) == 0
+    )
     os.chdir(setup.scratch)
     return ["user-namespace", "ipc-namespace"] + ["mount-namespace"] * mounted
 
 
 def enter_user_namespace(others: int) -> bool:
     """Leave for a user namespace, and `others`, where this user stays who it is."""
-    libc = ctypes.CDLL(None, use_errno=True)
     user, group = os.getuid(), os.getgid()
-    if libc.unshare(CLONE_NEWUSER | others) != 0:
+    if libc().unshare(CLONE_NEWUSER | others) != 0:
         return False
     with suppress(OSError):  # unmapped, files still belong to whom they did
         Path("/proc/self/setgroups").write_text("deny")
@@ -192,14 +196,12 @@ def readable(hidden: tuple[str, ...]) -> list[Path]:
 
 def landlock_version() -> int:
     """The version of its interface; less than 1 where there is none."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    version: int = libc.syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
+    version: int = libc().syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
     return version
 
 
 def landlock(setup: ChildSetup) -> list[str]:
     """Files: read Python and the submission, write the scratch folder; no TCP, no signals out."""
-    libc = ctypes.CDLL(None, use_errno=True)
     version = landlock_version()
     if version < 1:
         return []
@@ -210,7 +212,7 @@ def landlock(setup: ChildSetup) -> list[str]:
         SCOPE_SOCKETS_AND_SIGNALS if version >= 6 else 0,
     )
     size = 8 if version < 4 else 16 if version < 6 else 24
-    ruleset = libc.syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
+    ruleset = libc().syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
     if ruleset < 0:
         return []
     allowed = [(path, READ_ONLY) for path in readable(tuple(setup.hidden))]
@@ -221,9 +223,9 @@ def landlock(setup: ChildSetup) -> list[str]:
         (Path(os.devnull), READ_FILE | WRITE_FILE),
     ]
     for path, rights in allowed:
-        allow(libc, ruleset, path, rights & every_right)
-    libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    held = libc.syscall(LANDLOCK_RESTRICT_SELF, ruleset, 0) == 0
+        allow(ruleset, path, rights & every_right)
+    libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    held = libc().syscall(LANDLOCK_RESTRICT_SELF, ruleset, 0) == 0
     os.close(ruleset)
     if not held:
         return []
@@ -232,12 +234,14 @@ def landlock(setup: ChildSetup) -> list[str]:
     )
 
 
-def allow(libc: ctypes.CDLL, ruleset: int, path: Path, rights: int) -> None:
+def allow(ruleset: int, path: Path, rights: int) -> None:
     descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
     try:
         if not path.is_dir():
             rights &= ON_FILES
         rule = PathBeneathAttr(rights, descriptor)
-        libc.syscall(LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0)
+        libc().syscall(
+            LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0
+        )
     finally:
         os.close(descriptor)
