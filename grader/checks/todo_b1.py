@@ -127,7 +127,7 @@ def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
     lower, upper = ball(lab), ball(lab, y=LYING - 2 * RADIUS + 0.25)
     world = room(lab, floor(lab), lower, upper)
     put_to_sleep(lab, world, lower, upper)
-    lab.call("mini_engine.sleeping:wake", lower)
+    lab.call("wake", lower)
     lab.put(lower, pos=(300.0, LYING))
     want_a_fall(lab, world, upper)
 

@@ -79,9 +79,8 @@ def functions_of(
     for module, text in sources:
         body = statements(text)
         for target in targets:
-            place, _, path = target.partition(":")
-            here = place.partition(".")[0] == module  # the program, of which it may name a part
-            function = function_named(body, path) if here else None
+            program, _, path = target.partition(":")
+            function = function_named(body, path) if program == module else None
             if function is not None and target not in found:
                 piece = cut_out(target, function, text, plain_imports(body))
                 found[target] = piece, shape_of(piece.source)

@@ -7,9 +7,11 @@
 """
 
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from graphlib import TopologicalSorter
 from pathlib import Path
 from typing import Literal
 
@@ -192,6 +194,18 @@ def rewrite(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
     return transform
 
 
+def into_one_file(folder: Path) -> None:
+    """The package as one mini_engine.py, in which each part follows those that it imports."""
+    package = folder / "mini_engine"
+    texts = {path.stem: read_source(path) for path in package.glob("[!_]*.py")}
+    needs = {name: re.findall(r"^from \.(\w+)", text, re.MULTILINE) for name, text in texts.items()}
+    parts = [texts[name] for name in TopologicalSorter(needs).static_order()]
+    merged = re.sub(r"^from \..*\n", "", "\n\n".join(parts), flags=re.MULTILINE)
+    shutil.rmtree(package)
+    start = '\n\nif __name__ == "__main__":\n    main()\n'
+    (folder / "mini_engine.py").write_text(merged + start, encoding="utf-8")
+
+
 def link_out(folder: Path) -> None:
     (folder / "link").symlink_to(folder.parent, target_is_directory=True)
     (folder / "passwords.txt").symlink_to("/etc/passwd")
@@ -239,6 +253,7 @@ TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),
     "tabs": rewrite(lambda data: data.replace(b"    ", b"\t")),
+    "one-file": into_one_file,
     "symlink": link_out,
     "many-files": many_files,
     "video": add_video,

@@ -34,7 +34,10 @@ MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
 FEW = 40  # lines that are shown as they are
 STATE = ("pos", "vel", "angle", "omega")
-PARTS = {"mini_engine:between": "mini_engine.game_loop"}  # what a package does not pass on
+PARTS = {  # what the package does not pass on
+    "mini_engine:between": "mini_engine.game_loop",
+    "mini_engine:wake": "mini_engine.sleeping",
+}
 
 
 @dataclass

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from mixed_trees import mixed
 from rich.console import Console
 
 from grader.classroom.batch import rates, table_of
@@ -25,7 +26,6 @@ from grader.report.sinks.gradescope import gradescope
 from grader.report.sinks.junit import junit
 from grader.report.sinks.markdown import markdown
 from grader.report.terminal import Teller, show_next, total
-from grader.todo_regions import python_files, regions_in, replaced
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
@@ -36,24 +36,11 @@ def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
     return grade(folder, Options(shipped_reference(), only=only), shared_worker())
 
 
-def bonus_of(donor: str, base: str, folder: Path) -> Path:
-    """The tree `base` with the bonus tasks of another."""
-    shutil.copytree(KIT / base, folder, ignore=shutil.ignore_patterns("__pycache__", "notebooks"))
-    for path in python_files(KIT / donor):
-        regions = regions_in(path.read_text(encoding="utf-8"))
-        lines = {each.id: each.lines for each in regions if each.id in BONUS}
-        target = folder / path.relative_to(KIT / donor)
-        if lines:
-            text = replaced(target.read_text(encoding="utf-8"), lines)
-            target.write_text(text, encoding="utf-8")
-    return folder
-
-
 @pytest.fixture(scope="module")
 def without_bonus(tmp_path_factory: pytest.TempPathFactory) -> Result:
     """The solution as of somebody who did no bonus task."""
     folder = tmp_path_factory.mktemp("none") / "ann"
-    return graded(bonus_of("starter", "solution", folder))
+    return graded(mixed(folder, "solution", "starter", BONUS))
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +78,7 @@ def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result):
 
 def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(tmp_path: Path):
     """The reference stands in for all that is not done."""
-    result = graded(bonus_of("solution", "starter", tmp_path / "ben"), BONUS)
+    result = graded(mixed(tmp_path / "ben", "starter", "solution", BONUS), BONUS)
     assert {todo.id: todo.points for todo in result.todos} == WORTH
     assert (result.points, result.max_points, result.bonus) == (0, 0, sum(WORTH.values()))
 

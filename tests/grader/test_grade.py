@@ -9,11 +9,13 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from mixed_trees import mixed
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
+from grader.maintain.bank import into_one_file, patch
 from grader.maintain.verify import shared_worker
 from grader.report.files import as_json
 
@@ -135,25 +137,27 @@ def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
         grade(tmp_path / "nowhere", WITH_REFERENCE)
 
 
-def test_one_finished_todo_earns_its_own_points(tmp_path: Path, hand_in):
+def test_one_finished_todo_earns_its_own_points(tmp_path: Path):
     """Each TODO of the solution, put alone into the starter, earns all of its points."""
-    import shutil
-
-    from grader.todo_regions import python_files, regions_in, replaced
-
     for todo in [each.id for each in load_rubric().counted if each.function]:
-        folder = tmp_path / f"only-{todo}"
-        shutil.copytree(KIT / "starter", folder, ignore=shutil.ignore_patterns("__pycache__"))
-        for path in python_files(KIT / "solution"):
-            lines = {r.id: r.lines for r in regions_in(path.read_text(encoding="utf-8"))}
-            if todo in lines:
-                target = folder / path.relative_to(KIT / "solution")
-                text = target.read_text(encoding="utf-8")
-                target.write_text(replaced(text, {todo: lines[todo]}), encoding="utf-8")
+        folder = mixed(tmp_path / f"only-{todo}", "starter", "solution", {todo})
         for reference in (shipped_reference(), None):
             result = graded(folder, Options(reference))
             assert {each.id for each in result.todos if each.points} == {todo}, reference
             assert state(result, todo) == "passed"
+
+
+def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(tmp_path: Path):
+    engine = Options(shipped_reference(), only=frozenset("123456"))
+    unfinished = tmp_path / "unfinished.py"
+    for todo in "123456":
+        text = f"# TODO {todo}: to be done\nraise NotImplementedError\n# END TODO {todo}\n"
+        unfinished.write_text(text, encoding="utf-8")
+        folder = mixed(tmp_path / f"all-but-{todo}", "solution", "starter", ())
+        patch(unfinished, folder)
+        into_one_file(folder)
+        lost = {each.id for each in graded(folder, engine).todos if each.state != "passed"}
+        assert lost == {todo}
 
 
 def test_without_a_reference_the_whole_waits(hand_in):
