@@ -1,7 +1,8 @@
 """The bank: submissions that are wrong, right or hostile, and the marks each must get.
 
 - `tests/bank/wrong/4-clamps-the-increment.py`: the solution with this one region put in; TODO 4
-  must lose points and no other TODO may. Graded as a package and as a single file.
+  must lose points and no other TODO may. Graded as a package and as a single file. The name is the
+  mistake's; `+` and more follow where the same one is made in another way.
 - `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
 - `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
 """
@@ -125,7 +126,7 @@ class Member:
         names = {todo.misconception for todo in result.todos} - {None}
         if not names:
             return "none"
-        return "right" if names == {self.name.partition("-")[2]} else "wrong"
+        return "right" if names == {self.name.partition("-")[2].partition("+")[0]} else "wrong"
 
 
 def members(kit: Path) -> Iterator[Member]:

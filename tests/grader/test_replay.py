@@ -657,7 +657,7 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
 # What cannot be seen where a scene is filmed by itself.
 UNSEEN = {
     "B3-remembers-the-first-grid": "right in the first scene",
-    "B3-one-large-cell": "right everywhere, and slow",
+    "B3-compares-all-pairs": "right everywhere, and slow",
 }
 
 
