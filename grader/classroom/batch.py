@@ -23,14 +23,6 @@ from typing import Protocol, Self
 
 import msgspec
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TaskID,
-    TextColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 
 import grader
@@ -45,6 +37,7 @@ from grader.classroom.intake import (
     opened_class,
     pack,
 )
+from grader.classroom.progress import Counter
 from grader.classroom.roster import CannotRead, read_roster
 from grader.judge.children import SpawnWorker, WarmWorker, start_worker
 from grader.judge.grade import Options, grade, work_folder
@@ -282,18 +275,18 @@ def grade_class(
     adjustments: Adjustments | None = None,
 ) -> Run:
     """Grade what is new in a class; results, book and table are in and beside the folder `out`."""
-    with Book(out) as book, counting(console) as progress:
+    total = len(intake.found) + len(intake.troubles)
+    with Book(out) as book, Counter("grading", total, console) as counter:
         run = Run(intake, book, key, adjustments or Adjustments(), notes=list(intake.notes))
         for name, words in intake.troubles.items():
             run.trouble(Found(name, ()), words)
-        total = len(intake.found) + len(intake.troubles)
-        bar = progress.add_task("", total=total, counts="")
         for task, graded in grade_all(run.tasks(), crew):
             if isinstance(graded, str):
                 run.trouble(task.found, graded)
             else:
                 run.graded(task, graded)
-            show_counts(progress, bar, run)
+            counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
+            counter.reached(len(run.outcomes), counts)
         run.outcomes.sort(key=lambda each: each.name)
         book.close_with(run.outcomes)
     run.notes += run.copies()
@@ -406,19 +399,6 @@ def hired(wanted: Wanted) -> AbstractContextManager[Crew]:
 
 
 # ---------------------------------------------------------------- for people
-
-
-def counting(console: Console) -> Progress:
-    """A bar with the time that is left, and what has become of how many."""
-    columns = (TextColumn("grading"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    counts = TextColumn("{task.fields[counts]}")
-    here = console.is_terminal
-    return Progress(*columns, counts, console=console, transient=True, disable=not here)
-
-
-def show_counts(progress: Progress, bar: TaskID, run: Run) -> None:
-    counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
-    progress.update(bar, completed=len(run.outcomes), counts=counts)
 
 
 def show_class(run: Run, console: Console) -> None:

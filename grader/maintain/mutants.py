@@ -23,9 +23,9 @@ from typing import Literal
 import msgspec
 from msgspec import Struct
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from grader.classroom.progress import Counter
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
 from grader.judge.lab import Observation
@@ -285,14 +285,12 @@ def campaign(count: int, seed: int, jobs: int, only: frozenset[str], console: Co
     mutants = [each for each in all_mutants() if not only or each.todo in only]
     chosen = sample(mutants, count, seed)
     outcomes: list[Outcome] = []
-    columns = (TextColumn("grading mutants"), BarColumn(), MofNCompleteColumn())
-    with Progress(*columns, TimeRemainingColumn(), console=console, transient=True) as progress:
-        task = progress.add_task("", total=len(chosen))
+    with Counter("grading mutants", len(chosen), console) as counter:
         for outcome in grade_all(chosen, jobs):
             outcomes.append(outcome)
-            progress.advance(task)
+            counter.reached(len(outcomes))
             if outcome.complaint or outcome.naming == "wrong":
-                progress.console.print(describe(outcome))
+                console.print(describe(outcome))
     outcomes.sort(key=lambda each: mutants.index(each.mutant))
     show(outcomes, console)
     return Campaign(outcomes)

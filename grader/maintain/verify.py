@@ -11,9 +11,9 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from grader.classroom.progress import Counter
 from grader.judge.children import SpawnWorker, WarmWorker, start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
@@ -47,14 +47,12 @@ def verify(jobs: int, only: str, console: Console) -> Report:
     """Grade the bank, as far as its names contain `only`; prints a table."""
     report = Report(complaints=list(kit_complaints()))
     chosen = [each for each in [*trees(), *members(KIT)] if only in f"{each.kind}/{each.name}"]
-    columns = (TextColumn("grading the bank"), BarColumn(), MofNCompleteColumn())
-    with Progress(*columns, TimeRemainingColumn(), console=console, transient=True) as progress:
-        task = progress.add_task("", total=len(chosen))
+    with Counter("grading the bank", len(chosen), console) as counter:
         for verdict in grade_all(chosen, jobs):
             report.verdicts.append(verdict)
-            progress.advance(task)
+            counter.reached(len(report.verdicts))
             if verdict.complaint:
-                progress.console.print(f"{verdict.member.name}: {verdict.complaint}")
+                console.print(f"{verdict.member.name}: {verdict.complaint}")
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)

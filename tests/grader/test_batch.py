@@ -1,6 +1,7 @@
 """Grading a class: what is kept, what is graded again, and what survives a kill."""
 
 import csv
+import io
 import json
 import os
 import shutil
@@ -17,7 +18,7 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from grader.classroom import batch, commands
+from grader.classroom import batch, commands, progress
 from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import (
     Graded,
@@ -91,6 +92,24 @@ def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = 
         run = grade_class(intake, classroom.parent / "out", key, crew, QUIET, adjustments)
     run.names = crew.names
     return run
+
+
+# ---------------------------------------------------------------- how far it is
+
+
+def test_a_log_gets_a_line_now_and_then(classroom, monkeypatch):
+    monkeypatch.setattr(progress, "NOW_AND_THEN", 0.0)
+    log = Console(record=True, force_terminal=False, file=io.StringIO())
+    with opened_class(classroom) as intake:
+        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    assert "grading: 1 of 3, 1 graded\ngrading: 2 of 3, 2 graded\n" in log.export_text()
+
+
+def test_a_log_of_short_work_gets_none(classroom):
+    log = Console(record=True, force_terminal=False, file=io.StringIO())
+    with opened_class(classroom) as intake:
+        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    assert log.export_text() == ""
 
 
 # ---------------------------------------------------------------- what is kept
