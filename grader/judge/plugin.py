@@ -155,11 +155,31 @@ class GradingPlugin:
         return self._result(todo, check, title, "passed")
 
     def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
+        """A property draws the same for all, so it asks at once what another submission has passed.
+
+        Only where that fails need hypothesis look for the simplest example.
+        """
+        known = passed_before.get((function, self.seed))
+        if known is not None:
+            lab = self._asked(todo, check, partial(each_of, known), isolated)
+            if lab.failure is None or lab.ended:
+                return lab
+        with kept_examples(function) as examples, seeded(function, self.seed):
+            lab = self._asked(todo, check, function, isolated)
+        if examples:
+            lab.again = examples[-1]
+            if lab.failure is None:
+                passed_before[function, self.seed] = examples
+        return lab
+
+    def _asked(
+        self, todo: Todo, check: Check, function: Callable[..., None], isolated: bool
+    ) -> Lab:
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
-        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces)
-        with lab.opened(), kept_for_replay(function, lab), seeded(function, self.seed):
+        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces, again=function)
+        with lab.opened():
             try:
                 function(lab=lab)
             except (NotYet, Broke) as failure:
@@ -209,23 +229,34 @@ TODO = pytest.StashKey[Todo]()
 CHECK = pytest.StashKey[Check]()
 
 
+Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
+
+# By the property and its seed, all the examples that a submission passed.
+passed_before: dict[tuple[Any, int | None], list[Example]] = {}
+
+
+def each_of(examples: list[Example], lab: Lab) -> None:
+    for example in examples:
+        example(lab=lab)
+
+
 @contextmanager
-def kept_for_replay(function: Any, lab: Lab) -> Iterator[None]:
-    """Keep in the lab what ran last: the check, or the example on which a property failed."""
-    lab.again = function
+def kept_examples(function: Any) -> Iterator[list[Example]]:
+    """The examples of a property, as they come; of any other check there are none."""
+    examples: list[Example] = []
     if not hasattr(function, "hypothesis"):
-        yield
+        yield examples
         return
     inner = function.hypothesis.inner_test
 
     @wraps(inner)  # hypothesis draws by the source and signature, which stay the same
     def example(*args: Any, **drawn: Any) -> None:
-        lab.again = partial(inner, *args, **drawn)
+        examples.append(partial(inner, *args, **{k: drawn[k] for k in drawn if k != "lab"}))
         inner(*args, **drawn)
 
     function.hypothesis.inner_test = example
     try:
-        yield
+        yield examples
     finally:
         function.hypothesis.inner_test = inner
 

@@ -11,11 +11,13 @@ import msgspec
 import pytest
 from mixed_trees import mixed
 
+from grader.judge import plugin
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
 from grader.maintain.bank import into_one_file, patch
+from grader.maintain.bank import members as bank
 from grader.maintain.verify import shared_worker
 from grader.report.files import as_json
 
@@ -107,6 +109,29 @@ def test_the_hash_seed_and_the_locale_change_nothing(solution: Result, tmp_path:
 def test_a_secret_seed_gives_the_solution_its_points_as_well():
     secret = Options(shipped_reference(), seed=20261121)
     assert graded(KIT / "solution", secret).points == 100
+
+
+def test_who_was_graded_before_changes_nothing(tmp_path: Path):
+    """A property asks what others have passed, without drawing it anew."""
+    chosen = (
+        "1-inside-normalises-zero",
+        "3-only-pulls",
+        "8b-half-is-missing-in-x",
+        "8-helpers-inside",
+    )
+    members = [each for each in bank(KIT) if each.name in chosen and each.form == "package"]
+    results: list[list[bytes]] = [[], []]
+    plugin.passed_before.clear()
+    for again in results:
+        for member in members:
+            only = Options(shipped_reference(), only=member.todos)
+            folder = tmp_path / member.name
+            if not folder.exists():
+                member.build(KIT, folder)
+            again.append(as_json(graded(folder, only)))
+        assert graded(KIT / "solution").points == 100
+        assert plugin.passed_before
+    assert results[0] == results[1]
 
 
 # ---------------------------------------------------------------- what is handed in
