@@ -370,7 +370,7 @@ def main(
     ]
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # for all that is started, too
-    for _ in range(500):  # s of full speed are among these, or of what is nearest to it
+    for _ in range(500):  # to have seen its full speed
         pace()
     console = Console()
     console.print(table_of(measure_costs(graders, size, rounds), size))
