@@ -127,12 +127,6 @@ class Rng(Struct, frozen=True, tag="rng"):
     seed: int
 
 
-class Force(Struct, frozen=True, tag="force"):
-    """Becomes `accel(x)`: a polynomial in x, lowest power first."""
-
-    coefficients: list[float]
-
-
 Argument = None | bool | int | float | str | Vec | Ref | Rng
 
 # ---------------------------------------------------------------- judge to child
@@ -213,7 +207,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
     x: float
     v: float
     dt: float
-    force: Force
+    force: list[float]  # accel(x), a polynomial in x, lowest power first
     steps: int = 1
 
 

@@ -12,6 +12,8 @@ from grader.checks.exact import Disc, Rect
 from grader.checks.strategies import discs, rects
 from grader.judge.lab import Lab, Pair, Thing
 
+Contacts = Counter[tuple[int, ...]]  # how many each two bodies have, by their numbers
+
 BALLS = 200
 SHARE = 10  # at most one pair in so many may be looked at
 
@@ -23,7 +25,7 @@ def crowd(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> tuple[Thing, list[T
     return lab.world(*bodies), bodies
 
 
-def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Counter[tuple[int, ...]]:
+def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:
     """How many contacts each two bodies have; -1 is a body of another world."""
     numbers = {body.ref: number for number, body in enumerate(bodies)}
     lab.put(world, grid=grid)
@@ -36,14 +38,17 @@ def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Counter
 def want_the_same_contacts(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> None:
     """Compare with all pairs."""
     world, bodies = crowd(lab, balls, boxes)
-    right, found = (touching(lab, world, bodies, grid) for grid in (False, True))
+    right, found = without_and_with(lab, world, bodies)
     lab.saw("contacts", (balls, boxes, sorted(right)), sorted(found.elements()))
     want_no_other(lab, right, found)
 
 
-def want_no_other(
-    lab: Lab, right: Counter[tuple[int, ...]], found: Counter[tuple[int, ...]]
-) -> None:
+def without_and_with(lab: Lab, world: Thing, bodies: list[Thing]) -> tuple[Contacts, Contacts]:
+    """The contacts of all pairs, and those that the grid leaves."""
+    return touching(lab, world, bodies, grid=False), touching(lab, world, bodies, grid=True)
+
+
+def want_no_other(lab: Lab, right: Contacts, found: Contacts) -> None:
     lost, more = (right - found).total(), (found - right).total()
     wanted = f"as many contacts as from all pairs: {right.total()}"
     lab.want(not lost, wanted, f"{lost} of them missing")
@@ -86,9 +91,9 @@ def contacts_follow_the_bodies(lab: Lab) -> None:
     """What moved since the last step is looked for where it is now"""
     lab.ran("find_contacts with two balls far apart, and again after one moved to the other")
     world, bodies = crowd(lab, [Disc(0.0, 0.0, 10.0), Disc(500.0, 0.0, 10.0)], [])
-    want_no_other(lab, *(touching(lab, world, bodies, grid) for grid in (False, True)))
+    want_no_other(lab, *without_and_with(lab, world, bodies))
     lab.put(bodies[1], pos=(15.0, 0.0))
-    want_no_other(lab, *(touching(lab, world, bodies, grid) for grid in (False, True)))
+    want_no_other(lab, *without_and_with(lab, world, bodies))
 
 
 def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:

@@ -18,7 +18,6 @@ from grader.protocol import (
     Call,
     ContactValue,
     Event,
-    Force,
     Get,
     Import,
     Integrate,
@@ -303,7 +302,7 @@ class Lab:
     ) -> list[Pair]:
         """The states (x, v) after each step of an integrator under `force`, a polynomial in x."""
         target = f"{self.module}:{method}"
-        request = Integrate(target, *start, dt, Force(list(force)), steps)
+        request = Integrate(target, *start, dt, list(force), steps)
         answers = self.items(self._value(request), f"what {method} returns")
         states = [self.pair(each, f"what {method} returns") for each in answers]
         self.want(len(states) == steps, f"{steps} states", f"{len(states)}")

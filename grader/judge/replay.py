@@ -44,6 +44,7 @@ from grader.protocol import (
     Returned,
     Set,
     Shot,
+    Value,
     Vec,
 )
 
@@ -122,8 +123,9 @@ class FilmingLab(Lab):
         answer = in_words(filmed.reply) if isinstance(request, Call | Play) else ""
         if isinstance(request, Integrate):
             take.curve, take.names = True, {1: "it"}
-            shots = on_a_curve(request, filmed.reply)
-            answer = in_words(last_of(filmed.reply))
+            answers = answers_in(filmed.reply)
+            shots = on_a_curve(request, answers)
+            answer = in_words(Returned(answers[-1]) if answers else filmed.reply)
         for number, look in islice(filmed.looks.items(), MOST_BODIES):
             take.looks[number] = look
             name = self.translator.names.get(look.ref, "")
@@ -187,17 +189,18 @@ def sets_up(request: Request) -> bool:
     return isinstance(request, MakeBody | MakeWorld | Set)
 
 
-def last_of(reply: Reply) -> Reply:
-    """The last of several answers."""
-    many = isinstance(reply, Returned) and isinstance(reply.value, Items) and reply.value.items
-    return Returned(many[-1]) if many else reply
+def answers_in(reply: Reply) -> list[Value]:
+    """What an integrator answered, step by step."""
+    match reply:
+        case Returned(Items(answers)):
+            return answers
+    return []
 
 
-def on_a_curve(request: Integrate, reply: Reply) -> list[Shot]:
+def on_a_curve(request: Integrate, answers: list[Value]) -> list[Shot]:
     """An integrator's x and v over the time, as the one body of the picture."""
     states = [Vec(request.x, request.v)]
-    if isinstance(reply, Returned) and isinstance(reply.value, Items):
-        states += [each for each in reply.value.items[: request.steps] if isinstance(each, Vec)]
+    states += [each for each in answers[: request.steps] if isinstance(each, Vec)]
     return [
         Shot(number * request.dt, number, [BodyRow(1, x, 0.0, v, 0.0, 0.0, 0.0)], [], [])
         for number, (x, v) in enumerate(states)

@@ -88,7 +88,7 @@ class Translator:
 
     def _integration(self, request: Integrate) -> list[str]:
         x, v, dt = map(number, (request.x, request.v, request.dt))
-        accel = polynomial(request.force.coefficients)
+        accel = polynomial(request.force)
         step = f"x, v = {self._called(request.target)}(x, v, {dt}, {accel})"
         start = f"x, v = {x}, {v}"
         if request.steps == 1:

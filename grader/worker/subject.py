@@ -154,7 +154,7 @@ class Subject:
 
     def integrate(self, request: Integrate) -> Items:
         """What the integrator answers, step by step, as far as each is a state to go on from."""
-        method, accel = self.find(request.target), polynomial(request.force.coefficients)
+        method, accel = self.find(request.target), polynomial(request.force)
         x, v = request.x, request.v
         answers: list[Value] = []
         for _ in range(request.steps):

@@ -16,7 +16,7 @@ from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
-from grader.maintain.bank import into_one_file, patch
+from grader.maintain.bank import Entry, Member
 from grader.maintain.bank import members as bank
 from grader.maintain.verify import shared_worker
 from grader.report.files import as_json
@@ -178,9 +178,8 @@ def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(tmp_path: Path)
     for todo in "123456":
         text = f"# TODO {todo}: to be done\nraise NotImplementedError\n# END TODO {todo}\n"
         unfinished.write_text(text, encoding="utf-8")
-        folder = mixed(tmp_path / f"all-but-{todo}", "solution", "starter", ())
-        patch(unfinished, folder)
-        into_one_file(folder)
+        folder = tmp_path / f"all-but-{todo}"
+        Member("wrong", todo, "package", Entry(transform="one-file"), unfinished).build(KIT, folder)
         lost = {each.id for each in graded(folder, engine).todos if each.state != "passed"}
         assert lost == {todo}
 

@@ -70,18 +70,15 @@ class Cost(NamedTuple):
     alone: list[Run]
     whole: list[Run]
 
-    def begins(self, kind: str) -> float:
-        """What a class of one takes, in `seconds` or processor time, `cpu`."""
-        return statistics.median(getattr(each, kind) for each in self.alone)
-
-    def ends(self, kind: str) -> float:
-        """What the larger class takes."""
-        return statistics.median(getattr(each, kind) for each in self.whole)
-
     def one_more(self, kind: str) -> float:
-        """What one submission more takes."""
+        """What one submission more takes, in `seconds` or processor time, `cpu`."""
         more = len(self.whole[0].points) - len(self.alone[0].points)
-        return (self.ends(kind) - self.begins(kind)) / more
+        return (middle(self.whole, kind) - middle(self.alone, kind)) / more
+
+
+def middle(runs: list[Run], kind: str) -> float:
+    """The median of the runs, in `seconds`, `cpu` or `memory`."""
+    return statistics.median(getattr(each, kind) for each in runs)
 
 
 # ---------------------------------------------------------------- this kit
@@ -328,13 +325,13 @@ def table_of(costs: dict[str, Cost], size: int) -> Table:
         "one submission more, s of processor time": lambda cost: cost.one_more("cpu"),
         "for each of its checks": lambda cost: cost.one_more("cpu") / POINTS,
         "one submission more, s on the clock": lambda cost: cost.one_more("seconds"),
-        "a class of one, s of processor time": lambda cost: cost.begins("cpu"),
-        f"a class of {size}, s of processor time": lambda cost: cost.ends("cpu"),
-        "memory at most, MB": lambda cost: cost.ends("memory"),
+        "a class of one, s of processor time": lambda cost: middle(cost.alone, "cpu"),
+        f"a class of {size}, s of processor time": lambda cost: middle(cost.whole, "cpu"),
+        "memory at most, MB": lambda cost: middle(cost.whole, "memory"),
     }
     for words, figure in rows.items():
-        middle = {name: figure(cost) for name, cost in costs.items()}
-        told = [f"{each:.3g} ({each / middle[ours]:.1f} times)" for each in middle.values()]
+        figures = {name: figure(cost) for name, cost in costs.items()}
+        told = [f"{each:.3g} ({each / figures[ours]:.1f} times)" for each in figures.values()]
         table.add_row(words, *told)
     return table
 
