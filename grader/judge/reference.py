@@ -3,24 +3,21 @@
 import ast
 import builtins
 import dis
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from types import CodeType
 
+from grader.judge.definitions import Program
 from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import (
     CannotGrade,
     Submission,
-    function_named,
-    module_of,
     source_of,
-    statements,
 )
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
 
-Source = tuple[str, str]  # a file's module and its text
+Source = tuple[Path, str]  # a file, named from the tree's folder, and its text
 
 
 class Reference:
@@ -33,7 +30,7 @@ class Reference:
             return
         if not folder.is_dir():
             raise CannotGrade(f"there is no reference at {folder}: name the solution's folder")
-        sources = tuple(sources_in(folder, {todo.module for todo in rubric.todos}))
+        sources = tuple((p.relative_to(folder), read_source(p)) for p in python_files(folder))
         found = functions_of(sources, tuple(t.function for t in rubric.todos if t.function))
         for todo in rubric.todos:
             if not todo.function:
@@ -63,27 +60,20 @@ class Reference:
         ]
 
 
-def sources_in(folder: Path, modules: set[str]) -> Iterator[Source]:
-    for file in python_files(folder):
-        module = module_of(file.relative_to(folder))
-        if module in modules:
-            yield module, read_source(file)
-
-
 @lru_cache(maxsize=4)  # the same reference serves a whole class
 def functions_of(
     sources: tuple[Source, ...], targets: tuple[str, ...]
 ) -> dict[str, tuple[Piece, str]]:
     """The functions that these files have, by module:function, each with its shape."""
-    found: dict[str, tuple[Piece, str]] = {}
-    for module, text in sources:
-        body = statements(text)
-        for target in targets:
-            program, _, path = target.partition(":")
-            function = function_named(body, path) if program == module else None
-            if function is not None and target not in found:
-                piece = cut_out(target, function, text, plain_imports(body))
-                found[target] = piece, shape_of(piece.source)
+    program = Program(dict(sources))
+    found = {}
+    for target in targets:
+        defined = program.definition(*target.split(":"))
+        if defined is not None and defined.function is not None:
+            text = program.texts[program.paths[defined.module]]
+            imports = plain_imports(program.tree(defined.module))
+            piece = cut_out(target, defined.function, text, imports)
+            found[target] = piece, shape_of(piece.source)
     return found
 
 

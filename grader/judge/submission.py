@@ -4,14 +4,21 @@ import ast
 import os
 import shutil
 import textwrap
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from grader.judge.definitions import Program
 from grader.judge.result import Where
 from grader.judge.rubric import Rubric, Todo
-from grader.todo_regions import RegionError, python_files, read_source, regions_in, shape_of
+from grader.todo_regions import (
+    Region,
+    RegionError,
+    python_files,
+    read_source,
+    regions_in,
+    shape_of,
+)
 
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
@@ -85,48 +92,55 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
     """Where each TODO stands, and whether anything but the stub stands there."""
-    sources = {path: read_source(path) for path in python_files(submission.folder)}
-    for path, text in sources.items():
-        file = path.relative_to(submission.folder).as_posix()
-        try:
-            regions = regions_in(text)
-        except RegionError:
-            continue
-        for region in regions:
-            submission.where.setdefault(region.id, Where(file, region.start + 1))
-            submission.begun[region.id] = region.shape != stubs.get(region.id)
-    modules = {todo.module for todo in rubric.todos}
-    trees = {
-        path: statements(text)
-        for path, text in sources.items()
-        if module_of(path.relative_to(submission.folder)) in modules
+    texts = {
+        path.relative_to(submission.folder): read_source(path)
+        for path in python_files(submission.folder)
     }
+    program = Program(texts)
     for todo in rubric.todos:
-        if todo.function:
-            look_at_function(submission, todo, stubs, sources, trees)
+        if not todo.function:
+            continue
+        module, _, path = todo.function.partition(":")
+        found = program.definition(module, path)
+        if found is not None:
+            inside = program.paths[found.module]
+            look_at(submission, todo, stubs, inside, texts[inside], found.function)
+        submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
 
 
-def look_at_function(
+def look_at(
     submission: Submission,
     todo: Todo,
     stubs: dict[str, str],
-    sources: dict[Path, str],
-    trees: dict[Path, list[ast.stmt]],
+    inside: Path,
+    text: str,
+    function: ast.FunctionDef | None,
 ) -> None:
-    """What stands in the function that the TODO is about; it says enough where no marker does."""
-    for path, tree in trees.items():
-        inside = path.relative_to(submission.folder)
-        if module_of(inside) != todo.module:
-            continue
-        file = inside.as_posix()
-        found = function_named(tree, todo.function.partition(":")[2])
-        if found is not None:
-            shape = shape_of(source_of(sources[path], found))
-            submission.functions[todo.id] = shape
-            submission.where.setdefault(todo.id, Where(file, found.lineno))
-            submission.begun.setdefault(todo.id, shape != stubs.get(f"def {todo.id}"))
-            return
-    submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    """What a TODO's own file has: its region, or where no marker is, the function that says enough.
+
+    A region counts inside the function alone: a copy of it further up is not what runs.
+    """
+    region = region_of(text, todo.id)
+    if function is not None:
+        source = source_of(text, function)
+        submission.functions[todo.id] = shape_of(source)
+        if region and not function.lineno <= region.start + 1 <= (function.end_lineno or 0):
+            region = None
+    file = inside.as_posix()
+    if region is not None:
+        submission.where[todo.id] = Where(file, region.start + 1)
+        submission.begun[todo.id] = region.shape != stubs.get(todo.id)
+    elif function is not None:
+        submission.where[todo.id] = Where(file, function.lineno)
+        submission.begun[todo.id] = submission.functions[todo.id] != stubs.get(f"def {todo.id}")
+
+
+def region_of(text: str, todo: str) -> Region | None:
+    """The region of a TODO; None where the markers of the file do not pair up."""
+    try:
+        return next((region for region in regions_in(text) if region.id == todo), None)
+    except RegionError:
+        return None
 
 
 def module_of(inside: Path) -> str:
@@ -146,15 +160,6 @@ def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
         ]
     found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
     return found[-1] if found else None
-
-
-def statements(text: str) -> list[ast.stmt]:
-    """The statements of a source text; none where it is no Python."""
-    try:
-        with warnings.catch_warnings(action="ignore"):
-            return ast.parse(text).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []
 
 
 def source_of(text: str, function: ast.FunctionDef) -> str:

@@ -19,8 +19,8 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
+from grader.judge.definitions import statements
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.judge.submission import statements
 from grader.maintain.students_copy import cut_checks, hidden_checks, visible
 from grader.todo_regions import python_files, read_source, regions_in, replaced
 

@@ -7,8 +7,9 @@ carried over. The stubs are also kept with the checks, which must know an untouc
 import json
 from pathlib import Path
 
+from grader.judge.definitions import statements
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.judge.submission import function_named, source_of, statements
+from grader.judge.submission import function_named, source_of
 from grader.todo_regions import python_files, regions_in, replaced
 
 SKIPPED = {

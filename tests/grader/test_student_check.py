@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from grader.judge.definitions import statements
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import statements
 from grader.report.terminal import command
 from grader.student import app
 from grader.todo_regions import replaced, shape_of
