@@ -140,6 +140,7 @@ class Piece(Struct, frozen=True):
     imports: str
     parameters: list[str]
     names: list[str]  # the globals it reads, beyond its imports
+    given: dict[str, str] = {}  # given functions that it calls, for a submission without them
 
 
 class Import(Struct, frozen=True, tag="import"):

@@ -16,16 +16,14 @@ import watchfiles
 from rich.console import Console
 
 from grader.judge.children import SpawnWorker, WarmWorker, start_worker
-from grader.judge.definitions import statements
+from grader.judge.definitions import function_named, source_of, statements
 from grader.judge.grade import Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Todo, load_rubric
 from grader.judge.submission import (
     CannotGrade,
-    function_named,
     module_of,
     plain_files,
-    source_of,
 )
 from grader.report.terminal import Teller, clean, say, show_next, show_standing
 from grader.todo_regions import read_source

@@ -5,6 +5,7 @@ the names of imports are followed from the program's module to the one definitio
 """
 
 import ast
+import textwrap
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -38,6 +39,10 @@ class Program:
         if module not in self.parsed:
             self.parsed[module] = statements(self.texts[self.paths[module]])
         return self.parsed[module]
+
+    def source(self, module: str, function: ast.FunctionDef) -> str:
+        """The lines of a function of a module, moved to the left edge."""
+        return source_of(self.texts[self.paths[module]], function)
 
     def definition(self, module: str, path: str) -> Definition | None:
         """Where `module` gets `name` or `Class.name` from."""
@@ -179,3 +184,23 @@ def statements(text: str) -> list[ast.stmt]:
             return ast.parse(text).body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
+
+
+def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
+    """The definition of `name` or `Class.name` among the statements of a file."""
+    owner, _, name = path.rpartition(".")
+    if owner:
+        body = [
+            each
+            for node in body
+            if isinstance(node, ast.ClassDef) and node.name == owner
+            for each in node.body
+        ]
+    found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
+    return found[-1] if found else None
+
+
+def source_of(text: str, function: ast.FunctionDef) -> str:
+    """The lines of a function, moved to the left edge."""
+    lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
+    return textwrap.dedent("\n".join(lines))

@@ -12,7 +12,6 @@ from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import (
     CannotGrade,
     Submission,
-    source_of,
 )
 from grader.protocol import Piece
 from grader.todo_regions import python_files, read_source, shape_of
@@ -70,33 +69,47 @@ def functions_of(
     for target in targets:
         defined = program.definition(*target.split(":"))
         if defined is not None and defined.function is not None:
-            text = program.texts[program.paths[defined.module]]
-            imports = plain_imports(program.tree(defined.module))
-            piece = cut_out(target, defined.function, text, imports)
+            piece = cut_out(program, target, defined.module, defined.function)
             found[target] = piece, shape_of(piece.source)
     return found
 
 
-def cut_out(target: str, function: ast.FunctionDef, text: str, imports: str) -> Piece:
-    source = source_of(text, function)
+def cut_out(program: Program, target: str, module: str, function: ast.FunctionDef) -> Piece:
+    """A function, and what it takes to run it elsewhere: imports, and functions that it calls."""
+    source = program.source(module, function)
+    imports = dict.fromkeys(plain_imports(program.tree(module)))
+    given: dict[str, str] = {}
+    names = global_names(source)
+    waiting = [(module, name) for name in sorted(names)]
+    while waiting:
+        called = program.definition(*waiting.pop())
+        if called is None or called.function is None or called.function.name in given:
+            continue
+        text = given[called.function.name] = program.source(called.module, called.function)
+        imports |= dict.fromkeys(plain_imports(program.tree(called.module)))
+        waiting += [(called.module, name) for name in sorted(global_names(text))]
     parameters = [each.arg for each in function.args.args]
-    names = sorted(global_names(compile(source, "<reference>", "exec")))
-    return Piece(target, source, imports, parameters, names)
+    wanted = sorted(names.union(*map(global_names, given.values())))
+    return Piece(target, source, "\n".join(imports), parameters, wanted, given)
 
 
-def global_names(code: CodeType) -> set[str]:
-    """The global names that a piece of code reads, its inner functions' included."""
+def global_names(source: str) -> set[str]:
+    """The global names that a function reads, its inner functions' included."""
+    return names_read(compile(source, "<reference>", "exec")) - set(vars(builtins))
+
+
+def names_read(code: CodeType) -> set[str]:
     names = {each.argval for each in dis.get_instructions(code) if each.opname == "LOAD_GLOBAL"}
     inner = [each for each in code.co_consts if isinstance(each, CodeType)]
-    return names.union(*map(global_names, inner)) - set(vars(builtins))
+    return names.union(*map(names_read, inner))
 
 
-def plain_imports(body: list[ast.stmt]) -> str:
+def plain_imports(body: list[ast.stmt]) -> list[str]:
     """The imports of libraries; the program's own names are found in the submission."""
-    return "\n".join(
+    return [
         ast.unparse(node)
         for node in body
         if isinstance(node, ast.Import | ast.ImportFrom)
         and not getattr(node, "level", 0)
         and "lab_runtime" not in ast.unparse(node)
-    )
+    ]

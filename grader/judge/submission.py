@@ -3,14 +3,16 @@
 import ast
 import os
 import shutil
-import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
-from grader.judge.definitions import Program
+import msgspec
+
+from grader.judge.definitions import Program, source_of
 from grader.judge.result import Where
-from grader.judge.rubric import Rubric, Todo
+from grader.judge.rubric import CHECKS, Rubric, Todo
 from grader.todo_regions import (
     Region,
     RegionError,
@@ -51,6 +53,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         shutil.copyfile(path, copy / path.name)
     else:
         copy_tree(path, submission)
+    supply_given(copy)
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:
         each.chmod(0o555 if each.is_dir() else 0o444)
@@ -70,6 +73,28 @@ def copy_tree(path: Path, submission: Submission) -> None:
         target = submission.folder / inside
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
+
+
+def supply_given(folder: Path) -> None:
+    """Put in what students were given and this submission lacks; what it has is its own.
+
+    A package is completed where a part of it was handed in. A program that is missing stays so.
+    """
+    for name, text in load_given().items():
+        package = name.partition("/")[0]
+        own_package = (folder / package / "__init__.py").exists()
+        hidden = (folder / f"{package}.py").exists() and not own_package
+        target = folder / name
+        if target.exists() or ("/" in name and (hidden or not (folder / package).is_dir())):
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(text, encoding="utf-8", newline="\n")
+
+
+@cache
+def load_given() -> dict[str, str]:
+    """The starter's parts that go without saying: its files by name, as `sync` keeps them."""
+    return msgspec.json.decode((CHECKS / "given.json").read_bytes(), type=dict[str, str])
 
 
 def plain_files(path: Path) -> Iterator[Path]:
@@ -146,23 +171,3 @@ def region_of(text: str, todo: str) -> Region | None:
 def module_of(inside: Path) -> str:
     """The module or package that a file, named from the submission's folder, belongs to."""
     return inside.parts[0].removesuffix(".py")
-
-
-def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
-    """The definition of `name` or `Class.name` among the statements of a file."""
-    owner, _, name = path.rpartition(".")
-    if owner:
-        body = [
-            each
-            for node in body
-            if isinstance(node, ast.ClassDef) and node.name == owner
-            for each in node.body
-        ]
-    found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
-    return found[-1] if found else None
-
-
-def source_of(text: str, function: ast.FunctionDef) -> str:
-    """The lines of a function, moved to the left edge."""
-    lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
-    return textwrap.dedent("\n".join(lines))

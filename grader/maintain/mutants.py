@@ -27,14 +27,14 @@ from rich.table import Table
 
 from grader.classroom.progress import Counter
 from grader.judge import misconceptions
-from grader.judge.definitions import statements
+from grader.judge.definitions import function_named, statements
 from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
 from grader.judge.reference import Reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
-from grader.judge.submission import function_named, take_in
+from grader.judge.submission import take_in
 from grader.maintain.bank import Entry, Member
 from grader.maintain.operators import changes, names_in, normal
 from grader.maintain.verify import shared_worker

@@ -7,9 +7,8 @@ carried over. The stubs are also kept with the checks, which must know an untouc
 import json
 from pathlib import Path
 
-from grader.judge.definitions import statements
+from grader.judge.definitions import function_named, source_of, statements
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.judge.submission import function_named, source_of
 from grader.todo_regions import python_files, regions_in, replaced
 
 SKIPPED = {
@@ -43,11 +42,12 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
             changes.append(f"{name} is in the starter and not in the solution")
             if write:
                 (starter / name).unlink()
-    stubs, kept = json.dumps(stub_sources(starter), indent=1) + "\n", CHECKS / "stubs.json"
-    if not kept.exists() or kept.read_text(encoding="utf-8") != stubs:
-        changes.append("the stubs that the checks know are not the starter's")
-        if write:
-            kept.write_text(stubs, encoding="utf-8")
+    for name, what in (("stubs", stub_sources(starter)), ("given", given_sources(starter))):
+        text, kept = json.dumps(what, indent=1) + "\n", CHECKS / f"{name}.json"
+        if not kept.exists() or kept.read_text(encoding="utf-8") != text:
+            changes.append(f"{kept.name}, by which the checks know the starter, is not up to date")
+            if write:
+                kept.write_text(text, encoding="utf-8")
     return changes
 
 
@@ -89,3 +89,17 @@ def stub_sources(starter: Path) -> dict[str, str]:
             if found is not None:
                 stubs[f"def {todo}"] = source_of(text, found)
     return dict(sorted(stubs.items()))
+
+
+def given_sources(starter: Path) -> dict[str, str]:
+    """What a submission may lack, to be supplied: the packages' files, and modules without TODO."""
+    texts = {
+        path.relative_to(starter).as_posix(): path.read_text(encoding="utf-8")
+        for path in python_files(starter)
+    }
+    programs = {todo.module for todo in load_rubric().todos}
+    return {
+        name: text
+        for name, text in texts.items()
+        if name.partition("/")[0] in programs or ("/" not in name and not regions_in(text))
+    }

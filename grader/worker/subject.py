@@ -35,6 +35,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
+from grader.worker.standin import fitted, plain_function, put_in_place
 
 MAX_TEXT = 2000  # characters of an exception's message or a returned string
 MAX_ITEMS = 1000  # entries of a returned list
@@ -85,60 +86,37 @@ class Subject:
         return next((each for each in [whole, *parts] if name in vars(each)), whole)
 
     def swap(self, piece: Piece) -> bool:
-        """Put the reference's function in the place of the submission's, wherever it is known.
+        """Put the reference's function in the place of the submission's, whoever holds it.
 
-        Left alone when the submission has no such function, or one with other parameters.
+        Left alone when the submission has no such function, or one that is called otherwise.
         """
         try:
-            original = self.find(piece.target)
-            wanted = self._build(piece, original)
+            original = plain_function(self.find(piece.target))
+            if original is None:
+                return False
+            wanted = fitted(self._build(piece, original), piece.parameters, original)
         except (NotThere, KeyError, ImportError):
             return False
         if wanted is None:
             return False
-        module, _, path = piece.target.partition(":")
-        owner, _, name = path.rpartition(".")
-        if owner:
-            setattr(self.find(f"{module}:{owner}"), name, wanted)
-        for namespace in self._namespaces():
-            for key, value in list(namespace.items()):
-                if value is original:
-                    namespace[key] = wanted
+        put_in_place(original, wanted)
         return True
 
-    def _build(self, piece: Piece, original: Any) -> Callable[..., Any] | None:
-        if not isinstance(original, types.FunctionType):
-            return None
-        code = original.__code__
-        if list(code.co_varnames[: code.co_argcount]) != piece.parameters:
-            return None
+    def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
+        """The reference's function, among the submission's own classes and functions."""
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, "<reference>", "exec"), namespace)
         exec(compile(piece.source, "<reference>", "exec"), namespace)
         wanted = namespace[piece.target.rpartition(":")[2].rpartition(".")[2]]
         package = importlib.import_module(piece.target.partition(":")[0])
-        for name in set(piece.names) - set(namespace):
-            place = original.__globals__ if name in original.__globals__ else vars(package)
-            namespace[name] = place[name]
+        names = set(piece.names) - set(namespace)
+        for source in piece.given.values():
+            exec(compile(source, "<reference>", "exec"), namespace)
+        for place in (vars(package), original.__globals__):
+            namespace |= {name: place[name] for name in names if name in place}
+        if not names <= set(namespace):
+            raise NotThere(f"there is no {', '.join(names - set(namespace))}")
         return wanted  # type: ignore[no-any-return]
-
-    def _namespaces(self) -> list[dict[str, Any]]:
-        """The globals of the submission's modules and of the functions swapped in."""
-        found = []
-        modules = [m for m in list(sys.modules.values()) if issubclass(type(m), types.ModuleType)]
-        for module in modules:
-            names = object.__getattribute__(module, "__dict__")  # wakes no lazy module
-            if str(names.get("__file__")).startswith(str(self.folder)):
-                found.append(names)
-                for value in list(names.values()):
-                    members = vars(value).values() if isinstance(value, type) else [value]
-                    found += [
-                        member.__globals__
-                        for member in members
-                        if isinstance(member, types.FunctionType)
-                        and member.__globals__.get("__name__") == "reference"
-                    ]
-        return found
 
     # ------------------------------------------------------------ values in
 
