@@ -385,13 +385,14 @@ class Limits(Struct, frozen=True):
 
 
 class ChildSetup(Struct, frozen=True):
-    submission: str  # the read-only copy
-    scratch: str  # an empty folder, the child's working directory
+    submission: str  # the read-only copy, from which each child takes one of its own
+    scratch: str  # an empty folder, for that copy and for temporary files
     limits: Limits
     confine: bool
     hidden: list[str]  # folders that must be out of reach
     bytecode: str  # a folder for compiled files
     compiles: bool  # whether this child fills that folder; the others only read it
+    loads: list[str] = []  # libraries that are slow to load, to be loaded before the fork
 
 
 class Ready(Struct, frozen=True):

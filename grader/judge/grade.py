@@ -5,7 +5,7 @@ import shutil
 import stat
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -144,8 +144,7 @@ class Grading:
 
     def open_child(self, cpu_seconds: int, compiles: bool = False) -> Child:
         scratch = Path(tempfile.mkdtemp(dir=self.work))
-        bytecode = self.work / "bytecode"
-        bytecode.mkdir(exist_ok=True)
+        bytecode = shared_bytecode(self.work, scratch)
         child = self.worker.open(
             ChildSetup(
                 submission=str(self.submission.folder),
@@ -155,6 +154,7 @@ class Grading:
                 hidden=[str(KIT / "grader"), str(self.options.reference or KIT / "solution")],
                 bytecode=str(bytecode),
                 compiles=compiles,
+                loads=["numpy"] if self.submission.uses_numpy else [],
             )
         )
         self.layers = self.layers_around(child)
@@ -235,6 +235,22 @@ class Grading:
             todos=[],
         )
         return nothing.with_todos(todos)
+
+
+def shared_bytecode(work: Path, scratch: Path) -> Path:
+    """A folder of compiled files in which all copies of one submission find the same.
+
+    Python looks under it for the path of the source, and each child's copy has a path of its own:
+    so each gets a link to what they share.
+    """
+    bytecode = work / "bytecode"
+    shared = bytecode / "shared"
+    shared.mkdir(parents=True, exist_ok=True)
+    link = bytecode / scratch.relative_to(scratch.anchor)
+    link.parent.mkdir(parents=True, exist_ok=True)
+    with suppress(OSError):  # Windows may not allow it: then each compiles for itself
+        link.symlink_to(shared, target_is_directory=True)
+    return bytecode
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:

@@ -41,6 +41,7 @@ class Submission:
     where: dict[str, Where] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)  # the shape of each TODO's function
     left_out: list[str] = field(default_factory=list)
+    uses_numpy: bool = False
 
 
 def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
@@ -121,6 +122,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
     }
+    submission.uses_numpy = any("numpy" in text for text in texts.values())
     program = Program(texts)
     for todo in rubric.todos:
         if not todo.function:

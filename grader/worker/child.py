@@ -37,6 +37,7 @@ from grader.protocol import (
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
+from grader.worker.imports import ImportRule
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
@@ -52,10 +53,13 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
     channel.send(Ready(os.getpid(), confine(setup)))
+    folder = own_copy(Path(setup.submission), Path(setup.scratch))
+    os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
     output.install()
     clock.install()
-    subject = Subject(Path(setup.submission))
+    ImportRule(folder).install()
+    subject = Subject(folder)
     camera = Camera(subject)
     while True:
         try:
@@ -147,12 +151,31 @@ class CallCounter:
         self.calls += event == "call" and frame.f_code in self.codes
 
 
+def own_copy(submission: Path, scratch: Path) -> Path:
+    """The submission once more, for this child alone: it may write there, and it ends with it.
+
+    Files keep their times, by which Python knows whether what it compiled before is still good.
+    """
+    copy = scratch / submission.name
+    for folder, _, names in os.walk(submission):
+        here = copy / Path(folder).relative_to(submission)
+        here.mkdir()
+        for name in names:
+            source, target = Path(folder, name), here / name
+            with contextlib.suppress(OSError):  # larger than a child's files may be: to be missed
+                target.write_bytes(source.read_bytes())
+                times = source.stat()
+                os.utime(target, ns=(times.st_atime_ns, times.st_mtime_ns))
+    return copy
+
+
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
     wanted = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
     wanted |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
     wanted |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONHASHSEED": "0"}
     wanted |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "LANG": "C.UTF-8", "TZ": "UTC"}
+    wanted["OPENBLAS_NUM_THREADS"] = "1"  # numpy's: or it wants memory for each core there is
     for name in set(os.environ) - set(wanted):
         del os.environ[name]
     for name in wanted:

@@ -55,11 +55,14 @@ class Subject:
         self.refs: dict[int, int] = {}
         self.pair: Callable[[float, float], Any] = pygame.Vector2  # what the program's pairs are
         sys.path.insert(0, str(folder))
+        sys.argv[:] = [""]
 
     # ------------------------------------------------------------ names
 
     def load(self, module: str, pieces: list[Piece]) -> list[str]:
         """Import `module`; returns the targets of the pieces that could be swapped in."""
+        package = (self.folder / module).is_dir()
+        sys.argv[0] = str(self.folder / (f"{module}/__main__.py" if package else f"{module}.py"))
         importlib.import_module(module)
         if module == "pymunk_scene":
             self.pair = pymunk.Vec2d

@@ -4,6 +4,7 @@ It never imports the submission, and it ends whatever a child left behind.
 """
 
 import gc
+import importlib
 import os
 import signal
 import socket
@@ -55,6 +56,8 @@ def warm_up() -> None:
 def fork(control: Channel, setup: ChildSetup) -> None:
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
     readable(tuple(setup.hidden))  # listed once here, known in every child
+    for library in setup.loads:
+        importlib.import_module(library)
     pid = os.fork()
     if pid:
         os.close(descriptor)

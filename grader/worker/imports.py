@@ -1,0 +1,49 @@
+"""What a submission may import: one rule, whatever is installed on the machine that grades it.
+
+The standard library, the libraries of the assignment and the submission's own files. Without the
+rule, marks would hang on what an instructor happens to have beside the grader.
+"""
+
+import sys
+from collections.abc import Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from types import ModuleType
+
+LIBRARIES = {"pygame": "pygame-ce", "pymunk": "pymunk", "numpy": "numpy"}  # as installed
+BENEATH = {"cffi", "_cffi_backend", "typing_extensions"}  # what those libraries load themselves
+RULE = (
+    "a submission may import the standard library, "
+    f"{', '.join(LIBRARIES.values())} and its own files"
+)
+
+
+class NotAllowed(ModuleNotFoundError):
+    """An import that the rule does not allow; `except ImportError` catches it as any other."""
+
+
+class ImportRule(MetaPathFinder):
+    """Stands before all that finds modules, and lets nothing through but what is allowed."""
+
+    def __init__(self, folder: Path) -> None:
+        inside = [path.relative_to(folder) for path in folder.rglob("*.py")]
+        own = {part.removesuffix(".py") for path in inside for part in path.parts}
+        self.allowed = {"__main__"} | sys.stdlib_module_names | LIBRARIES.keys() | BENEATH | own
+
+    def install(self) -> None:
+        """From now on; what the grader itself has loaded is out of reach by name."""
+        for name in [name for name in sys.modules if not self.allows(name)]:
+            del sys.modules[name]
+        sys.meta_path.insert(0, self)
+
+    def allows(self, name: str) -> bool:
+        return name.partition(".")[0] in self.allowed
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Find nothing, so that the others look; raise NotAllowed where nobody may."""
+        if not self.allows(name):
+            raise NotAllowed(f"{name.partition('.')[0]} is not allowed here: {RULE}", name=name)
+        return None
