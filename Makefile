@@ -59,7 +59,7 @@ run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solut
 ##@ The engines, measured
 
 dials: $(CORE) ## Open the window with dials: any scene in each of the three engines
-	@cd $(WHERE) && ../$(PY) -m experiments.window
+	@cd $(WHERE) && PYTHONPATH=../solution ../$(PY) -m experiments.window
 
 accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minutes; QUICK=1 for less)
 	@cd solution && ../$(PY) accuracy.py --out ../build/accuracy $(if $(QUICK),--quick)

@@ -1,4 +1,4 @@
-"""Shared by the tests: where the kit is, and how to hand in a changed copy of a tree."""
+"""Shared by the tests: the kit, what students get of it, and changed copies of a tree handed in."""
 
 import os
 import shutil
@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from grader.maintain.sync import students_files
+
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -14,6 +16,16 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 KIT = Path(__file__).parents[1]
 
 HandIn = Callable[..., Path]
+
+
+@pytest.fixture(scope="session")
+def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A student's folder in which nothing is done yet: the starter, and what is laid in."""
+    folder = tmp_path_factory.mktemp("handed-out")
+    for name, path in students_files(KIT).items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, folder / name)
+    return folder
 
 
 @pytest.fixture

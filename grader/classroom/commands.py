@@ -50,7 +50,7 @@ def course_command(
     course: Annotated[Path, typer.Argument(help="The course folder to make.")],
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
 ) -> None:
-    """Make a course folder: the notebooks, the starter's files, and nbgrader's settings."""
+    """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     try:
         files = make_course(course, renew)
     except NoCourse as error:

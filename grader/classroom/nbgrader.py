@@ -20,7 +20,7 @@ from rich.console import Console
 from grader.judge.grade import KIT, Options
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.submission import CannotGrade, plain_files
-from grader.maintain.sync import given_files
+from grader.maintain.sync import students_files
 from grader.report import terminal
 
 ASSIGNMENT = "physics-engine"
@@ -41,7 +41,7 @@ class NoCourse(Exception):
 def make_course(course: Path, renew: bool = False) -> list[str]:
     """Make the folder in which nbgrader's commands run; returns the assignment's files.
 
-    The source holds the starter's Python files, never the solution's: nbgrader releases whatever
+    The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
     lies beside the notebooks.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
@@ -68,10 +68,10 @@ def make_course(course: Path, renew: bool = False) -> list[str]:
 
 
 def assignment_files() -> Iterator[tuple[str, Path]]:
-    """What the source of the assignment holds: the notebooks, and the starter beside them."""
-    for name in given_files(KIT / "starter"):
-        if not name.startswith((".", f"{NOTEBOOKS}/")):
-            yield name, KIT / "starter" / name
+    """What the source of the assignment holds: the notebooks, and beside them students' files."""
+    for name, path in students_files(KIT).items():
+        if not name.startswith("."):
+            yield name, path
     for path in sorted((KIT / "solution" / NOTEBOOKS).glob("*.ipynb")):
         yield path.name, path
 

@@ -19,14 +19,12 @@ def sync_command(
     from grader.maintain.sync import OutOfStep, sync
 
     try:
-        changes = sync(KIT / "solution", KIT / "starter", write=not check)
+        lines = sync(KIT / "solution", KIT / "starter", write=not check)
     except OutOfStep as error:
         stop(str(error), "go on")
-    for change in changes:
-        console.print(change)
-    if not changes:
-        console.print("starter and solution are in step")
-    raise typer.Exit(1 if check and changes else 0)
+    for line in lines or ["nothing to do: starter and solution are in step"]:
+        console.print(line)
+    raise typer.Exit(1 if check and lines else 0)
 
 
 @app.command("verify")

@@ -28,7 +28,7 @@ from grader.maintain.bank import members
 from grader.maintain.leaks import leaks_in, secrets_of
 from grader.maintain.pages import write_pages
 from grader.maintain.students_copy import Tree, visible, write_copy
-from grader.maintain.sync import given_files
+from grader.maintain.sync import students_files
 from grader.maintain.verify import verify
 from grader.report.sinks.classroom50 import write_bundle
 
@@ -78,7 +78,7 @@ def build(work: Path, wrong: Iterable[Tree]) -> Path:
     write_copy(copy, wrong)
     runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
     runs.write_bytes(record_expected(KIT / "solution"))
-    lay_out(KIT / "starter", tree)
+    lay_out(tree)
     lock = pinned((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_of([copy, tree], lock)
     version = f"{grader.__version__}+r{content[:8]}"  # pip puts it in the place of the last one
@@ -97,13 +97,15 @@ def build(work: Path, wrong: Iterable[Tree]) -> Path:
 # ---------------------------------------------------------------- what students get
 
 
-def lay_out(starter: Path, tree: Path) -> None:
+def lay_out(tree: Path) -> None:
     """The student's folder, without what is made last: wheel, requirements and manifest."""
-    notebooks = [f"notebooks/{path.name}" for path in (starter / "notebooks").glob("*.ipynb")]
-    for name in [*given_files(starter), *notebooks]:
+    files = students_files(KIT)
+    del files["requirements.txt"]
+    for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
+        files[f"notebooks/{path.name}"] = path
+    for name, path in files.items():
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(starter / name, tree / name)
-    (tree / "requirements.txt").unlink()
+        shutil.copyfile(path, tree / name)
     write_pages(KIT / "handouts", tree / "handouts")
 
 

@@ -1,7 +1,9 @@
 """Keeping the two trees one: the solution's files everywhere, the starter's stubs in the regions.
 
 Each tree owns what stands inside its TODO regions; everything else is written in `solution/` and
-carried over. The stubs are also kept with the checks, which must know an untouched TODO.
+carried over. What students get to use and not to work on stands in `solution/` alone, and is laid
+in with the starter wherever they get it. The stubs are also kept with the checks, which must know
+an untouched TODO, and so is what a submission may lack.
 """
 
 import json
@@ -11,6 +13,7 @@ from grader.judge.definitions import function_named, source_of, statements
 from grader.judge.rubric import CHECKS, load_rubric
 from grader.todo_regions import python_files, regions_in, replaced
 
+LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
 SKIPPED = {
     "notebooks",  # the starter's are made by nbgrader: see classroom/notebooks.py
     "build",
@@ -27,28 +30,42 @@ class OutOfStep(Exception):
 
 
 def sync(solution: Path, starter: Path, write: bool) -> list[str]:
-    """Carry the solution over into the starter; returns what differed, one line each."""
-    wanted = {name: wanted_text(solution / name, starter / name) for name in given_files(solution)}
-    changes = []
+    """Carry the solution over into the starter; returns what was done, one line each.
+
+    Without `write` nothing is done, and the lines say what differs.
+    """
+    wanted = {
+        name: wanted_text(solution / name, starter / name)
+        for name in given_files(solution)
+        if not laid_in(name)
+    }
+    lines = []
     for name, content in wanted.items():
-        target = starter / name
-        if not target.exists() or target.read_bytes() != content:
-            changes.append(f"{name} differs from the solution outside its TODO regions")
-            if write:
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_bytes(content)
+        if renewed(starter / name, content, write):
+            differs = f"{name} differs from the solution outside its TODO regions"
+            lines.append(f"carried {name} over" if write else differs)
     for name in given_files(starter):
         if name not in wanted:
-            changes.append(f"{name} is in the starter and not in the solution")
+            differs = f"{name} does not belong in the starter"
+            lines.append(f"removed {name} from the starter" if write else differs)
             if write:
                 (starter / name).unlink()
-    for name, what in (("stubs", stub_sources(starter)), ("given", given_sources(starter))):
-        text, kept = json.dumps(what, indent=1) + "\n", CHECKS / f"{name}.json"
-        if not kept.exists() or kept.read_text(encoding="utf-8") != text:
-            changes.append(f"{kept.name}, by which the checks know the starter, is not up to date")
-            if write:
-                kept.write_text(text, encoding="utf-8")
-    return changes
+    for name, sources in (("stubs", stub_sources(starter)), ("given", given_sources(starter))):
+        text = json.dumps(sources, indent=1) + "\n"
+        if renewed(CHECKS / f"{name}.json", text.encode(), write):
+            differs = f"{name}.json, by which the checks know the starter, is not up to date"
+            lines.append(f"renewed {name}.json for the checks" if write else differs)
+    return lines
+
+
+def renewed(path: Path, content: bytes, write: bool) -> bool:
+    """Whether a file does not hold this yet; with `write` it holds it from now on."""
+    if path.exists() and path.read_bytes() == content:
+        return False
+    if write:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return True
 
 
 def given_files(tree: Path) -> list[str]:
@@ -57,6 +74,17 @@ def given_files(tree: Path) -> list[str]:
         for path in sorted(tree.rglob("*"))
         if path.is_file() and not SKIPPED & set(path.relative_to(tree).parts)
     ]
+
+
+def laid_in(name: str) -> bool:
+    return name.partition("/")[0] in LAID_IN
+
+
+def students_files(kit: Path) -> dict[str, Path]:
+    """Where each file stands that students get, by its name there; notebooks left out."""
+    solution, starter = kit / "solution", kit / "starter"
+    extra = {name: solution / name for name in given_files(solution) if laid_in(name)}
+    return extra | {name: starter / name for name in given_files(starter)}
 
 
 def wanted_text(source: Path, target: Path) -> bytes:

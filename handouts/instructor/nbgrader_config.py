@@ -20,7 +20,7 @@ c.CourseDirectory.solution_directory = "solved"
 c.ClearSolutions.code_stub = {"python": "# Write your code here."}
 c.ClearSolutions.text_stub = "*Write your answer here.*"
 
-# Students keep their own Python files: the source's are the starter's.
+# Students keep their own Python files: the source's are as they got them.
 source = Path.cwd() / "source" / ASSIGNMENT
 c.Autograde.exclude_overwriting = {
     ASSIGNMENT: [

@@ -367,10 +367,10 @@ def test_without_matplotlib_one_sentence_says_how_to_get_figures(tiny, monkeypat
     assert "install matplotlib" in capsys.readouterr().out
 
 
-def test_it_runs_in_the_unfinished_starter(tmp_path):
-    command = [sys.executable, "-B", "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
+def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
+    command = [sys.executable, "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
     done = subprocess.run(
-        command, cwd=ROOT / "starter", capture_output=True, text=True, timeout=120, check=False
+        command, cwd=handed_out, capture_output=True, text=True, timeout=120, check=False
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""

@@ -3,7 +3,6 @@
 import builtins
 import gc
 import json
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -269,13 +268,10 @@ def test_too_small_a_pile_gets_a_sentence(capsys):
     assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
 
 
-def test_it_runs_in_the_starter_with_nothing_done(tmp_path):
+def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
-    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
     program += ["--out", str(tmp_path)]
-    subprocess.run(
-        program, cwd=KIT / "starter", env=env, check=True, capture_output=True, timeout=60
-    )
+    subprocess.run(program, cwd=handed_out, check=True, capture_output=True, timeout=60)
     assert (tmp_path / "results.json").exists()
 
 

@@ -209,8 +209,8 @@ print("done")
 """
 
 
-def test_an_unfinished_lessons_engine_runs_in_every_case():
+def test_an_unfinished_lessons_engine_runs_in_every_case(handed_out):
     program = [sys.executable, "-c", UNFINISHED]
     env = os.environ | {"PYTHONPATH": ""}
-    done = subprocess.run(program, cwd=KIT / "starter", env=env, capture_output=True, text=True)
+    done = subprocess.run(program, cwd=handed_out, env=env, capture_output=True, text=True)
     assert done.stdout.endswith("done\n"), done.stderr

@@ -351,11 +351,26 @@ def test_frames_must_be_one_or_more(capsys):
     assert "--frames is 0, but it must be 1 or more." in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_it_runs_in_the_starter_with_nothing_done(engine, tmp_path):
-    picture = tmp_path / "starter.png"
+def run_in(tree, picture, engine, **environment):
+    """The screenshot that the window's program makes, started in a folder."""
     program = [sys.executable, "-m", "experiments.window", "--scene", "lab", "--engine", engine]
     program += ["--screenshot", str(picture), "--frames", "60"]
-    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
-    subprocess.run(program, cwd=KIT / "starter", env=env, check=True, timeout=60)
-    assert picture.stat().st_size > 1000
+    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment}
+    subprocess.run(program, cwd=tree, env=env, check=True, timeout=60)
+    return picture.read_bytes()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_it_runs_in_a_students_folder_with_nothing_done(engine, handed_out, tmp_path):
+    assert len(run_in(handed_out, tmp_path / "shot.png", engine)) > 1000
+
+
+def test_make_dials_shows_the_starters_engine_though_the_window_is_the_solutions(
+    handed_out, tmp_path
+):
+    assert "cd $(WHERE) && PYTHONPATH=../solution" in (KIT / "Makefile").read_text("utf-8")
+    shots = [
+        run_in(KIT / tree, tmp_path / f"{tree}.png", "lesson", PYTHONPATH="../solution")
+        for tree in ("starter", "solution")
+    ]
+    assert shots[0] == run_in(handed_out, tmp_path / "shot.png", "lesson") != shots[1]

@@ -31,6 +31,7 @@ from grader.maintain.leaks import Secret, leaks_in_text, secrets_of, texts_in
 from grader.maintain.pages import as_page
 from grader.maintain.release import Refused, build, build_wheel, look_for_leaks, pinned, prove
 from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, visible
+from grader.maintain.sync import students_files
 from grader.maintain.verify import Report
 
 WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
@@ -211,9 +212,8 @@ def test_a_line_is_found_under_other_names(todo: str, secrets: list[Secret]):
     assert f"TODO {todo}" in found[0].what
 
 
-@pytest.mark.parametrize("tree", ["starter", "handouts"])
-def test_what_students_have_anyway_is_no_leak(tree: str, secrets: list[Secret]):
-    for path in (KIT / tree).glob("**/*.py" if tree == "starter" else "*.md"):
+def test_what_students_have_anyway_is_no_leak(secrets: list[Secret]):
+    for path in [*students_files(KIT).values(), *(KIT / "handouts").glob("*.md")]:
         assert not list(leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
 
 
@@ -306,11 +306,16 @@ def test_the_readme_names_what_is_there(released: Released):
     assert not [name for name in files if not any((each / name).is_file() for each in places)]
 
 
-def test_the_tree_is_the_starters(released: Released):
-    for path in (KIT / "starter").rglob("*.py"):
-        inside = path.relative_to(KIT / "starter")
-        if inside.parts[0] != "build":
-            assert (released.tree / inside).read_bytes() == path.read_bytes()
+def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
+    files = students_files(KIT)
+    for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
+        files[f"notebooks/{path.name}"] = path
+    assert {"accuracy.py", "experiments/window.py", "stable_engine/world.py"} < set(files)
+    made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
+    there = [name for name, _ in releases.files_in(released.tree)]
+    assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
+    for name in set(files) - made:
+        assert (released.tree / name).read_bytes() == files[name].read_bytes()
 
 
 def test_every_link_of_the_pages_leads_somewhere(released: Released):

@@ -68,7 +68,7 @@ def answered(name):
 
 
 def hand_in(folder, tree, notebooks):
-    """A folder like the one handed out: a tree's files and these notebooks, by name."""
+    """A folder as a student hands it in: a tree's files and these notebooks, by name."""
     ignored = shutil.ignore_patterns("__pycache__", "notebooks", "build")
     shutil.copytree(KIT / tree, folder, ignore=ignored)
     for name, notebook in notebooks.items():

@@ -30,7 +30,7 @@ from typer.testing import CliRunner
 from grader.classroom import commands, nbgrader
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.maintain.sync import given_files
+from grader.maintain.sync import students_files
 
 pytestmark = pytest.mark.soak
 SECONDS = 8  # of a cell, instead of the minute in the settings
@@ -195,9 +195,9 @@ def test_the_release_is_what_the_starter_holds(course):
 
 def test_the_release_holds_no_solution_hidden_test_or_answer(course):
     release = course / "release" / ASSIGNMENT
-    for name in given_files(KIT / "starter"):
+    for name, path in students_files(KIT).items():
         if name.endswith(".py"):
-            assert (release / name).read_bytes() == (KIT / "starter" / name).read_bytes()
+            assert (release / name).read_bytes() == path.read_bytes()
     for name in NAMES:
         text = (release / f"{name}.ipynb").read_text(encoding="utf-8")
         assert "HIDDEN TESTS" not in text and "BEGIN SOLUTION" not in text

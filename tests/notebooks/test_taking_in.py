@@ -7,7 +7,7 @@ from handed_in import NAMES, RELEASED, hand_in, read
 
 from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, collect, make_course
 from grader.judge.grade import KIT
-from grader.maintain.sync import given_files
+from grader.maintain.sync import students_files
 from grader.todo_regions import python_files, regions_in
 
 
@@ -34,12 +34,12 @@ def taken(classroom, course):
 # ---------------------------------------------------------------- the course
 
 
-def test_the_source_holds_every_notebook_and_the_starters_files(course):
+def test_the_source_holds_every_notebook_and_the_students_files(course):
     source = course / "source" / ASSIGNMENT
     assert sorted(path.stem for path in source.glob("*.ipynb")) == NAMES
-    for name in given_files(KIT / "starter"):
+    for name, path in students_files(KIT).items():
         if not name.startswith("."):
-            assert (source / name).read_bytes() == (KIT / "starter" / name).read_bytes()
+            assert (source / name).read_bytes() == path.read_bytes()
 
 
 def test_no_region_of_the_reference_is_in_the_source(course):

@@ -1,15 +1,18 @@
 """Starter and solution are one tree but for the insides of the TODO regions, and stay so."""
 
 import ast
+import shutil
 from pathlib import Path
 
 import pytest
+from conftest import KIT
 from programs import BONUS, SOLUTION, STARTER, TODOS, copy_of, edit, regions
 
 from grader.maintain import sync as sync_module
-from grader.maintain.sync import OutOfStep, given_files, sync
+from grader.maintain.sync import LAID_IN, OutOfStep, given_files, laid_in, students_files, sync
 from grader.todo_regions import RegionError, python_files, regions_in, replaced
 
+IN_BOTH = [name for name in given_files(SOLUTION) if not laid_in(name)]
 TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])
 
 
@@ -29,12 +32,24 @@ def test_sync_finds_nothing_to_do():
     assert sync(SOLUTION, STARTER, write=False) == []
 
 
-def test_both_trees_have_the_same_files():
-    assert given_files(STARTER) == given_files(SOLUTION)
-    assert "mini_engine/world.py" in given_files(STARTER)
+def test_the_starter_has_the_solutions_files_but_those_that_are_laid_in():
+    assert given_files(STARTER) == IN_BOTH
+    assert "mini_engine/world.py" in IN_BOTH
 
 
-@pytest.mark.parametrize("name", given_files(SOLUTION))
+def test_students_get_all_the_files_of_the_solution_and_no_region_of_it():
+    files = students_files(KIT)
+    assert sorted(files) == given_files(SOLUTION)
+    for name, path in files.items():
+        assert path == (SOLUTION if laid_in(name) else STARTER) / name
+        assert not laid_in(name) or path.read_bytes() == emptied(path), "a TODO to be handed out"
+
+
+def test_all_that_is_laid_in_is_there():
+    assert all((SOLUTION / name).exists() for name in LAID_IN)
+
+
+@pytest.mark.parametrize("name", IN_BOTH)
 def test_a_file_is_the_same_outside_the_regions(name):
     assert emptied(STARTER / name) == emptied(SOLUTION / name)
 
@@ -86,47 +101,58 @@ def contents(tree: Path) -> dict[str, bytes]:
 
 def change_a_given_line(tree: Path) -> str:
     edit(tree / "mini_engine/world.py", "def step(self, dt):", "def step(self, seconds):")
-    return "mini_engine/world.py differs from the solution outside its TODO regions"
+    return "mini_engine/world.py"
 
 
 def change_a_task(tree: Path) -> str:
     edit(tree / "mini_engine/joints.py", "# TODO 3: hold", "# TODO 3: keep")
-    return "mini_engine/joints.py differs from the solution outside its TODO regions"
+    return "mini_engine/joints.py"
 
 
 def change_a_file_without_regions(tree: Path) -> str:
     (tree / "README.md").write_text("Nothing to do.", encoding="utf-8")
-    return "README.md differs from the solution outside its TODO regions"
+    return "README.md"
 
 
 def lose_a_file(tree: Path) -> str:
     (tree / "mini_engine/shapes.py").unlink()
-    return "mini_engine/shapes.py differs from the solution outside its TODO regions"
+    return "mini_engine/shapes.py"
 
 
 def leave_a_file_behind(tree: Path) -> str:
     (tree / "mini_engine/notes.txt").touch()
-    return "mini_engine/notes.txt is in the starter and not in the solution"
+    return "mini_engine/notes.txt"
+
+
+def bring_what_is_laid_in(tree: Path) -> str:
+    shutil.copyfile(SOLUTION / "accuracy.py", tree / "accuracy.py")
+    return "accuracy.py"
+
+
+CARRIED = ("{} differs from the solution outside its TODO regions", "carried {} over")
+REMOVED = ("{} does not belong in the starter", "removed {} from the starter")
 
 
 @pytest.mark.parametrize(
-    "drift",
+    ("drift", "said"),
     [
-        change_a_given_line,
-        change_a_task,
-        change_a_file_without_regions,
-        lose_a_file,
-        leave_a_file_behind,
+        (change_a_given_line, CARRIED),
+        (change_a_task, CARRIED),
+        (change_a_file_without_regions, CARRIED),
+        (lose_a_file, CARRIED),
+        (leave_a_file_behind, REMOVED),
+        (bring_what_is_laid_in, REMOVED),
     ],
 )
-def test_drift_is_noticed_and_repaired(drift, copies):
+def test_drift_is_noticed_and_repaired(drift, said, copies):
     solution, starter = copies
     before = contents(starter)
-    said = drift(starter)
+    name = drift(starter)
+    differs, done = (words.format(name) for words in said)
     drifted = contents(starter)
-    assert sync(solution, starter, write=False) == [said]
+    assert sync(solution, starter, write=False) == [differs]
     assert contents(starter) == drifted != before
-    assert sync(solution, starter, write=True) == [said]
+    assert sync(solution, starter, write=True) == [done]
     assert contents(starter) == before
     assert sync(solution, starter, write=False) == []
 
@@ -147,9 +173,9 @@ def test_a_change_to_a_solution_inside_a_region_is_no_drift(copies):
 
 def test_a_changed_stub_is_made_known_to_the_checks(copies):
     edit(copies[1] / "mini_engine/world.py", "keep_vel = 0.99", "keep_vel = 0.98")
-    said = ["the stubs that the checks know are not the starter's"]
-    assert sync(*copies, write=False) == said
-    assert sync(*copies, write=True) == said
+    differs = "the stubs that the checks know are not the starter's"
+    assert sync(*copies, write=False) == [differs]
+    assert sync(*copies, write=True) == ["made the starter's stubs known to the checks"]
     assert sync(*copies, write=False) == []
 
 
