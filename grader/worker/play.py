@@ -1,9 +1,10 @@
 """Running a program's real main() for a number of frames, and stepping a world by hand."""
 
-import importlib
 import math
 import os
 import zlib
+from collections.abc import Callable
+from types import FunctionType
 from typing import Any, Literal
 
 import pygame
@@ -13,6 +14,7 @@ from grader.protocol import RUNAWAY, ContactRow, Play, Played, Simulate, Simulat
 from grader.worker.film import Camera, lesson_state
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
+from grader.worker.standin import plain_function, put_in_place
 from grader.worker.subject import NotThere, Subject, as_pair, field, field_number, field_pair
 
 MAX_LINES = 200
@@ -24,45 +26,63 @@ class Runaway(BaseException):
 
 
 class StepCounter:
-    """Stands in for `World.step` or `Space.step`: counts, and runs the real one if asked to."""
+    """Counts the steps of a program's worlds, and runs them if asked to.
+
+    It takes the place of `step` for all who hold it: a program may have kept it under a name of its
+    own, or step a world of a class derived from World.
+    """
 
     def __init__(self, owner: type, physics: bool, trail_every: int):
-        self.owner, self.real = owner, owner.step  # type: ignore[attr-defined]
         self.physics, self.trail_every = physics, trail_every
         self.in_frame = self.total = 0
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
-        counter = self
+        self.inside = False  # a derived class may call the step that it overrides
+        for function in steps_of(owner):
+            self.watch(function)
 
-        def step(world: Any, dt: float, *rest: Any) -> Any:
-            return counter.count(world, dt, rest)
+    def watch(self, function: FunctionType) -> None:
+        def step(world: Any, dt: float, *rest: Any, **more: Any) -> Any:
+            if self.inside:
+                return real(world, dt, *rest, **more)
+            return self.count(world, dt, lambda: real(world, dt, *rest, **more))
 
-        owner.step = step  # type: ignore[attr-defined]
+        real = put_in_place(function, step)
 
-    def count(self, world: Any, dt: float, rest: tuple[Any, ...]) -> Any:
+    def count(self, world: Any, dt: float, run: Callable[[], Any]) -> Any:
         self.last = world
         self.in_frame += 1
         self.total += 1
         if len(self.dts) < MAX_STEP_SIZES and not any(math.isclose(dt, each) for each in self.dts):
             self.dts.append(float(dt))
-        result = self.real(world, dt, *rest) if self.physics else None
+        self.inside = True
+        try:
+            result = run() if self.physics else None
+        finally:
+            self.inside = False
         if self.trail_every and self.total % self.trail_every == 0:
             self.trail.append(moving_state(world))
         if self.in_frame >= RUNAWAY:
             raise Runaway
         return result
 
-    def restore(self) -> None:
-        self.owner.step = self.real  # type: ignore[attr-defined]
+
+def steps_of(owner: type) -> list[FunctionType]:
+    """The `step` of a class and of those derived from it, each once."""
+    classes: list[type] = [owner]
+    for each in classes:
+        classes += [derived for derived in each.__subclasses__() if derived not in classes]
+    found = [plain_function(getattr(each, "step", None)) for each in classes]
+    return list(dict.fromkeys(each for each in found if each is not None))
 
 
 def play(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
 ) -> Played:
-    module = importlib.import_module(request.module)
     main = subject.find(f"{request.module}:main")
-    owner = module.World if hasattr(module, "World") else pymunk.Space
+    in_pymunk = request.module == "pymunk_scene"
+    owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
     steps: list[int] = []
     times: list[float] = []
@@ -89,7 +109,6 @@ def play(
     except Runaway:
         ended = "runaway"
     finally:
-        counter.restore()
         window.restore()
     frame_over()
     camera.unfollow()
