@@ -155,6 +155,7 @@ class Call(Struct, frozen=True, tag="call"):
     args: list[Argument] = []
     kwargs: dict[str, Argument] = {}
     counting: list[str] = []  # functions whose calls are counted meanwhile, as module:name
+    twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -247,9 +248,21 @@ class Film(Struct, frozen=True, tag="film"):
 # ---------------------------------------------------------------- child to judge
 
 
+class Change(Struct, frozen=True, array_like=True):
+    """Something that a call left otherwise than it found it.
+
+    `ref` is an object of the child; for an argument it is minus its number; for a constant 0.
+    """
+
+    ref: int
+    name: str
+
+
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
     counted: int = 0
+    changed: list[Change] = []
+    again: Value = None  # the second answer, where two were asked for
 
 
 class CodeLine(Struct, frozen=True):

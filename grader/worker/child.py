@@ -29,6 +29,7 @@ from grader.protocol import (
     Play,
     ProtocolError,
     Ready,
+    Ref,
     Reply,
     Request,
     Returned,
@@ -37,6 +38,7 @@ from grader.protocol import (
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
+from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
@@ -127,7 +129,14 @@ def call(subject: Subject, request: Call) -> Returned:
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
     if not request.counting:
-        return Returned(subject.encode(function(*args, **kwargs)))
+        given = [
+            each for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)
+        ]
+        own = [int(request.target[1:].partition(".")[0])] if request.target[0] == "#" else []
+        frame = Frame(subject, [each.id for each in given] + own, args)
+        value = subject.encode(function(*args, **kwargs))
+        again = subject.encode(function(*args, **kwargs)) if request.twice else None
+        return Returned(value, changed=frame.changes(), again=again)
     with CallCounter([subject.find(each) for each in request.counting]) as counter:
         result = function(*args, **kwargs)
     return Returned(subject.encode(result), counter.calls)

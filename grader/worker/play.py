@@ -72,7 +72,8 @@ def steps_of(owner: type) -> list[FunctionType]:
     """The `step` of a class and of those derived from it, each once."""
     classes: list[type] = [owner]
     for each in classes:
-        classes += [derived for derived in each.__subclasses__() if derived not in classes]
+        below: list[type] = each.__subclasses__()
+        classes += [derived for derived in below if derived not in classes]
     found = [plain_function(getattr(each, "step", None)) for each in classes]
     return list(dict.fromkeys(each for each in found if each is not None))
 

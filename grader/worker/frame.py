@@ -1,0 +1,108 @@
+"""What a call changed: the bodies, contacts, joints, worlds and constants before and after it.
+
+A function may change what its docstring names and nothing else. The child only tells what changed;
+what may change is the judge's to say.
+"""
+
+import sys
+from collections.abc import Iterable
+from typing import Any
+
+from grader.protocol import Change
+from grader.worker.subject import Subject
+
+LATEST = 12  # objects that are looked at beside those that a call is given
+CONSTANTS = ("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS", "BETA", "SLOP", "RESTING_SPEED")
+CONSTANTS += ("MAX_BALLS",)  # the lesson's
+FIELDS = {  # by what marks an object as one of the lesson's
+    "inv_mass": (
+        *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
+        *("restitution", "friction", "shape.radius", "shape.half"),
+    ),
+    "normal": ("a", "b", "normal", "depth", "point", "jn", "jt", "target"),
+    "bias": ("a", "b", "length", "axis", "bias", "k"),
+    "length": ("a", "b", "length", "stiffness", "damping"),
+    "bodies": ("gravity", "linear_damping", "angular_damping", "bodies", "joints", "contacts"),
+}
+Numbers = tuple[Any, ...]
+
+
+class Frame:
+    """The state of what is around a call; made before it."""
+
+    def __init__(self, subject: Subject, refs: Iterable[int], arguments: list[Any]) -> None:
+        self.subject = subject
+        latest = range(max(1, len(subject.objects) - LATEST + 1), len(subject.objects) + 1)
+        self.refs = sorted({*refs, *latest})
+        self.arguments = arguments
+        self.before = self.state()
+
+    def state(self) -> dict[tuple[int, str], Numbers]:
+        found: dict[tuple[int, str], Numbers] = {}
+        for ref in self.refs:
+            thing = self.subject.objects[ref]
+            for name in fields_of(thing):
+                found[ref, name] = plain(thing, name)
+        for number, argument in enumerate(self.arguments, 1):
+            if not isinstance(argument, int | float | str | None):
+                found[-number, ""] = numbers_in(argument)
+        for module in self.modules():
+            for name in CONSTANTS:
+                if name in module:
+                    found[0, name] = (module[name],)
+        return found
+
+    def modules(self) -> list[dict[str, Any]]:
+        folder = str(self.subject.folder)
+        found = (vars(module) for module in list(sys.modules.values()) if type(module) is MODULE)
+        return [names for names in found if str(names.get("__file__")).startswith(folder)]
+
+    def changes(self) -> list[Change]:
+        """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
+        after = self.state()
+        return [
+            Change(ref, name)
+            for (ref, name), before in self.before.items()
+            if not alike(before, after.get((ref, name), ()))
+        ]
+
+
+MODULE = type(sys)
+
+
+def fields_of(thing: Any) -> tuple[str, ...]:
+    """The fields of the lesson that an object has, by what it is."""
+    for mark, fields in FIELDS.items():
+        if hasattr(thing, mark):
+            return fields
+    return ()
+
+
+def plain(thing: Any, path: str) -> Numbers:
+    """A field as numbers, and objects by who they are."""
+    value = thing
+    for name in path.split("."):
+        value = getattr(value, name, None)
+    return numbers_in(value)
+
+
+def numbers_in(value: Any) -> Numbers:
+    if value is None or isinstance(value, int | float):
+        return (value,)
+    if isinstance(value, list):
+        return tuple(map(id, value))
+    try:
+        return tuple(map(float, value))
+    except TypeError:
+        return (id(value),)
+
+
+def alike(before: Numbers, after: Numbers) -> bool:
+    """The same but for rounding: who keeps a normal at length 1 changes nothing."""
+    return before == after or (
+        len(before) == len(after)
+        and all(
+            isinstance(a, float) and isinstance(b, float) and abs(a - b) <= 1e-9 * max(1.0, abs(a))
+            for a, b in zip(before, after, strict=True)
+        )
+    )
