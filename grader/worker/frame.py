@@ -12,8 +12,10 @@ from grader.protocol import Change
 from grader.worker.subject import Subject
 
 LATEST = 12  # objects that are looked at beside those that a call is given
-CONSTANTS = ("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS", "BETA", "SLOP", "RESTING_SPEED")
-CONSTANTS += ("MAX_BALLS",)  # the lesson's
+CONSTANTS = (  # the lesson's
+    *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
+    *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
+)
 FIELDS = {  # by what marks an object as one of the lesson's
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
