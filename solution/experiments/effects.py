@@ -152,7 +152,7 @@ class Held:
             engine.step(DT)
 
     def hold(self):
-        """Put every body back, and do not let it grow tired."""
+        """Put every body back where the scene has it, and set back the time it has lain still."""
         if self.kind == "asleep":
             return
         for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
@@ -160,7 +160,7 @@ class Held:
                 put_back(body, data)
         stable = getattr(self.engine.world, "effects", {})
         if "Contacts" in stable and self.kind != "still":
-            stable["Contacts"].places = []  # it looks for contacts anew
+            stable["Contacts"].last_positions = []  # it looks for contacts anew
 
 
 def put_back(body, data):
@@ -183,7 +183,7 @@ def one(_):
 
 def rows_of(effect):
     """How many contacts one pass of contacts or friction goes over."""
-    return len(effect.ball_rows) + len(effect.wall_rows)
+    return len(effect.ball_rows) + len(effect.static_rows)
 
 
 def awake(effect):
@@ -223,7 +223,7 @@ def count(held, work):
 
 
 def clock(cases, rounds):
-    """The least milliseconds per step of each case; they take turns, so that all meet the noise."""
+    """The least milliseconds per step of each case; they take turns, so that noise falls on all."""
     least = dict.fromkeys(cases, math.inf)
     gc.disable()
     for _ in range(rounds):
