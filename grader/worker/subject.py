@@ -63,8 +63,8 @@ class Subject:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.objects: dict[int, Any] = {}
-        self.refs: dict[int, int] = {}
+        self.objects: dict[int, Any] = {}  # by reference number
+        self.refs: dict[int, int] = {}  # reference numbers by id() of the object
         # What the submission's functions take for a pair of numbers.
         self.pair_type: Callable[[float, float], Any] = pygame.Vector2
         sys.path.insert(0, str(folder))
@@ -72,7 +72,7 @@ class Subject:
     # ------------------------------------------------------------ names
 
     def load(self, module: str, pieces: list[Piece]) -> list[str]:
-        """Import `module`; returns the targets of the pieces that could be swapped in."""
+        """Import `module`; returns the targets of the pieces that were swapped in."""
         importlib.import_module(module)
         if module == "pymunk_scene":
             self.pair_type = pymunk.Vec2d
@@ -103,9 +103,11 @@ class Subject:
         return next((each for each in [whole, *parts] if name in vars(each)), whole)
 
     def swap(self, piece: Piece) -> bool:
-        """Put the reference's function in the place of the submission's, wherever it is known.
+        """Put the reference's function in the place of the submission's, under all of its names.
 
-        Left alone when the submission has no such function, or one with other parameters.
+        So an unfinished TODO costs no points in another one. `from contacts import collide` makes a
+        second name for a function, so all modules are searched for it. Left alone when the
+        submission has no such function, or one with other parameters.
         """
         try:
             original = self.find(piece.target)
