@@ -34,7 +34,7 @@ def check_command(
 
 
 def watched(folder: Path, options: Options) -> Result:
-    """The last result of a watch that somebody ended."""
+    """Check after each save until Ctrl-C; returns the last result."""
     from grader.watch import watch
 
     try:

@@ -218,7 +218,7 @@ def python_sources(folder: Path) -> Sources:
 
 
 def folders_of(folder: Path) -> list[Path]:
-    """The folders to watch, without the virtual environment and its thousands."""
+    """The folders to watch, without the virtual environment and its thousands of files."""
     return sorted({folder, *(each.parent for each in plain_files(folder))})
 
 

@@ -1,4 +1,8 @@
-"""One child: meets the submission, answers the judge's requests one by one, until it is ended."""
+"""One child: confines itself, imports the submission and answers requests until the judge hangs up.
+
+Each request has a number and gets exactly one answer. An exception of the submission is an answer
+as well, so this loop ends only with the channel or the process.
+"""
 
 import contextlib
 import os
@@ -40,7 +44,7 @@ from grader.worker.film import Camera
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import NotThere, Subject
+from grader.worker.subject import ContractError, Subject
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
@@ -48,7 +52,11 @@ decoder = msgspec.msgpack.Decoder(Asked)
 
 
 def serve(channel: Channel, setup: ChildSetup) -> None:
-    """Answer until the judge closes the channel. Whatever the submission raises is an answer."""
+    """Answer until the judge closes the channel. Whatever the submission raises is an answer.
+
+    Rights are given up and clocks replaced before the submission is imported: later, its top level
+    would have run with the grader's rights and kept the real clock.
+    """
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
     channel.send(Ready(os.getpid(), confine(setup)))
@@ -65,8 +73,8 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
         reply: Reply | Filmed
         match asked.request:
             case Film() as film:
-                camera.load(film)
-                reply = camera.developed(attempt(subject, clock, output, camera, film.request))
+                camera.start(film)
+                reply = camera.finish(attempt(subject, clock, output, camera, film.request))
             case request:
                 reply = attempt(subject, clock, output, camera, request)
         send(channel, Answered(asked.number, reply, output.take()))
@@ -75,16 +83,20 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
 def attempt(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
 ) -> Reply:
-    """The answer, or what came instead of one."""
+    """The answer, or what came instead of one.
+
+    BaseException, because a submission may call sys.exit() or raise KeyboardInterrupt anywhere.
+    """
     try:
         return answer(subject, clock, output, camera, request)
-    except NotThere as error:
+    except ContractError as error:
         return Missing(str(error))
     except BaseException as error:
         return subject.raised(error)
 
 
 def send(channel: Channel, answered: Answered) -> None:
+    """Send an answer, or say why it cannot be sent: too long, or with a number too large for it."""
     try:
         channel.send(answered)
     except (ProtocolError, OverflowError, ValueError) as error:
@@ -94,6 +106,7 @@ def send(channel: Channel, answered: Answered) -> None:
 def answer(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
 ) -> Reply:
+    """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
         case Import(module, pieces):
             return Returned(",".join(subject.load(module, pieces)))
@@ -119,6 +132,7 @@ def answer(
 
 
 def call(subject: Subject, request: Call) -> Returned:
+    """Call a function or method of the submission, and count other calls meanwhile if asked to."""
     function = subject.find(request.target)
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
@@ -130,20 +144,25 @@ def call(subject: Subject, request: Call) -> Returned:
 
 
 class CallCounter:
-    """Counts how often any of some functions is called, by whatever name."""
+    """Counts how often any of some functions is called, by whatever name.
+
+    Functions are known by their code objects: replacing a name by a counting wrapper would miss
+    calls through another name, such as the one that `from contacts import collide` makes.
+    """
 
     def __init__(self, functions: list[Any]) -> None:
         self.codes = {getattr(each, "__code__", None) for each in functions}
         self.calls = 0
 
     def __enter__(self) -> "CallCounter":
-        sys.setprofile(self.look)
+        sys.setprofile(self.count_call)
         return self
 
     def __exit__(self, *_: object) -> None:
         sys.setprofile(None)
 
-    def look(self, frame: FrameType, event: str, _: object) -> None:
+    def count_call(self, frame: FrameType, event: str, _: object) -> None:
+        """The profile function: Python calls it whenever a function begins."""
         self.calls += event == "call" and frame.f_code in self.codes
 
 
