@@ -15,7 +15,7 @@ import msgspec
 import watchfiles
 from rich.console import Console
 
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Todo, load_rubric
@@ -48,7 +48,7 @@ class Watch:
     folder: Path
     options: Options
     console: Console
-    worker: WarmWorker | SpawnWorker
+    worker: Worker
     seen: Sources = field(default_factory=dict)  # as they were when last looked at
     checked: Sources = field(default_factory=dict)  # as they were when last checked
     touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown

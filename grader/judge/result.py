@@ -7,6 +7,8 @@ from msgspec import Struct, structs
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
 
+FAILED: tuple[State, ...] = ("not yet", "error")  # what there is something to say about
+
 
 class Where(Struct, frozen=True):
     file: str

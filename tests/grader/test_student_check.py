@@ -272,7 +272,7 @@ import sys
 sys.path[:0] = {folders!r}
 if {others!r}:
     import constants
-import grader.judge.plugin
+import grader.judge.drawing
 from hypothesis import given, settings, strategies
 settings.load_profile("judge")
 drawn = []
