@@ -27,8 +27,9 @@ from grader.judge.submission import (
     source_of,
     statements,
 )
-from grader.report.terminal import Teller, clean, say, show_next, show_standing
+from grader.report.terminal import Teller, say, show_next, show_standing
 from grader.todo_regions import read_source
+from grader.words import clean
 
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 

@@ -45,8 +45,8 @@ from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade, module_of
 from grader.report.files import as_json
-from grader.report.terminal import clean
 from grader.todo_regions import python_files
+from grader.words import clean
 
 NOT_DECIDING = ("classroom", "maintain", "report")  # folders of the grader that give no points
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")

@@ -14,12 +14,13 @@ import msgspec
 
 from grader.judge.filming import OpenChild, filmed
 from grader.judge.plugin import Failing
-from grader.judge.result import FAILED, CheckResult, Result, TodoResult
+from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, load_rubric
 from grader.player.film import Take
 from grader.player.page import page
 from grader.player.pairing import replay
 from grader.player.script import script, step_of
+from grader.words import named_reasons
 
 MOST_CHARACTERS = 3_000_000  # of a page
 MOST_DEATHS = 3  # of children, after which no more replays are made of a submission
@@ -58,7 +59,7 @@ class Replays:
         for old in (path, path.with_suffix(".py")):
             old.unlink(missing_ok=True)
         found = failing.get((todo.id, check.id))
-        if found is None or check.state not in FAILED or self.deaths >= MOST_DEATHS:
+        if found is None or not check.failed or self.deaths >= MOST_DEATHS:
             return check
         try:
             made = self._made(todo, check, found)
@@ -91,7 +92,7 @@ class Replays:
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
         again = script(title, reel.translator, steps, parting, words, self._paced(lab.module))
-        made = [page(title, check.reasons(), both, again), again]
+        made = [page(title, named_reasons(check), both, again), again]
         return made if len(made[0]) <= MOST_CHARACTERS else None
 
     def _paced(self, module: str) -> bool:

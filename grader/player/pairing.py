@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from grader.player.film import Both, Line, Parting, Replay, Scene, Take, numbers, thinned
 from grader.protocol import BodyLook, BodyRow, Shot
+from grader.words import about
 
 VISIBLE = 0.5  # px, and px/s where nothing has moved yet
 A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass
@@ -182,10 +183,6 @@ def off(row: BodyRow, right: BodyRow, radius: float, eye: Eye) -> str:
     if spin * radius > eye.speed:
         return f"has a spin that is {about(spin)} rad/s off"
     return ""
-
-
-def about(value: float) -> str:
-    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
 def weighs_otherwise(mine: BodyLook, right: BodyLook, share: float) -> bool:
