@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from grader.judge.children import Child
-from grader.judge.connection import Answer, Connection, Send
+from grader.judge.connection import Answer, Connection, Send, directly
 from grader.judge.decode import Decoder, Pair, Thing
 from grader.judge.failures import Broke, NotYet
 from grader.protocol import (
@@ -57,7 +57,7 @@ class Lab(Decoder):
         module: str,  # what the check imports
         open_child: Callable[[], Child],
         pieces: list[Piece],
-        send: Send = Child.ask,
+        send: Send = directly,
     ) -> None:
         super().__init__(mixed=bool(pieces))
         self.module = module

@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.judge.children import Child, clean_environment, start_worker
-from grader.judge.grade import KIT, Options, grade, shipped_reference, work_folder
+from grader.judge.grade import KIT, Options, grading, shipped_reference, work_folder
 from grader.protocol import Answered, ChildSetup, Film, Play, Ready, Request, Simulate
 from grader.worker.child import answer
 from grader.worker.film import Camera
@@ -107,12 +107,13 @@ def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
 
 def run_once(isolated: bool) -> Times:
     """One full grade of the solution."""
-    times = Times()
+    times, options = Times(), Options(shipped_reference())
     start = perf_counter()
     worker: Any = start_worker() if isolated else OpenWorker(times)
+    clocks = nullcontext() if isolated else replaced_clocks(worker.clock)
     try:
-        with nullcontext() if isolated else replaced_clocks(worker.clock):
-            result = grade(KIT / "solution", Options(shipped_reference()), worker)
+        with grading(KIT / "solution", options, worker) as run, clocks:
+            result = run.run()
     finally:
         worker.close()
     times.total = perf_counter() - start
