@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = ["CannotGrade", "Options", "Result", "__version__", "grade", "shipped_reference"]
 
-HOMES = {
+MODULES = {
     "CannotGrade": "grader.judge.submission",
     "Options": "grader.judge.grade",
     "Result": "grader.judge.result",
@@ -28,7 +28,7 @@ HOMES = {
 
 
 def __getattr__(name: str) -> object:
-    """Load the judge when somebody asks for it: a child of the worker wants nothing of it."""
-    if name not in HOMES:
+    """Load the judge only when it is asked for: children of the worker import this package too."""
+    if name not in MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(HOMES[name]), name)
+    return getattr(import_module(MODULES[name]), name)

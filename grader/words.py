@@ -1,7 +1,6 @@
-"""What is said to people, in pieces: states, reasons, points, numbers, and others' words made safe.
+"""The wording of reports: states, reasons, points, numbers, and a submission's own words made safe.
 
-The terminal, the pages, the tables, the forms for other systems and the player take them from here,
-and so they all say the same.
+The terminal, pages, tables, exports and replays all take it from here, so that they say the same.
 """
 
 import math
@@ -21,7 +20,7 @@ MAX_WORDS = 400  # characters of a submission in one line
 NAMES = 10  # columns up to the words of *Got* and the like
 
 
-# ---------------------------------------------------------------- words of others
+# ---------------------------------------------------------------- a submission's own words
 
 
 def printable(words: str) -> str:
@@ -81,12 +80,12 @@ def total(result: Result) -> str:
     return f"{result.points} / {result.max_points}{bonus}"
 
 
-def total_in_a_sentence(result: Result) -> str:
+def points_in_words(result: Result) -> str:
     bonus = f", and {result.bonus} bonus" if result.bonus else ""
     return f"{result.points} of {result.max_points} points{bonus}"
 
 
-def points_elsewhere(result: Result) -> str:
+def hidden_points_note(result: Result) -> str:
     """In a student's copy of the grader: what it has no checks for. Empty where it has them all."""
     here = {todo.id for todo in result.todos}
     points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
@@ -94,7 +93,7 @@ def points_elsewhere(result: Result) -> str:
     return words if points else ""
 
 
-def counted(number: int, noun: str) -> str:
+def plural(number: int, noun: str) -> str:
     """`1 point`, `2 points`."""
     return f"{number} {noun}" + "s" * (number != 1)
 

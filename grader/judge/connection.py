@@ -1,4 +1,4 @@
-"""One check's way to the submission: the child it asks, from its start to its end."""
+"""The connection of a check to its child: opening it, asking, and what is left when it is gone."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -25,8 +25,8 @@ Answer = Returned | Simulated | Played | Filmed
 Send = Callable[[Child, Request], Answered]
 
 
-def directly(child: Child, request: Request) -> Answered:
-    """Ask with no camera in between."""
+def ask_child(child: Child, request: Request) -> Answered:
+    """The usual `send` of a connection: nothing is recorded."""
     return child.ask(request)
 
 
@@ -34,14 +34,14 @@ def directly(child: Child, request: Request) -> Answered:
 class Connection:
     """Asks a child that it opens when first needed, and that has imported the submission then.
 
-    Requests and answers all pass through `send`: a camera puts its own in that place. `ran` is the
-    experiment that a request belongs to, for the words of a failure.
+    All requests and answers pass through `send`; filming puts a recorder there. `ran` describes the
+    experiment that a request belongs to, and becomes the line *We ran* of a failure.
     """
 
     module: str  # what is imported
     open_child: Callable[[], Child]
     pieces: list[Piece]  # of the reference, to stand in for functions of the submission
-    send: Send = directly
+    send: Send = ask_child
     swapped: list[str] = field(default_factory=list)  # the functions they stand in for
     output: str = ""
     child: Child | None = None
@@ -67,8 +67,8 @@ class Connection:
             self.swapped = reply.value.split(",") if reply.value else []
         return self.child
 
-    def begin_anew(self) -> None:
-        """Let what is asked next meet a fresh process, unless it is all over."""
+    def restart(self) -> None:
+        """End a child that still answers, so that the next request opens another one."""
         if self.child is not None and self.over is None:
             self.child.end()
             self.child = None

@@ -1,4 +1,4 @@
-"""Answers as what a check may count on: of the right type and finite, or the check fails."""
+"""Decoding answers: what a check gets is of the right type and finite, or the check fails."""
 
 import math
 from dataclasses import dataclass
@@ -27,10 +27,13 @@ class Thing:
 
 
 class Decoder:
-    """An experiment, and what its answers must be like. `what` names an answer to the student."""
+    """Turns answers into numbers and objects, and fails the check where they are none.
+
+    `what` names an answer to the student.
+    """
 
     def __init__(self, mixed: bool) -> None:
-        self.mixed = mixed  # functions of the reference answer too: their types stay unnamed
+        self.mixed = mixed  # functions of the reference run too: what they return is not shown
         self.running = ""  # the experiment, as the line *We ran* has it
         self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
 
@@ -44,9 +47,10 @@ class Decoder:
             self.fail(expected, got, meaning)
 
     def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
-        raise self.remembered(NotYet(self.running, expected, got, meaning))
+        raise self.remember(NotYet(self.running, expected, got, meaning))
 
-    def remembered(self, failure: NotYet | Broke) -> NotYet | Broke:
+    def remember(self, failure: NotYet | Broke) -> NotYet | Broke:
+        """Keep the first failure: hypothesis may run a check again and see others."""
         self.failure = self.failure or failure
         return failure
 

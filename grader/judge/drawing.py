@@ -1,7 +1,8 @@
-"""How properties draw their examples: all that the judge asks of hypothesis beyond its checks.
+"""How properties draw their examples: the judge's settings, seeds and recorded examples.
 
-Marks hang on this, and some of it has no public name in hypothesis. Those names are used here and
-nowhere else; `tests/grader/test_drawing.py` holds them, and what is drawn, to what they were.
+Marks depend on it, and hypothesis has no public names for some of it. Its private names are used
+here and nowhere else; `tests/grader/test_drawing.py` fails where an upgrade changes one of them, or
+what is drawn.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,7 +17,7 @@ EXAMPLES = 25  # per property
 
 Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
 
-JUDGE = hypothesis.settings(
+JUDGE_SETTINGS = hypothesis.settings(
     derandomize=True,
     deadline=None,
     database=None,
@@ -26,7 +27,7 @@ JUDGE = hypothesis.settings(
     phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
     suppress_health_check=list(hypothesis.HealthCheck),
 )
-hypothesis.settings.register_profile("judge", JUDGE)
+hypothesis.settings.register_profile("judge", JUDGE_SETTINGS)
 
 # Without this, examples would depend on which of our modules happen to be loaded, and on what
 # hypothesis has drawn in this process before.
@@ -36,7 +37,7 @@ providers.CONSTANTS_CACHE.cache.clear()
 
 
 @contextmanager
-def judges_settings() -> Iterator[None]:
+def judge_settings() -> Iterator[None]:
     """The judge's settings for every property that has none of its own."""
     usual = hypothesis.settings.get_current_profile_name()
     hypothesis.settings.load_profile("judge")
@@ -75,7 +76,7 @@ def seeded(function: Any, seed: int | None) -> Iterator[None]:
     """
     hypothesis.seed(seed)(function)
     if not hasattr(function, "_hypothesis_internal_settings_applied"):  # by a decorator of its own
-        function._hypothesis_internal_use_settings = JUDGE
+        function._hypothesis_internal_use_settings = JUDGE_SETTINGS
     try:
         yield
     finally:

@@ -1,4 +1,7 @@
-"""Filming: a check once more, every request with what it does to the bodies."""
+"""Filming a check: it runs once more, and each request is recorded with what it does to the bodies.
+
+The recorder is the `send` of a lab's connection, so that all requests and answers pass through it.
+"""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -47,8 +50,8 @@ OpenChild = Callable[[int], Child]  # takes the budget in CPU seconds
 
 
 @dataclass
-class Reel:
-    """What a camera at the connection of a lab sees: a line of a take for every request."""
+class Recorder:
+    """Records what passes through the connection of a lab: a line of a take for every request."""
 
     translator: Translator
     said: str = ""  # the experiment
@@ -58,22 +61,22 @@ class Reel:
     _new_take: bool = True
     _taken: int = 0
 
-    def announce(self, text: str) -> None:
-        """Another experiment begins."""
+    def begin_scene(self, text: str) -> None:
+        """Another experiment begins, which is described by `text`."""
         self.said = text
         self._new_scene = self._new_take = True
 
     def send(self, child: Child, request: Request) -> Answered:
-        """Ask the child, before the camera where there is anything to see."""
+        """Ask the child, and film what the request does unless it only loads or reads."""
         if isinstance(request, Import):
             self._new_take = True
             self.translator.forget()
             return child.ask(request)
         if isinstance(request, Get):
-            return self._unseen(child, request)
+            return self._unfilmed(child, request)
         return self._film(child, request)
 
-    def _unseen(self, child: Child, request: Request) -> Answered:
+    def _unfilmed(self, child: Child, request: Request) -> Answered:
         answered = child.ask(request)
         self._note(request, answered)
         return answered
@@ -83,7 +86,7 @@ class Reel:
         if cut:
             self._begin_take()
         if self._taken >= MOST_SHOTS:
-            return self._unseen(child, request)
+            return self._unfilmed(child, request)
         answered = child.ask(Film(moving(request), MOST_PER_REQUEST, cut))
         if not isinstance(answered.reply, Filmed):
             return msgspec.structs.replace(answered, reply=Missing("a film was asked for"))
@@ -141,15 +144,15 @@ class Reel:
 
 
 class FilmingLab(Lab):
-    """A lab with a camera at its connection."""
+    """A lab whose connection is recorded."""
 
     def __init__(self, module: str, open_child: Callable[[], Child], pieces: list[Piece]) -> None:
-        self.reel = Reel(Translator(module))
-        super().__init__(module, open_child, pieces, self.reel.send)
+        self.recorder = Recorder(Translator(module))
+        super().__init__(module, open_child, pieces, self.recorder.send)
 
     def ran(self, text: str) -> None:
         super().ran(text)
-        self.reel.announce(text)
+        self.recorder.begin_scene(text)
 
 
 def moving(request: Request) -> Request:

@@ -14,13 +14,13 @@ import msgspec
 
 from grader.judge import misconceptions
 from grader.judge.children import Child, Worker, start_worker
-from grader.judge.enclosure import Enclosure
 from grader.judge.failures import Broke, NotYet
 from grader.judge.isolation import Isolation
 from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
+from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, take_in
 from grader.todo_regions import shape_of
 
@@ -55,7 +55,7 @@ class Options:
         return not self.only or todo.id in self.only
 
 
-DEFAULT = Options()
+DEFAULT_OPTIONS = Options()
 
 
 def shipped_reference() -> Path | None:
@@ -64,7 +64,9 @@ def shipped_reference() -> Path | None:
     return folder if (folder / "mini_engine").is_dir() else None
 
 
-def grade(path: Path | str, options: Options = DEFAULT, worker: Worker | None = None) -> Result:
+def grade(
+    path: Path | str, options: Options = DEFAULT_OPTIONS, worker: Worker | None = None
+) -> Result:
     """Grade the submission at `path`, a folder or a Python file.
 
     A full grade takes seconds; the same submission and options always give the same marks. What
@@ -88,8 +90,8 @@ def grading(
         submission = take_in(path, work / "submission", rubric, load_stubs())
         ours = worker or start_worker(options.spawn)
         try:
-            enclosure = enclosed(submission.folder, work, ours, options)
-            yield Grading(options, rubric, reference, submission, enclosure)
+            sandbox = sandbox_for(submission.folder, work, ours, options)
+            yield Grading(options, rubric, reference, submission, sandbox)
         finally:
             if worker is None:
                 ours.close()
@@ -102,15 +104,15 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
         worker = start_worker()
         try:
             copy = take_in(tree, work / "tree", load_rubric(), {}).folder
-            yield enclosed(copy, work, worker, DEFAULT).open_child
+            yield sandbox_for(copy, work, worker, DEFAULT_OPTIONS).open_child
         finally:
             worker.close()
 
 
-def enclosed(copy: Path, work: Path, worker: Worker, options: Options) -> Enclosure:
-    """The enclosure of a tree: the grader and the reference are out of its children's reach."""
+def sandbox_for(copy: Path, work: Path, worker: Worker, options: Options) -> Sandbox:
+    """The sandbox of a tree: the grader and the reference are out of its children's reach."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
-    return Enclosure(copy, work, worker, options.isolation, hidden)
+    return Sandbox(copy, work, worker, options.isolation, hidden)
 
 
 @cache
@@ -140,7 +142,7 @@ class Grading:
     rubric: Rubric
     reference: Reference
     submission: Submission
-    enclosure: Enclosure
+    sandbox: Sandbox
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
 
     def run(self) -> Result:
@@ -151,7 +153,7 @@ class Grading:
             self.submission,
             self.rubric,
             self.reference,
-            self.enclosure.open_child,
+            self.sandbox.open_child,
             self.find_unusable(),
             self.options.only,
             self.options.seed,
@@ -167,16 +169,16 @@ class Grading:
         from grader.judge.replay import Replays
 
         known = frozenset(self.submission.functions)
-        replays = Replays(folder, self.enclosure.open_child, self.expected_children(), known)
+        replays = Replays(folder, self.sandbox.open_child, self.expected_children(), known)
         return replays.of(result, plugin.failing)
 
     def expected_children(self) -> Callable[[int], Child] | None:
         """A way to open children of the reference itself, to see what should happen."""
         if self.options.reference is None:
             return None
-        work = Path(tempfile.mkdtemp(dir=self.enclosure.work))  # a name that nobody can guess
+        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
         copy = take_in(self.options.reference, work / "tree", self.rubric, {}).folder
-        return enclosed(copy, work, self.enclosure.worker, self.options).open_child
+        return sandbox_for(copy, work, self.sandbox.worker, self.options).open_child
 
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""
@@ -187,7 +189,7 @@ class Grading:
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:
-            lab = Lab(module, lambda: self.enclosure.open_child(10, compiles=True), [])
+            lab = Lab(module, lambda: self.sandbox.open_child(10, compiles=True), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:
@@ -223,7 +225,7 @@ class Grading:
             points=0,
             max_points=0,
             bonus=0,
-            isolation=self.enclosure.layers,
+            isolation=self.sandbox.layers,
             todos=[],
         )
         return nothing.with_todos(todos)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from grader.judge.children import Child
-from grader.judge.connection import Answer, Connection, Send, directly
+from grader.judge.connection import Answer, Connection, Send, ask_child
 from grader.judge.decode import Decoder, Pair, Thing
 from grader.judge.failures import Broke, NotYet
 from grader.protocol import (
@@ -57,7 +57,7 @@ class Lab(Decoder):
         module: str,  # what the check imports
         open_child: Callable[[], Child],
         pieces: list[Piece],
-        send: Send = directly,
+        send: Send = ask_child,
     ) -> None:
         super().__init__(mixed=bool(pieces))
         self.module = module
@@ -210,7 +210,7 @@ class Lab(Decoder):
         A second run has a process of its own: main() may count on being run once.
         """
         if self.played:
-            self.connection.begin_anew()
+            self.connection.restart()
         self.played = True
         request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
@@ -233,7 +233,7 @@ class Lab(Decoder):
         try:
             return self.connection.ask(request, self.running)
         except (Broke, NotYet) as failure:
-            self.remembered(failure)
+            self.remember(failure)
             raise
 
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis.errors import Flaky
 
 from grader.judge.children import Child
-from grader.judge.drawing import Example, judges_settings, kept_examples, seeded
+from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
@@ -228,7 +228,7 @@ def settled_environment() -> Iterator[None]:
         del os.environ[name]
     os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
     try:
-        with judges_settings():
+        with judge_settings():
             yield
     finally:
         del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]

@@ -77,21 +77,21 @@ class Replays:
         """The page and the script, or None where nothing is to be seen."""
         lab = filmed(failing, self.open_child, failing.pieces)
         self.deaths += lab.ended
-        reel = lab.reel
-        shown = reel.shown(check.kind == "property")
-        yours = [take for takes in reel.scenes[shown] for take in takes]
+        recorder = lab.recorder
+        shown = recorder.shown(check.kind == "property")
+        yours = [take for takes in recorder.scenes[shown] for take in takes]
         if not any(take.lines for take in yours):
             return None
-        count = len(reel.scenes)
+        count = len(recorder.scenes)
         right = self._expected(failing)[:count]
         expected = [take for takes in right[shown] for take in takes] if len(right) == count else []
-        steps = [step for steps in reel.steps[shown] for step in steps]
+        steps = [step for steps in recorder.steps[shown] for step in steps]
         both = replay(yours, expected, exact=self.open_reference is not None)
         parting = step_of(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
-        again = script(title, reel.translator, steps, parting, words, self._paced(lab.module))
+        again = script(title, recorder.translator, steps, parting, words, self._paced(lab.module))
         made = [page(title, named_reasons(check), both, again), again]
         return made if len(made[0]) <= MOST_CHARACTERS else None
 
@@ -103,7 +103,7 @@ class Replays:
     def _expected(self, failing: Failing) -> list[list[Take]]:
         """The scenes of the right run: the reference's, or what was recorded of it."""
         if self.open_reference is not None:
-            return filmed(failing, self.open_reference, []).reel.scenes
+            return filmed(failing, self.open_reference, []).recorder.scenes
         return recorded().get(f"{failing.todo.id}/{failing.check.id}", [])
 
 
@@ -129,7 +129,7 @@ def record_expected(open_child: OpenChild) -> bytes:
         for check in todo.checks:
             if check.kind != "property" and not check.hidden:
                 failing = Failing(todo, check, getattr(checks, check.id), [])
-                scenes = filmed(failing, open_child, []).reel.scenes
+                scenes = filmed(failing, open_child, []).recorder.scenes
                 for take in (take for takes in scenes for take in takes):
                     take.lines = [msgspec.structs.replace(x, code="") for x in take.lines]
                 runs[f"{todo.id}/{check.id}"] = scenes

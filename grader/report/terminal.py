@@ -17,9 +17,9 @@ from grader.words import (
     NAMES,
     clean,
     command,
-    counted,
+    hidden_points_note,
     place_of,
-    points_elsewhere,
+    plural,
     reasons,
     task_of,
     total,
@@ -107,13 +107,13 @@ def reason(check: CheckResult) -> tuple[str, ...]:
 
 
 def subject(checks: list[CheckResult]) -> str:
-    return checks[0].title if len(checks) == 1 else counted(len(checks), "check")
+    return checks[0].title if len(checks) == 1 else plural(len(checks), "check")
 
 
 def show_standing(result: Result, teller: Teller) -> None:
     """Print what a student wants to know: the result, what its words mean, and what comes next."""
     teller.tell(result)
-    if words := points_elsewhere(result):
+    if words := hidden_points_note(result):
         say(words, teller.console)
     teller.console.print()
     show_states(result, teller.console)

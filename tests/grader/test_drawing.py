@@ -1,7 +1,7 @@
-"""Hypothesis draws as it did when the marks were settled, and still has the names we need for it.
+"""Hypothesis draws the recorded examples, and still has the private names that we use.
 
-A failure here after an upgrade means that other examples are asked than before. Marks may change:
-look at what hypothesis changed, mend `grader/judge/drawing.py`, and grade the whole bank.
+A failure after an upgrade means that properties are tried on other examples, so that marks may
+change: see what hypothesis changed, adapt `grader/judge/drawing.py`, and run `make verify`.
 """
 
 import pytest
@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.internal.conjecture import providers
 
-from grader.judge.drawing import EXAMPLES, JUDGE, NO_CONSTANTS, kept_examples, seeded
+from grader.judge.drawing import EXAMPLES, JUDGE_SETTINGS, NO_CONSTANTS, kept_examples, seeded
 
 RECORDED = [  # the first of 25
     (0, 0.0),
@@ -72,7 +72,7 @@ def test_the_judges_settings_hold_where_a_property_has_none_of_its_own():
     assert hasattr(one_with_settings, "_hypothesis_internal_settings_applied")
     assert not hasattr(a_property, "_hypothesis_internal_settings_applied")
     with seeded(a_property, None):
-        assert a_property._hypothesis_internal_use_settings is JUDGE
+        assert a_property._hypothesis_internal_use_settings is JUDGE_SETTINGS
     assert len(drawn(one_with_settings)) == 3
 
 

@@ -3,7 +3,7 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.words import clean, named, reasons, total_in_a_sentence
+from grader.words import clean, named, points_in_words, reasons
 
 
 def gradescope(result: Result) -> bytes:
@@ -20,7 +20,7 @@ def gradescope(result: Result) -> bytes:
         msgspec.json.encode(
             {
                 "score": result.points,
-                "output": total_in_a_sentence(result),
+                "output": points_in_words(result),
                 "output_format": "text",
                 "test_output_format": "text",
                 "visibility": "visible",

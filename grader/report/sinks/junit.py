@@ -3,7 +3,7 @@
 from xml.etree import ElementTree as ET
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.words import clean, counted, named, reasons
+from grader.words import clean, named, plural, reasons
 
 TAGS: dict[State, str] = {
     "not yet": "failure",
@@ -41,7 +41,7 @@ def count(todos: list[TodoResult], tag: str) -> int:
 def add_case(suite: ET.Element, check: CheckResult) -> None:
     """A case is named alike in every run, so that runs can be compared; GitLab shows classnames."""
     case = ET.SubElement(suite, "testcase", classname=suite.attrib["name"])
-    case.set("name", f"{check.title} ({counted(check.max_points, 'point')})")
+    case.set("name", f"{check.title} ({plural(check.max_points, 'point')})")
     if tag := TAGS.get(check.state):
         told = ET.SubElement(case, tag, message=clean(check.got) or check.state)
         if tag != "skipped":

@@ -5,7 +5,7 @@ from itertools import accumulate
 
 from grader.judge.isolation import unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.words import clean, named, points_elsewhere, reasons, task_of, total_in_a_sentence
+from grader.words import clean, hidden_points_note, named, points_in_words, reasons, task_of
 
 ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 KiB
 
@@ -16,9 +16,9 @@ def markdown(result: Result) -> str:
     A submission's words stand in fenced lines that begin with a word of ours, so that none of them
     can end the fence.
     """
-    elsewhere = points_elsewhere(result)
+    elsewhere = hidden_points_note(result)
     lines = [
-        f"## {literal(result.submission)}: {total_in_a_sentence(result)}",
+        f"## {literal(result.submission)}: {points_in_words(result)}",
         "",
         "| TODO | | state | points |",
         "|---|---|---|--:|",

@@ -1,4 +1,4 @@
-"""Where the children of one tree live: its copy, what is out of their reach, what shuts them in."""
+"""The sandbox of one tree: what its children may reach, and which layers of isolation hold them."""
 
 import tempfile
 from dataclasses import dataclass, field
@@ -11,18 +11,18 @@ from grader.protocol import ChildSetup, Limits
 
 
 @dataclass
-class Enclosure:
-    """Opens children that meet one tree, a submission or the reference, and nothing else."""
+class Sandbox:
+    """Opens children that import one tree, a submission or the reference, and reach no other."""
 
     tree: Path  # a read-only copy
     work: Path  # a folder of ours, for what they write
     worker: Worker
     isolation: Isolation
     hidden: list[str]  # folders that must be out of reach
-    layers: list[str] = field(default_factory=list)  # what shut in the child opened last
+    layers: list[str] = field(default_factory=list)  # of isolation around the last child
 
     def open_child(self, cpu_seconds: int, compiles: bool = False) -> Child:
-        """A child with this budget; one that `compiles` leaves compiled files to the others."""
+        """A child with this budget; one that `compiles` keeps its bytecode for the others."""
         bytecode = self.work / "bytecode"
         bytecode.mkdir(exist_ok=True)
         child = self.worker.open(
@@ -40,7 +40,7 @@ class Enclosure:
         return child
 
     def _layers_around(self, child: Child) -> list[str]:
-        """What shuts this child in; CannotGrade, with nothing run, if that is not enough."""
+        """The layers around this child; raises CannotGrade, before it runs, if they are too few."""
         if self.isolation == "none":
             return ["processes"]
         layers = ["processes", *child.ready.layers, *self.worker.layers]
