@@ -16,7 +16,19 @@ from msgspec import Struct
 
 MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
 RUNAWAY = 2000  # steps in one frame at which a program is stopped
+MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot of a film
 HEADER = struct.Struct(">I")
+
+# What every child finds in its environment, whatever stood in ours: a window that nobody sees,
+# sets in the same order each time, English, and one clock.
+ENVIRONMENT = {
+    "SDL_VIDEODRIVER": "dummy",
+    "SDL_AUDIODRIVER": "dummy",
+    "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+    "PYTHONHASHSEED": "0",
+    "LANG": "C.UTF-8",
+    "TZ": "UTC",
+}
 
 # ---------------------------------------------------------------- values
 

@@ -15,7 +15,7 @@ import msgspec
 import watchfiles
 from rich.console import Console
 
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Todo, load_rubric
@@ -27,8 +27,9 @@ from grader.judge.submission import (
     source_of,
     statements,
 )
-from grader.report.terminal import Teller, clean, say, show_next, show_standing
+from grader.report.terminal import Teller, say, show_next, show_standing
 from grader.todo_regions import read_source
+from grader.words import clean
 
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 
@@ -48,7 +49,7 @@ class Watch:
     folder: Path
     options: Options
     console: Console
-    worker: WarmWorker | SpawnWorker
+    worker: Worker
     seen: Sources = field(default_factory=dict)  # as they were when last looked at
     checked: Sources = field(default_factory=dict)  # as they were when last checked
     touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from grader.player.film import Both, Line, Parting, Replay, Scene, Take, numbers, thinned
 from grader.protocol import BodyLook, BodyRow, Shot
+from grader.words import about
 
 VISIBLE = 0.5  # px, and px/s where nothing has moved yet
 A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass
@@ -177,18 +178,14 @@ def body_difference(row: BodyRow, right: BodyRow, radius: float, tolerance: Tole
     turned, spin = abs(row.angle - right.angle), abs(row.omega - right.omega)
     faster = math.dist((row.vx, row.vy), (right.vx, right.vy))
     if away > tolerance.place:
-        return f"is {in_few_digits(away)} px off"
+        return f"is {about(away)} px off"
     if turned * radius > tolerance.place:
-        return f"is turned by {in_few_digits(turned)} rad too much or too little"
+        return f"is turned by {about(turned)} rad too much or too little"
     if faster > tolerance.speed:
-        return f"has a velocity that is {in_few_digits(faster)} px/s off"
+        return f"has a velocity that is {about(faster)} px/s off"
     if spin * radius > tolerance.speed:
-        return f"has a spin that is {in_few_digits(spin)} rad/s off"
+        return f"has a spin that is {about(spin)} rad/s off"
     return ""
-
-
-def in_few_digits(value: float) -> str:
-    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
 def mass_differs(mine: BodyLook, right: BodyLook, share: float) -> bool:

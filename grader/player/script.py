@@ -29,6 +29,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
+from grader.words import printable
 
 MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
@@ -286,7 +287,7 @@ def imported(translator: Translator, body: str) -> Iterator[str]:
 
 def comment(text: str) -> str:
     """On one line, whatever a submission put into it."""
-    line = "".join(c if c.isprintable() else " " for c in text)
+    line = printable(text)
     return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
 
 

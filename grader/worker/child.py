@@ -16,6 +16,7 @@ import msgspec
 import pygame.sysfont
 
 from grader.protocol import (
+    ENVIRONMENT,
     Answered,
     Asked,
     Call,
@@ -169,9 +170,7 @@ class CallCounter:
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
     wanted = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
-    wanted |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
-    wanted |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONHASHSEED": "0"}
-    wanted |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "LANG": "C.UTF-8", "TZ": "UTC"}
+    wanted |= ENVIRONMENT | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
     for name in set(os.environ) - set(wanted):
         del os.environ[name]
     for name in wanted:

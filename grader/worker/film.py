@@ -12,10 +12,21 @@ from typing import Any
 
 import pymunk
 
-from grader.protocol import BodyLook, BodyRow, Film, Filmed, Reply, ShapeLook, Shot, TouchRow
+from grader.protocol import (
+    MAX_BODIES,
+    MAX_RODS,
+    MAX_TOUCHES,
+    BodyLook,
+    BodyRow,
+    Film,
+    Filmed,
+    Reply,
+    ShapeLook,
+    Shot,
+    TouchRow,
+)
 from grader.worker.subject import Subject, field, field_number, field_pair, shape_order
 
-MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot; the judge keeps no more
 MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
 
 Ends = tuple[float, float, float, float]
