@@ -9,7 +9,7 @@ import pytest
 from pygame import Vector2
 
 import mini_engine
-from mini_engine import STEP, Body, BonusWorld, Box, Circle, DistanceJoint, SpringJoint, World
+from mini_engine import STEP, Body, BonusWorld, Box, Circle, SpringJoint
 
 LONG = 1e5  # px
 
