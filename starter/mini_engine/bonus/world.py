@@ -34,7 +34,7 @@ class BonusWorld(World):
 
     def moving_bodies(self):
         """The bodies that are neither static nor asleep."""
-        return [body for body in super().moving_bodies() if not body.asleep]
+        return [body for body in self.bodies if not (body.asleep or body.is_static)]
 
     def apply_forces(self, dt):
         """The springs are forces as well. They see the velocities from before this step."""
