@@ -191,7 +191,10 @@ class MakeBody(Struct, frozen=True, tag="make_body"):
 
 
 class MakeWorld(Struct, frozen=True, tag="make_world"):
-    """A lesson world with bodies added and joints appended."""
+    """A lesson world with bodies added and joints appended.
+
+    `bonus`: the world that the bonus tasks attach to, where the submission has one of its own.
+    """
 
     module: str
     gravity: Vec
@@ -199,6 +202,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
     angular_damping: float
     bodies: list[int] = []
     joints: list[int] = []
+    bonus: bool = False
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):

@@ -148,8 +148,12 @@ class Lab(Decoder):
         linear_damping: float = 0.0,
         angular_damping: float = 0.0,
         joints: Sequence[Thing] = (),
+        bonus: bool = False,
     ) -> Thing:
-        """A World with these bodies; without gravity and damping unless asked for."""
+        """A World with these bodies; without gravity and damping unless asked for.
+
+        `bonus`: the world of the bonus tasks. Older submissions have one World for everything.
+        """
         request = MakeWorld(
             self.module,
             Vec(*gravity),
@@ -157,6 +161,7 @@ class Lab(Decoder):
             angular_damping,
             [body.ref for body in bodies],
             [joint.ref for joint in joints],
+            bonus,
         )
         return self.thing(self._value(request), "a World")
 

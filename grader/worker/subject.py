@@ -205,7 +205,9 @@ class Subject:
         return body
 
     def make_world(self, request: MakeWorld) -> Any:
-        world = self.find(f"{request.module}:World")(
+        known = vars(self.module_with("BonusWorld", request.module))
+        kind = "BonusWorld" if request.bonus and "BonusWorld" in known else "World"
+        world = self.find(f"{request.module}:{kind}")(
             gravity=self.decode(request.gravity),
             linear_damping=request.linear_damping,
             angular_damping=request.angular_damping,

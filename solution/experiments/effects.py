@@ -18,6 +18,7 @@ from pathlib import Path
 
 from mini_engine import contacts as lesson_contacts
 from mini_engine import joints, solver, world
+from mini_engine.bonus.world import with_bonus
 from stable_engine import bullets, contact, contacts, friction, rods, springs
 
 from . import effects_report
@@ -186,6 +187,11 @@ def rows_of(effect):
     return len(effect.ball_rows) + len(effect.static_rows)
 
 
+def has_work(world):
+    """Whether there is anything to solve in a lesson's world."""
+    return bool(world.contacts or world.joints)
+
+
 def awake(effect):
     """How many joints one pass goes over."""
     return len(effect.awake)
@@ -203,7 +209,7 @@ STABLE_WORK = [
 ]
 LESSON_WORK = [
     ("pairs", lesson_contacts.collide, one),
-    ("solver runs", world.World.solve, one),
+    ("solver runs", world.World.solve, has_work),
     ("contact solves", solver.solve_normal, one),
     ("friction solves", solver.solve_friction, one),
     ("rod solves", joints.DistanceJoint.solve, one),
@@ -297,10 +303,10 @@ def bonus_list(balls, rounds):
     scene = packed(balls)
     cases = {
         "before": RepeatedStep(Lesson(scene)),
-        "B3: a grid": RepeatedStep(with_bonus(Lesson(scene), grid=True)),
-        "B1: sleep, all awake": RepeatedStep(with_bonus(Lesson(scene), sleeping=True)),
+        "B3: a grid": RepeatedStep(bonus_engine(scene, grid=True)),
+        "B1: sleep, all awake": RepeatedStep(bonus_engine(scene, sleeping=True)),
         # Between sleepers no pair is looked at: here the grid only shortens the wait.
-        "B1: asleep": RepeatedStep(with_bonus(Lesson(scene), sleeping=True, grid=True), "asleep"),
+        "B1: asleep": RepeatedStep(bonus_engine(scene, sleeping=True, grid=True), "asleep"),
     }
     counted = {title: count(repeated, LESSON_WORK) for title, repeated in cases.items()}
     times = clock(cases, max(1, rounds // 20, rounds * 40**2 // balls**2))
@@ -310,15 +316,17 @@ def bonus_list(balls, rounds):
     ]
 
 
-def with_bonus(engine, sleeping=False, grid=False):
-    """Switch bonus tasks on in a lesson's engine, and return it."""
+def bonus_engine(scene, sleeping=False, grid=False):
+    """A lesson's engine in whose world these bonus tasks are switched on."""
+    engine = Lesson(scene)
+    engine.world = with_bonus(engine.world)
     engine.world.sleeping, engine.world.grid = sleeping, grid
     return engine
 
 
 def sleepers(engine):
     """How many bodies of a lesson's engine are asleep."""
-    return sum(body.asleep for body in engine.bodies)
+    return sum(getattr(body, "asleep", False) for body in engine.bodies)
 
 
 def measure(sizes=SIZES, rounds=ROUNDS, heaps=HEAPS):
