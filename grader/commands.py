@@ -15,13 +15,13 @@ console = Console(highlight=False, markup=False)
 
 
 def stop(message: str, cannot: str = "grade") -> NoReturn:
-    """Say why there is no going on; exit status 2."""
+    """End the command with exit status 2, and say why."""
     Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {message}")
     raise typer.Exit(2)
 
 
 def known_todos(todos: list[str] | None) -> frozenset[str]:
-    """The TODOs that somebody named, all of them known."""
+    """The TODOs named on the command line; an unknown one ends the command."""
     known = [todo.id for todo in load_rubric().todos]
     for todo in todos or ():
         if todo not in known:
@@ -30,7 +30,7 @@ def known_todos(todos: list[str] | None) -> frozenset[str]:
 
 
 def graded(path: Path, options: Options) -> Result:
-    """The result of one submission; a folder that cannot be graded stops the command."""
+    """The result of one submission; a folder that cannot be graded ends the command."""
     try:
         return grade(path, options)
     except CannotGrade as error:

@@ -16,7 +16,20 @@ from msgspec import Struct
 
 MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
 RUNAWAY = 2000  # steps in one frame at which a program is stopped
+MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot of a film
 HEADER = struct.Struct(">I")
+
+# What every child finds in its environment, whatever stood in ours: a window that nobody sees,
+# sets in the same order each time, English, and one clock.
+ENVIRONMENT = {
+    "SDL_VIDEODRIVER": "dummy",
+    "SDL_AUDIODRIVER": "dummy",
+    "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+    "PYTHONHASHSEED": "0",
+    "LANG": "C.UTF-8",
+    "TZ": "UTC",
+    "OPENBLAS_NUM_THREADS": "1",  # or numpy wants memory for each core that there is
+}
 
 # ---------------------------------------------------------------- values
 
@@ -181,7 +194,10 @@ class MakeBody(Struct, frozen=True, tag="make_body"):
 
 
 class MakeWorld(Struct, frozen=True, tag="make_world"):
-    """A lesson world with bodies added and joints appended."""
+    """A lesson world with bodies added and joints appended.
+
+    `bonus`: the world that the bonus tasks attach to, where the submission has one of its own.
+    """
 
     module: str
     gravity: Vec
@@ -189,6 +205,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
     angular_damping: float
     bodies: list[int] = []
     joints: list[int] = []
+    bonus: bool = False
 
 
 class Simulate(Struct, frozen=True, tag="simulate"):

@@ -11,7 +11,8 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
-from grader.report.terminal import Teller, command, say, show_standing
+from grader.report.terminal import Teller, say, show_standing
+from grader.words import command
 
 app = typer.Typer()
 
@@ -34,7 +35,7 @@ def check_command(
 
 
 def watched(folder: Path, options: Options) -> Result:
-    """The last result of a watch that somebody ended."""
+    """Check after each save until Ctrl-C; returns the last result."""
     from grader.watch import watch
 
     try:

@@ -15,7 +15,7 @@ import msgspec
 import watchfiles
 from rich.console import Console
 
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Worker, start_worker
 from grader.judge.definitions import function_named, source_of, statements
 from grader.judge.grade import Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
@@ -25,8 +25,9 @@ from grader.judge.submission import (
     module_of,
     plain_files,
 )
-from grader.report.terminal import Teller, clean, say, show_next, show_standing
+from grader.report.terminal import Teller, say, show_next, show_standing
 from grader.todo_regions import read_source
+from grader.words import clean
 
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 
@@ -46,7 +47,7 @@ class Watch:
     folder: Path
     options: Options
     console: Console
-    worker: WarmWorker | SpawnWorker
+    worker: Worker
     seen: Sources = field(default_factory=dict)  # as they were when last looked at
     checked: Sources = field(default_factory=dict)  # as they were when last checked
     touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown
@@ -216,7 +217,7 @@ def python_sources(folder: Path) -> Sources:
 
 
 def folders_of(folder: Path) -> list[Path]:
-    """The folders to watch, without the virtual environment and its thousands."""
+    """The folders to watch, without the virtual environment and its thousands of files."""
     return sorted({folder, *(each.parent for each in plain_files(folder))})
 
 

@@ -113,55 +113,61 @@ def shoot_scene(screen, order):
     """The scene of the window after some frames, with a dot where each body has been."""
     import pygame
 
-    program, world, places = open_scene(order["module"])
+    advance, world, draw, places = open_scene(order["module"], screen)
     accumulator, trail = 0.0, []
     for frame in range(order["frames"]):
-        accumulator, _ = program.advance(world, accumulator, order["frame"])
+        accumulator, _ = advance(world, accumulator, order["frame"])
         if frame % TRAIL_EVERY == 0:
             trail.append(places())
-    program.draw(screen, pygame.font.Font(None, 26), world)
+    draw()
     for bodies in trail:
         for place, color in bodies:
             pygame.draw.circle(screen, color, place, 2)
 
 
-def open_scene(module):
-    """The module with the drawing, its world, and what tells the places of the moving bodies."""
-    rng = random.Random(12)
+def open_scene(module, screen):
+    """What advances it, its world, what draws it, and what tells the places of moving bodies."""
+    import pygame
+
     if module == "pymunk_scene":
         import pymunk_scene
 
-        space, _ = pymunk_scene.make_space(rng)
+        space, _ = pymunk_scene.make_space(random.Random(12))
 
         def in_space():
             return [(body.position, next(iter(body.shapes)).color) for body in space.bodies]
 
-        return pymunk_scene, space, in_space
-    from mini_engine import game_loop, make_world
+        def draw():
+            pymunk_scene.draw(screen, pygame.font.Font(None, 26), space)
 
-    world = make_world(rng)
+        return pymunk_scene.advance, space, draw, in_space
+    from mini_engine import BonusWindow, advance
+
+    window = BonusWindow()
+    world = window.world
 
     def in_world():
         return [(body.pos.xy, body.color) for body in world.moving_bodies()]
 
-    return game_loop, world, in_world
+    return advance, world, window.draw, in_world
 
 
 def shoot_thrown(screen, friction):
     """A ball thrown along the floor at 300 px/s, seen every quarter of a second."""
     import pygame
 
-    from mini_engine import STEP, Body, Box, Circle, World, game_loop
+    from mini_engine import STEP, Body, Box, Circle, Window, World
+    from mini_engine.game_loop import BACKGROUND
 
-    world = World()
+    window, world = Window(), World()
     floor = world.add(Body(Box((450, 20)), (450, 200), friction=friction, color=(84, 90, 104)))
     ball = world.add(Body(Circle(22), (60, 158), mass=4.84, friction=friction))
     ball.vel.x, ball.color = 300, (235, 190, 80)
-    screen.fill(game_loop.BACKGROUND)
-    game_loop.draw_body(screen, floor)
+    screen.fill(BACKGROUND)
+    window.draw_body(floor, floor.color)
     for step in range(round(2.6 / STEP)):
         if step % round(STROBE_EVERY / STEP) == 0:
-            game_loop.draw_body(screen, ball)
+            window.draw_body(ball, ball.color)
         world.step(STEP)
     cut = screen.subsurface((0, 90, 900, 150)).copy()
     pygame.display.set_mode((900, 150)).blit(cut, (0, 0))

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
@@ -12,13 +13,17 @@ Right = Touch | None
 Model = Callable[[Disc, Rect], Answer]
 Change = Callable[[Touch, Disc, Rect], Touch]
 
+known = partial(mistake, "1", "circle_box")
+
 FAR = 4096.0  # px, beyond every distance that a check asks about
 
 
-@truth("order")
 def circle_first() -> tuple[bool, bool]:
     """Whether the contact's A is the circle, and its B the box."""
     return True, True
+
+
+truth("order", circle_first)
 
 
 def right(disc: Disc, rect: Rect) -> Right:
@@ -28,11 +33,7 @@ def right(disc: Disc, rect: Rect) -> Right:
     return answers[0]
 
 
-truth("circle_box")(right)
-
-
-def known(name: str, meaning: str) -> Callable[[Model], Model]:
-    return mistake("1", name, meaning, about="circle_box")
+truth("circle_box", right)
 
 
 def is_inside(disc: Disc, rect: Rect) -> bool:
@@ -76,54 +77,50 @@ def any_distance(disc: Disc, rect: Rect) -> Touch:
 
 mistake(
     "1",
+    "order",
     "the-box-comes-first",
     "The box is body A of the contact; the circle must be A and the box B.",
-    about="order",
-)(lambda: (False, False))
-
-
-@known(
-    "normal-points-out-of-the-box",
-    "The normal points from the box to the circle; it must point from A, the circle, into B.",
+    lambda: (False, False),
 )
+
+
 def normal_points_out(disc: Disc, rect: Rect) -> Answer:
     answer = right(disc, rect)
     return answer and turned(answer)
 
 
-@known(
+known(
+    "normal-points-out-of-the-box",
+    "The normal points from the box to the circle; it must point from A, the circle, into B.",
+    normal_points_out,
+)
+known(
     "inside-is-forgotten",
     "There is no answer for a centre inside the box: a fast ball that got in never comes out.",
+    lambda disc, rect: None if is_inside(disc, rect) else right(disc, rect),
 )
-def inside_forgotten(disc: Disc, rect: Rect) -> Answer:
-    return None if is_inside(disc, rect) else right(disc, rect)
-
-
 known(
     "inside-normal-points-out",
     "For a centre inside, the normal is the way out; it must point the opposite way, into the box.",
-)(inside(lambda touch, disc, rect: turned(touch)))
-
+    inside(lambda touch, disc, rect: turned(touch)),
+)
 known(
     "inside-depth-forgets-the-gap",
     "For a centre inside, the depth is radius + gap: the circle has the gap to leave as well.",
-)(inside(lambda touch, disc, rect: touch._replace(depth=disc.r)))
-
+    inside(lambda touch, disc, rect: touch._replace(depth=disc.r)),
+)
 known(
     "inside-depth-is-the-gap",
     "For a centre inside, the depth is the gap; the circle has its radius to leave as well.",
-)(inside(lambda touch, disc, rect: touch._replace(depth=touch.depth - disc.r)))
-
+    inside(lambda touch, disc, rect: touch._replace(depth=touch.depth - disc.r)),
+)
 known(
     "inside-point-is-the-centre",
     "For a centre inside, the point is the centre; it must lie on the face it leaves through.",
-)(inside(lambda touch, disc, rect: touch._replace(px=disc.x, py=disc.y)))
-
-
-@known(
-    "inside-leaves-by-the-farthest-face",
-    "A centre inside leaves by the face that is farthest away; it must take the nearest.",
+    inside(lambda touch, disc, rect: touch._replace(px=disc.x, py=disc.y)),
 )
+
+
 def farthest_face(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
@@ -133,10 +130,13 @@ def farthest_face(disc: Disc, rect: Rect) -> Answer:
     return deepest[0]
 
 
-@known(
-    "inside-always-leaves-by-the-top",
-    "A centre inside always leaves by the top; it must take the nearest of the four faces.",
+known(
+    "inside-leaves-by-the-farthest-face",
+    "A centre inside leaves by the face that is farthest away; it must take the nearest.",
+    farthest_face,
 )
+
+
 def top_face(disc: Disc, rect: Rect) -> Answer:
     if not is_inside(disc, rect):
         return right(disc, rect)
@@ -144,75 +144,82 @@ def top_face(disc: Disc, rect: Rect) -> Answer:
 
 
 known(
+    "inside-always-leaves-by-the-top",
+    "A centre inside always leaves by the top; it must take the nearest of the four faces.",
+    top_face,
+)
+known(
     "depth-is-the-distance",
     "The depth is the distance to the closest point; it must be radius - distance.",
-)(outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)))
-
-
-@known(
+    outside(lambda touch, disc, rect: touch._replace(depth=disc.r - touch.depth)),
+)
+known(
     "normal-is-not-a-unit-vector",
     "The normal is as long as the distance; divide by it, so that its length is 1.",
+    outside(lambda touch, disc, rect: with_normal(touch, touch.px - disc.x, touch.py - disc.y)),
 )
-@outside
-def long_normal(touch: Touch, disc: Disc, rect: Rect) -> Touch:
-    return with_normal(touch, touch.px - disc.x, touch.py - disc.y)
 
 
-@known(
-    "normal-points-at-the-centre-of-the-box",
-    "The normal points at the centre of the box; it must point at the closest point.",
-)
-@outside
 def normal_to_centre(touch: Touch, disc: Disc, rect: Rect) -> Touch:
     dx, dy = rect.x - disc.x, rect.y - disc.y
     return with_normal(touch, dx / math.hypot(dx, dy), dy / math.hypot(dx, dy))
 
 
-@known(
+known(
+    "normal-points-at-the-centre-of-the-box",
+    "The normal points at the centre of the box; it must point at the closest point.",
+    outside(normal_to_centre),
+)
+known(
     "point-lies-on-the-circle",
     "The point lies on the circle's edge; it must be the closest point of the box.",
+    outside(
+        lambda touch, disc, rect: touch._replace(
+            px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r
+        )
+    ),
 )
-@outside
-def point_on_circle(touch: Touch, disc: Disc, rect: Rect) -> Touch:
-    return touch._replace(px=disc.x + touch.nx * disc.r, py=disc.y + touch.ny * disc.r)
 
 
 def fails_inside(error: str) -> Model:
     return lambda disc, rect: error if is_inside(disc, rect) else right(disc, rect)
 
 
-for error in ("ValueError", "ZeroDivisionError"):  # of normalize(), and of a division
-    known(
-        "inside-normalises-zero",
-        "Inside, the closest point is the centre: the offset is 0 long and has no direction.",
-    )(fails_inside(error))
-
-
-@known("apart-is-not-noticed", "A circle apart from the box gets a contact; it must get None.")
-def never_none(disc: Disc, rect: Rect) -> Answer:
-    return any_distance(disc, rect)
-
-
-@known(
-    "touching-counts-as-overlap",
-    "A circle that only touches the box gets a contact; None is for distance = radius too.",
+known(
+    "inside-normalises-zero",
+    "Inside, the closest point is the centre: the offset is 0 long and has no direction.",
+    fails_inside("ValueError"),  # of normalize()
+    fails_inside("ZeroDivisionError"),
 )
+known(
+    "apart-is-not-noticed",
+    "A circle apart from the box gets a contact; it must get None.",
+    lambda disc, rect: any_distance(disc, rect),
+)
+
+
 def touching(disc: Disc, rect: Rect) -> Answer:
     touch = any_distance(disc, rect)
     return touch if touch.depth >= 0 else None
 
 
 known(
+    "touching-counts-as-overlap",
+    "A circle that only touches the box gets a contact; None is for distance = radius too.",
+    touching,
+)
+known(
     "half-is-taken-for-the-full-size",
     "The box is half as large as it should be: half holds half of the sides already.",
-)(lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2, hy=rect.hy / 2)))
-
+    lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2, hy=rect.hy / 2)),
+)
 known(
     "position-is-taken-for-a-corner",
     "The box's position is taken for its top left corner; it is the centre.",
-)(lambda disc, rect: right(disc, rect._replace(x=rect.x + rect.hx, y=rect.y + rect.hy)))
-
+    lambda disc, rect: right(disc, rect._replace(x=rect.x + rect.hx, y=rect.y + rect.hy)),
+)
 known(
     "clamp-is-turned-round",
     "The closest point is always the top left corner: min and max have changed places.",
-)(lambda disc, rect: right(disc, Rect(rect.x - rect.hx, rect.y - rect.hy, 0.0, 0.0)))
+    lambda disc, rect: right(disc, Rect(rect.x - rect.hx, rect.y - rect.hy, 0.0, 0.0)),
+)

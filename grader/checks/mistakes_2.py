@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Lever, Pair, cross, inverse
@@ -9,11 +10,9 @@ from grader.judge.misconceptions import Undecided, mistake, truth
 
 Sum = Callable[[Lever, Lever, Pair], float]
 
-truth("effective_mass")(exact.effective_mass)
+truth("effective_mass", exact.effective_mass)
 
-
-def known(name: str, meaning: str) -> Callable[[Sum], Sum]:
-    return mistake("2", name, meaning, about="effective_mass")
+known = partial(mistake, "2", "effective_mass")
 
 
 def masses(a: Lever, b: Lever) -> float:
@@ -37,49 +36,55 @@ def lever_cross(lever: Lever, axis: Pair) -> float:
     return cross((lever.rx, lever.ry), axis)
 
 
-known("no-spin-terms", "Only the masses are in the sum; a body also gives way by turning.")(
-    lambda a, b, axis: masses(a, b)
-)
-
-known("second-body-forgotten", "Only the first body's spin term is in the sum; both bodies turn.")(
-    lambda a, b, axis: masses(a, b) + spin_term(a, axis)
-)
-
-known("first-body-forgotten", "Only the second body's spin term is in the sum; both bodies turn.")(
-    lambda a, b, axis: masses(a, b) + spin_term(b, axis)
-)
-
-known("masses-forgotten", "The spin terms replace 1/m_a + 1/m_b; they must be added to them.")(
-    lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis)
-)
-
-known("terms-are-subtracted", "The spin terms are subtracted; turning makes a body give way more.")(
-    lambda a, b, axis: masses(a, b) - spin_term(a, axis) - spin_term(b, axis)
-)
-
-known("cross-is-not-squared", "The cross product is not squared: a term can come out negative.")(
-    with_term(lambda lever, axis: lever_cross(lever, axis) * inverse(lever.inertia))
-)
-
 known(
-    "dot-for-cross", "The dot product is the part of the arm along the axis; the part across turns."
-)(
+    "no-spin-terms",
+    "Only the masses are in the sum; a body also gives way by turning.",
+    lambda a, b, axis: masses(a, b),
+)
+known(
+    "second-body-forgotten",
+    "Only the first body's spin term is in the sum; both bodies turn.",
+    lambda a, b, axis: masses(a, b) + spin_term(a, axis),
+)
+known(
+    "first-body-forgotten",
+    "Only the second body's spin term is in the sum; both bodies turn.",
+    lambda a, b, axis: masses(a, b) + spin_term(b, axis),
+)
+known(
+    "masses-forgotten",
+    "The spin terms replace 1/m_a + 1/m_b; they must be added to them.",
+    lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis),
+)
+known(
+    "terms-are-subtracted",
+    "The spin terms are subtracted; turning makes a body give way more.",
+    lambda a, b, axis: masses(a, b) - spin_term(a, axis) - spin_term(b, axis),
+)
+known(
+    "cross-is-not-squared",
+    "The cross product is not squared: a term can come out negative.",
+    with_term(lambda lever, axis: lever_cross(lever, axis) * inverse(lever.inertia)),
+)
+known(
+    "dot-for-cross",
+    "The dot product is the part of the arm along the axis; the part across turns.",
     with_term(
         lambda lever, axis: (lever.rx * axis[0] + lever.ry * axis[1]) ** 2 * inverse(lever.inertia)
-    )
+    ),
 )
-
 known(
-    "whole-arm", "The whole arm counts; only its part across the axis can turn a body: ra x axis."
-)(with_term(lambda lever, axis: math.hypot(lever.rx, lever.ry) ** 2 * inverse(lever.inertia)))
-
+    "whole-arm",
+    "The whole arm counts; only its part across the axis can turn a body: ra x axis.",
+    with_term(lambda lever, axis: math.hypot(lever.rx, lever.ry) ** 2 * inverse(lever.inertia)),
+)
 known(
     "inverse-mass-for-inverse-inertia",
     "The spin terms are divided by the mass, not by the inertia.",
-)(with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * inverse(lever.mass)))
+    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 * inverse(lever.mass)),
+)
 
 
-@known("divides-by-the-inverse", "inv_inertia is 1/I already: multiply by it, it is 0 for statics.")
 def divided(a: Lever, b: Lever, axis: Pair) -> float:
     if not (a.mass and b.mass):
         raise Undecided  # a division by 0
@@ -87,24 +92,33 @@ def divided(a: Lever, b: Lever, axis: Pair) -> float:
 
 
 known(
+    "divides-by-the-inverse",
+    "inv_inertia is 1/I already: multiply by it, it is 0 for statics.",
+    divided,
+)
+known(
     "inverse-inertia-is-squared",
     "The inverse inertia is squared too; only the cross product is.",
-)(with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2))
-
-known("first-arm-for-both", "Both spin terms use ra; the second body has an arm of its own, rb.")(
+    with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
+)
+known(
+    "first-arm-for-both",
+    "Both spin terms use ra; the second body has an arm of its own, rb.",
     lambda a, b, axis: (
         masses(a, b) + spin_term(a, axis) + spin_term(b._replace(rx=a.rx, ry=a.ry), axis)
-    )
+    ),
 )
-
-known("inertias-swapped", "Each arm goes with the other body's inertia; ra belongs to a, rb to b.")(
+known(
+    "inertias-swapped",
+    "Each arm goes with the other body's inertia; ra belongs to a, rb to b.",
     lambda a, b, axis: (
         masses(a, b)
         + lever_cross(a, axis) ** 2 * inverse(b.inertia)
         + lever_cross(b, axis) ** 2 * inverse(a.inertia)
-    )
+    ),
 )
-
-known("returns-the-inverse", "The sum comes back as 1 / sum; the callers divide by it themselves.")(
-    lambda a, b, axis: 1 / exact.effective_mass(a, b, axis)
+known(
+    "returns-the-inverse",
+    "The sum comes back as 1 / sum; the callers divide by it themselves.",
+    lambda a, b, axis: 1 / exact.effective_mass(a, b, axis),
 )

@@ -6,6 +6,7 @@ can move, one mistake alone is known: the division by 0.
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Rod
@@ -16,33 +17,32 @@ Model = Callable[[Rod], Ends]
 Answer = tuple[Pair, Pair, Pair]  # velocities of A and B, px/s; B as seen from A, px
 
 
-@truth("rod")
 def right(rod: Rod) -> Answer:
     ends = exact.rod_solved(rod) if rod.k else (rod.vel_a, rod.vel_b)
     return (*ends, rod.offset)
 
 
-def known(name: str, meaning: str) -> Callable[[Model], None]:
-    """A mistake in the velocities."""
+truth("rod", right)
 
-    def register(model: Model) -> None:
-        @mistake("3", name, meaning, about="rod")
-        def ends(rod: Rod) -> Answer:
-            if not rod.k:
-                raise Undecided
-            return (*model(rod), rod.offset)
-
-    return register
+known = partial(mistake, "3", "rod")
 
 
-@mistake(
-    "3",
+def velocities(model: Model) -> Callable[[Rod], Answer]:
+    """A mistake in the velocities alone, where an end can move."""
+
+    def answer(rod: Rod) -> Answer:
+        if not rod.k:
+            raise Undecided
+        return (*model(rod), rod.offset)
+
+    return answer
+
+
+known(
     "divides-by-a-k-of-0",
     "Where neither end can move, k is 0 and nothing can be divided by it: do nothing then.",
-    about="rod",
+    lambda rod: right(rod) if rod.k else "ZeroDivisionError",
 )
-def divides_by_zero(rod: Rod) -> Answer | str:
-    return right(rod) if rod.k else "ZeroDivisionError"
 
 
 def right_impulse(rod: Rod) -> float:
@@ -53,82 +53,104 @@ def moved(vel: Pair, axis: Pair, by: float) -> Pair:
     return vel[0] + by * axis[0], vel[1] + by * axis[1]
 
 
-known("only-pulls", "The rod only pulls, like a rope; a rod also pushes when it is too short.")(
-    lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))
+known(
+    "only-pulls",
+    "The rod only pulls, like a rope; a rod also pushes when it is too short.",
+    velocities(lambda rod: exact.pushed(rod, min(0.0, right_impulse(rod)))),
+)
+known(
+    "only-pushes",
+    "The impulse is clamped like a contact's; a rod needs no clamp, it also pulls.",
+    velocities(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod)))),
+)
+known(
+    "ignores-the-bias",
+    "The bias is left out: the rod never wins back the length it has lost.",
+    velocities(lambda rod: exact.pushed(rod, -rod.speed / rod.k)),
+)
+known(
+    "ignores-the-speed",
+    "The speed along the rod is left out; the impulse is for what is missing.",
+    velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)),
+)
+known(
+    "adds-the-speed",
+    "Speed and bias are added; the impulse is for the difference, bias - speed.",
+    velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)),
+)
+known(
+    "pushes-the-wrong-way",
+    "Both ends are pushed the wrong way: A gets -impulse, B gets +impulse.",
+    velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))),
+)
+known(
+    "multiplies-by-k",
+    "The impulse is multiplied by k; k is speed per impulse, so divide by it.",
+    velocities(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k)),
+)
+known(
+    "not-divided-by-k",
+    "The impulse lacks the division by k, the speed that one unit of it gives.",
+    velocities(lambda rod: exact.pushed(rod, rod.bias - rod.speed)),
+)
+known(
+    "bias-has-the-wrong-sign",
+    "The bias is turned round: a stretched rod is stretched further.",
+    velocities(lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)),
+)
+known(
+    "impulse-is-not-applied",
+    "No velocity changes: the impulse must reach both ends.",
+    velocities(lambda rod: (rod.vel_a, rod.vel_b)),
+)
+known(
+    "moves-only-a",
+    "Only A gets the impulse; B must get the opposite one.",
+    velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], rod.vel_b)),
+)
+known(
+    "moves-only-b",
+    "Only B gets the impulse; A must get the opposite one.",
+    velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])),
 )
 
-known(
-    "only-pushes", "The impulse is clamped like a contact's; a rod needs no clamp, it also pulls."
-)(lambda rod: exact.pushed(rod, max(0.0, right_impulse(rod))))
 
-known("ignores-the-bias", "The bias is left out: the rod never wins back the length it has lost.")(
-    lambda rod: exact.pushed(rod, -rod.speed / rod.k)
-)
-
-known(
-    "ignores-the-speed", "The speed along the rod is left out; the impulse is for what is missing."
-)(lambda rod: exact.pushed(rod, rod.bias / rod.k))
-
-known(
-    "adds-the-speed", "Speed and bias are added; the impulse is for the difference, bias - speed."
-)(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k))
-
-known(
-    "pushes-the-wrong-way", "Both ends are pushed the wrong way: A gets -impulse, B gets +impulse."
-)(lambda rod: exact.pushed(rod, -right_impulse(rod)))
-
-known(
-    "multiplies-by-k", "The impulse is multiplied by k; k is speed per impulse, so divide by it."
-)(lambda rod: exact.pushed(rod, (rod.bias - rod.speed) * rod.k))
-
-known(
-    "not-divided-by-k", "The impulse lacks the division by k, the speed that one unit of it gives."
-)(lambda rod: exact.pushed(rod, rod.bias - rod.speed))
-
-
-known("bias-has-the-wrong-sign", "The bias is turned round: a stretched rod is stretched further.")(
-    lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)
-)
-
-known("impulse-is-not-applied", "No velocity changes: the impulse must reach both ends.")(
-    lambda rod: (rod.vel_a, rod.vel_b)
-)
-
-
-@known("moves-only-a", "Only A gets the impulse; B must get the opposite one.")
-def only_a(rod: Rod) -> Ends:
-    return exact.pushed(rod, right_impulse(rod))[0], rod.vel_b
-
-
-@known("moves-only-b", "Only B gets the impulse; A must get the opposite one.")
-def only_b(rod: Rod) -> Ends:
-    return rod.vel_a, exact.pushed(rod, right_impulse(rod))[1]
-
-
-@known("pushes-both-the-same-way", "Both ends get the same impulse; A must get the opposite one.")
 def same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]
 
 
-@known(
-    "forgets-the-masses", "The impulse is added to the velocities; each end takes it by inv_mass."
+known(
+    "pushes-both-the-same-way",
+    "Both ends get the same impulse; A must get the opposite one.",
+    velocities(same_way),
 )
+
+
 def without_masses(rod: Rod) -> Ends:
     by = right_impulse(rod)
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
-@known("shares-equally", "Both ends change speed alike; the lighter one must change more.")
+known(
+    "forgets-the-masses",
+    "The impulse is added to the velocities; each end takes it by inv_mass.",
+    velocities(without_masses),
+)
+
+
 def halves(rod: Rod) -> Ends:
     by = (rod.bias - rod.speed) / 2
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)
 
 
-@known(
-    "stops-the-sideways-speed",
-    "The whole velocity is taken away; only its part along the rod may be.",
+known(
+    "shares-equally",
+    "Both ends change speed alike; the lighter one must change more.",
+    velocities(halves),
 )
+
+
 def whole_velocity(rod: Rod) -> Ends:
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     wanted = rod.bias * x - (bx - ax), rod.bias * y - (by - ay)
@@ -140,13 +162,21 @@ def whole_velocity(rod: Rod) -> Ends:
     return moved(rod.vel_a, direction, -a), moved(rod.vel_b, direction, b)
 
 
-@mistake(
-    "3",
-    "moves-positions-instead",
-    "The ends are put in place; a pass changes velocities, and the step moves the bodies.",
-    about="rod",
+known(
+    "stops-the-sideways-speed",
+    "The whole velocity is taken away; only its part along the rod may be.",
+    velocities(whole_velocity),
 )
+
+
 def placed(rod: Rod) -> Answer:
     if not rod.k:
         raise Undecided
     return rod.vel_a, rod.vel_b, (rod.axis[0] * rod.length, rod.axis[1] * rod.length)
+
+
+known(
+    "moves-positions-instead",
+    "The ends are put in place; a pass changes velocities, and the step moves the bodies.",
+    placed,
+)

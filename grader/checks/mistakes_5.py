@@ -15,20 +15,19 @@ def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
     return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
 
 
-truth("damping")(right)
+truth("damping", right)
 
 
-def known(name: str, meaning: str) -> Callable[[Model], Model]:
-    """Register a model, and the same in a world that leaves the damping out where both are 0."""
+def known(name: str, meaning: str, *models: Model) -> None:
+    """Each model also in a world that leaves the damping out where both rates are 0."""
+    for model in models:
+        mistake("5", "damping", name, meaning, left_out_at_zero(model), model)
 
-    def register(model: Model) -> Model:
-        def left_out(linear: float, angular: float, dt: float, steps: int) -> Shares:
-            return model(linear, angular, dt, steps) if linear or angular else (1.0, 1.0)
 
-        mistake("5", name, meaning, about="damping")(left_out)
-        return mistake("5", name, meaning, about="damping")(model)
-
-    return register
+def left_out_at_zero(model: Model) -> Model:
+    return lambda linear, angular, dt, steps: (
+        model(linear, angular, dt, steps) if linear or angular else (1.0, 1.0)
+    )
 
 
 def per_step(factor: Factor) -> Model:
@@ -42,64 +41,66 @@ def per_step(factor: Factor) -> Model:
 known(
     "the-same-share-every-step",
     "The loss grows with the number of steps: 0.99^60, 0.99^120, 0.99^240.",
-)(per_step(lambda rate, dt: 0.99))
-
+    per_step(lambda rate, dt: 0.99),
+)
 known(
     "one-percent-per-frame",
     "1% is lost in every sixtieth of a second; the loss must follow the two rates.",
-)(per_step(lambda rate, dt: 0.99 ** (60 * dt)))
-
+    per_step(lambda rate, dt: 0.99 ** (60 * dt)),
+)
 known(
     "rate-without-the-step",
     "exp(-rate) is lost in every step; a step of dt seconds may lose only exp(-rate * dt).",
-)(per_step(lambda rate, dt: math.exp(-rate)))
-
+    per_step(lambda rate, dt: math.exp(-rate)),
+)
 known(
     "a-step-length-of-its-own",
     "Every step loses as much as one of 1/120 s; it must lose what its own dt asks for.",
-)(per_step(lambda rate, dt: math.exp(-rate / 120)))
-
+    per_step(lambda rate, dt: math.exp(-rate / 120)),
+)
 known(
     "straight-line-instead-of-exp",
     "1 - rate * dt is close for short steps only; exp(-rate * dt) holds for every step.",
-)(per_step(lambda rate, dt: 1 - rate * dt))
-
+    per_step(lambda rate, dt: 1 - rate * dt),
+)
 known(
     "one-over-instead-of-exp",
     "1 / (1 + rate * dt) is close for short steps only; exp(-rate * dt) holds for every step.",
-)(per_step(lambda rate, dt: 1 / (1 + rate * dt)))
-
+    per_step(lambda rate, dt: 1 / (1 + rate * dt)),
+)
 known(
     "rate-taken-for-a-share",
     "The rate is taken for the share lost per second; at a rate of 1 exp(-1) = 37% must be left.",
-)(per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt))
-
+    per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt),
+)
 known(
     "grows-instead-of-fading",
     "The sign is missing: exp(rate * dt) makes bodies faster.",
-)(per_step(lambda rate, dt: math.exp(rate * dt)))
-
+    per_step(lambda rate, dt: math.exp(rate * dt)),
+)
 known(
     "keeps-what-it-should-lose",
     "The share to lose is kept: exp(-rate * dt) is what is left after a step, not what goes.",
-)(per_step(lambda rate, dt: 1 - math.exp(-rate * dt)))
-
-known("spin-is-not-damped", "The spin is not damped at all.")(
-    lambda linear, angular, dt, steps: (exact.damped(linear, dt * steps), 1.0)
+    per_step(lambda rate, dt: 1 - math.exp(-rate * dt)),
 )
-
-known("speed-is-not-damped", "The speed is not damped at all.")(
-    lambda linear, angular, dt, steps: (1.0, exact.damped(angular, dt * steps))
-)
-
-known("one-rate-for-both", "Speed and spin use the same rate; each has a rate of its own.")(
-    lambda linear, angular, dt, steps: right(linear, linear, dt, steps)
-)
-
-known("one-rate-for-both", "Speed and spin use the same rate; each has a rate of its own.")(
-    lambda linear, angular, dt, steps: right(angular, angular, dt, steps)
-)
-
 known(
-    "rates-are-swapped", "The speed fades with angular_damping and the spin with linear_damping."
-)(lambda linear, angular, dt, steps: right(angular, linear, dt, steps))
+    "spin-is-not-damped",
+    "The spin is not damped at all.",
+    lambda linear, angular, dt, steps: (exact.damped(linear, dt * steps), 1.0),
+)
+known(
+    "speed-is-not-damped",
+    "The speed is not damped at all.",
+    lambda linear, angular, dt, steps: (1.0, exact.damped(angular, dt * steps)),
+)
+known(
+    "one-rate-for-both",
+    "Speed and spin use the same rate; each has a rate of its own.",
+    lambda linear, angular, dt, steps: right(linear, linear, dt, steps),
+    lambda linear, angular, dt, steps: right(angular, angular, dt, steps),
+)
+known(
+    "rates-are-swapped",
+    "The speed fades with angular_damping and the spin with linear_damping.",
+    lambda linear, angular, dt, steps: right(angular, linear, dt, steps),
+)

@@ -5,9 +5,10 @@ Time is counted in thirds of a millisecond: there a step, the cap and every fram
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 
 from grader.judge.lab import STEP as STEP_SECONDS
-from grader.judge.misconceptions import Model, Undecided, mistake, truth
+from grader.judge.misconceptions import Undecided, mistake, truth
 from grader.protocol import RUNAWAY
 
 STEP, CAP, SECOND = 25, 200, 3000
@@ -16,16 +17,7 @@ MAX_SIZES = 16  # that a play reports
 Frames = tuple[int, ...]  # ms
 Answer = tuple[list[int], list[float]]  # steps after each frame but the last, step sizes in s
 
-
-def fixed_step_mistake(name: str, meaning: str, about: str = "frames") -> Callable[[Model], Model]:
-    """Register a model for both programs."""
-
-    def register(model: Model) -> Model:
-        for todo in ("6", "7d"):
-            mistake(todo, name, meaning, about=about)(model)
-        return model
-
-    return register
+known = partial(mistake, "6 7d", "frames")  # of both programs
 
 
 def counted(steps: list[int]) -> Answer:
@@ -62,55 +54,39 @@ def accumulated(
     return steps
 
 
-@truth("frames")
 def right(frames: Frames) -> Answer:
     return counted(accumulated(frames, capped))
 
 
-@fixed_step_mistake(
+truth("frames", right)
+
+known(
     "one-step-per-frame",
     "Every frame runs one step: the faster the computer draws, the faster everything moves.",
+    lambda frames: counted([1 for _ in frames[:-1]]),
 )
-def one_step_per_frame(frames: Frames) -> Answer:
-    return counted([1 for _ in frames[:-1]])
-
-
-@fixed_step_mistake(
+known(
     "one-step-per-frame-at-most",
     "A frame runs one step at the most, however much time waits: repeat it while a step is left.",
+    lambda frames: counted(accumulated(frames, capped, most=1)),
 )
-def if_instead_of_while(frames: Frames) -> Answer:
-    return counted(accumulated(frames, capped, most=1))
-
-
-@fixed_step_mistake(
+known(
     "assumes-sixty-frames",
     "Every frame is taken to last 1/60 s; a frame lasts what the clock says.",
+    lambda frames: counted([2 for _ in frames[:-1]]),
 )
-def assumes_sixty_frames(frames: Frames) -> Answer:
-    return counted([2 for _ in frames[:-1]])
-
-
-@fixed_step_mistake(
+known(
     "drops-the-remainder",
     "What is left of a frame after its whole steps is thrown away; it belongs to the next frame.",
+    lambda frames: counted([whole_steps(capped(frame)) for frame in frames[:-1]]),
 )
-def drops_the_remainder(frames: Frames) -> Answer:
-    return counted([whole_steps(capped(frame)) for frame in frames[:-1]])
-
-
-@fixed_step_mistake(
+known(
     "rounds-each-frame",
     "Each frame is rounded to whole steps by itself, and the errors add up.",
+    lambda frames: counted([round(capped(frame) / STEP) for frame in frames[:-1]]),
 )
-def rounds_each_frame(frames: Frames) -> Answer:
-    return counted([round(capped(frame) / STEP) for frame in frames[:-1]])
 
 
-@fixed_step_mistake(
-    "steps-before-it-is-due",
-    "A step runs while any time is left, so the accumulator falls below 0; wait for a whole STEP.",
-)
 def steps_early(frames: Frames) -> Answer:
     steps: list[int] = []
     held = 0
@@ -123,76 +99,57 @@ def steps_early(frames: Frames) -> Answer:
     return counted(steps)
 
 
-@fixed_step_mistake(
+known(
+    "steps-before-it-is-due",
+    "A step runs while any time is left, so the accumulator falls below 0; wait for a whole STEP.",
+    steps_early,
+)
+known(
     "no-cap",
     "A slow frame is simulated in full, which makes the next one slower still: "
     "add MAX_STEPS * STEP at the most.",
+    lambda frames: counted(accumulated(frames, uncapped)),
 )
-def no_cap(frames: Frames) -> Answer:
-    return counted(accumulated(frames, uncapped))
-
-
-@fixed_step_mistake(
+known(
     "cap-is-in-seconds",
     "The cap is 8 seconds; MAX_STEPS counts steps, so it is MAX_STEPS * STEP.",
+    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 8 * SECOND))),
 )
-def cap_in_seconds(frames: Frames) -> Answer:
-    return counted(accumulated(frames, lambda frame: min(3 * frame, 8 * SECOND)))
-
-
-@fixed_step_mistake(
+known(
     "cap-counts-frames",
     "The cap is 8 frames of 1/60 s; MAX_STEPS counts steps, so it is MAX_STEPS * STEP.",
+    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 2 * CAP))),
 )
-def cap_counts_frames(frames: Frames) -> Answer:
-    return counted(accumulated(frames, lambda frame: min(3 * frame, 2 * CAP)))
-
-
-@fixed_step_mistake(
+known(
     "cap-is-one-step",
     "A frame may add one STEP at the most; the cap is MAX_STEPS of them.",
+    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, STEP))),
 )
-def cap_is_one_step(frames: Frames) -> Answer:
-    return counted(accumulated(frames, lambda frame: min(3 * frame, STEP)))
-
-
-@fixed_step_mistake(
+known(
     "cap-is-turned-round",
     "Every frame adds MAX_STEPS * STEP or more: the cap is the larger of the two, not the smaller.",
+    lambda frames: counted(accumulated(frames, lambda frame: max(3 * frame, CAP))),
 )
-def cap_turned_round(frames: Frames) -> Answer:
-    return counted(accumulated(frames, lambda frame: max(3 * frame, CAP)))
-
-
-@fixed_step_mistake(
+known(
     "keeps-the-backlog",
     "A slow frame runs 8 steps and leaves the rest of its time waiting: "
     "the frames after it have to make up for it.",
+    lambda frames: counted(accumulated(frames, uncapped, most=CAP // STEP)),
 )
-def keeps_the_backlog(frames: Frames) -> Answer:
-    return counted(accumulated(frames, uncapped, most=CAP // STEP))
-
-
-@fixed_step_mistake(
+known(
     "counts-milliseconds",
     "The frame is counted in milliseconds and the step in seconds: every frame reaches the cap.",
+    lambda frames: counted([CAP // STEP for _ in frames[:-1]]),
 )
-def counts_milliseconds(frames: Frames) -> Answer:
-    return counted([CAP // STEP for _ in frames[:-1]])
-
-
-@fixed_step_mistake(
+known(
     "takes-seconds-for-milliseconds",
     "The frame is divided by 1000, but it is in seconds already: almost nothing moves.",
+    lambda frames: counted(
+        accumulated(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP)))
+    ),
 )
-def takes_seconds_for_milliseconds(frames: Frames) -> Answer:
-    return counted(accumulated(frames, lambda frame: min(Fraction(3 * frame, 1000), Fraction(CAP))))
 
 
-@fixed_step_mistake(
-    "accumulator-never-shrinks",
-    "The loop of steps does not end: each step must take STEP from the accumulator.",
-)
 def never_shrinks(frames: Frames) -> Answer:
     steps: list[int] = []
     for number in range(1, len(frames)):
@@ -202,35 +159,35 @@ def never_shrinks(frames: Frames) -> Answer:
     return counted(steps)
 
 
-@fixed_step_mistake(
-    "steps-of-another-size",
-    "The steps are 1/60 s long, and each is paid for with 1/120 s; every step must be STEP long.",
+known(
+    "accumulator-never-shrinks",
+    "The loop of steps does not end: each step must take STEP from the accumulator.",
+    never_shrinks,
 )
+
+
 def steps_of_a_sixtieth(frames: Frames) -> Answer:
     steps, sizes = right(frames)
     return steps, [2 * size for size in sizes]
 
 
-@fixed_step_mistake(
+known(
+    "steps-of-another-size",
+    "The steps are 1/60 s long, and each is paid for with 1/120 s; every step must be STEP long.",
+    steps_of_a_sixtieth,
+)
+known(
     "steps-with-the-frame-time",
     "Every frame runs one step of its own length, up to the cap; every step must be STEP long.",
+    lambda frames: ([1 for _ in frames[:-1]], different([capped(frame) for frame in frames])),
 )
-def steps_with_the_frame_time(frames: Frames) -> Answer:
-    return [1 for _ in frames[:-1]], different([capped(frame) for frame in frames])
-
-
-@fixed_step_mistake(
+known(
     "steps-with-all-of-the-frame-time",
     "Every frame runs one step of its own length; every step must be STEP long.",
+    lambda frames: ([1 for _ in frames[:-1]], different([uncapped(frame) for frame in frames])),
 )
-def steps_with_all_of_the_frame_time(frames: Frames) -> Answer:
-    return [1 for _ in frames[:-1]], different([uncapped(frame) for frame in frames])
 
 
-@fixed_step_mistake(
-    "steps-with-all-that-is-left",
-    "A step gets all the time that has gathered; every step must be STEP long.",
-)
 def steps_with_all_that_is_left(frames: Frames) -> Answer:
     steps: list[int] = []
     sizes: list[int] = []
@@ -244,29 +201,31 @@ def steps_with_all_that_is_left(frames: Frames) -> Answer:
     return steps, different(sizes)
 
 
+known(
+    "steps-with-all-that-is-left",
+    "A step gets all the time that has gathered; every step must be STEP long.",
+    steps_with_all_that_is_left,
+)
+
+
 def different(sizes: list[int]) -> list[float]:
     """Each size once, in seconds."""
     return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_SIZES]
 
 
-@truth("said")
-def says_what_ran(ran: int) -> int:
-    return ran
+truth("said", lambda ran: ran)
 
-
-@fixed_step_mistake(
+mistake(
+    "6 7d",
+    "said",
     "steps-are-not-counted",
     "The steps run, but they are not counted: steps must be the number of them.",
-    about="said",
+    lambda ran: 0,
 )
-def not_counted(ran: int) -> int:
-    return 0
-
-
-@fixed_step_mistake(
+mistake(
+    "6 7d",
+    "said",
     "steps-are-counted-down",
     "Every step takes one from the count; it must add one.",
-    about="said",
+    lambda ran: -ran,
 )
-def counted_down(ran: int) -> int:
-    return -ran

@@ -5,164 +5,110 @@ Those of 7d are the ones of TODO 6 and stand with them.
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from grader.checks import exact
 from grader.judge.lab import STEP, Pair
-from grader.judge.misconceptions import Undecided, alike, mistake, truth
+from grader.judge.misconceptions import Model, Undecided, alike, always, mistake, truth
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 
 
-@truth("gravity")
-def right_gravity() -> Pair:
-    return 0.0, 980.0
+truth("gravity", always((0.0, 980.0)))
 
+known_7a = partial(mistake, "7a", "gravity")
 
-def wrong_gravity(name: str, meaning: str, *pulls: Pair) -> None:
-    for pull in pulls:
-        mistake("7a", name, meaning, about="gravity")(lambda pull=pull: pull)
-
-
-wrong_gravity("no-gravity", "Nothing pulls the bodies down.", (0.0, 0.0))
-wrong_gravity(
+known_7a("no-gravity", "Nothing pulls the bodies down.", always((0.0, 0.0)))
+known_7a(
     "gravity-points-up",
     "The sign is wrong: y grows down on the screen, so a pull down is positive.",
-    (0.0, -980.0),
+    always((0.0, -980.0)),
 )
-wrong_gravity(
+known_7a(
     "gravity-in-metres",
     "That is gravity in m/s²; lengths are px here, and the mini engine's is 980 px/s².",
-    (0.0, 9.8),
-    (0.0, 9.81),
-    (0.0, -9.8),
-    (0.0, -9.81),
+    always((0.0, 9.8)),
+    always((0.0, 9.81)),
+    always((0.0, -9.8)),
+    always((0.0, -9.81)),
 )
-wrong_gravity(
+known_7a(
     "gravity-of-one-step",
     "That is the speed that one step adds, in px/s; pymunk multiplies by the step's length itself.",
-    (0.0, 980.0 * STEP),
+    always((0.0, 980.0 * STEP)),
 )
-wrong_gravity(
+known_7a(
     "gravity-of-another-scene",
     "That is the gravity of pymunk's own examples; this scene has the mini engine's.",
-    (0.0, 900.0),
-    (0.0, 981.0),
-    (0.0, 1000.0),
+    always((0.0, 900.0)),
+    always((0.0, 981.0)),
+    always((0.0, 1000.0)),
 )
-wrong_gravity(
+known_7a(
     "gravity-points-sideways",
     "The two numbers are the wrong way round: x first, then y.",
-    (980.0, 0.0),
-    (-980.0, 0.0),
+    always((980.0, 0.0)),
+    always((-980.0, 0.0)),
 )
 
 
 # ---------------------------------------------------------------- 7b: the moment of a ball
 
 
-@truth("moment")
-def right_moment(radius: float, mass: float) -> float:
-    return exact.disc_moment(mass, radius)
+truth("moment", lambda radius, mass: exact.disc_moment(mass, radius))
 
+known_7b = partial(mistake, "7b", "moment")
 
-@mistake(
-    "7b",
+known_7b(
     "moment-is-infinite",
     "An infinite moment never turns: the balls slide and never roll.",
-    about="moment",
+    lambda radius, mass: math.inf,
 )
-def infinite_moment(radius: float, mass: float) -> float:
-    return math.inf
-
-
-@mistake(
-    "7b",
+known_7b(
     "moment-of-a-ring",
     "That is the moment of a ring, with all its mass at the rim; the inner radius must be 0.",
-    about="moment",
+    lambda radius, mass: mass * radius**2,
 )
-def ring(radius: float, mass: float) -> float:
-    return mass * radius**2
-
-
-@mistake(
-    "7b",
+known_7b(
     "diameter-instead-of-radius",
     "That is the moment of a ball twice as wide; the outer radius is radius.",
-    about="moment",
+    lambda radius, mass: exact.disc_moment(mass, 2 * radius),
 )
-def with_diameter(radius: float, mass: float) -> float:
-    return exact.disc_moment(mass, 2 * radius)
-
-
-@mistake(
-    "7b",
+known_7b(
     "moment-of-a-box",
     "That is the moment of a square box as wide as the ball; there is one for circles.",
-    about="moment",
+    lambda radius, mass: mass * 2 * (2 * radius) ** 2 / 12,
 )
-def box(radius: float, mass: float) -> float:
-    return mass * 2 * (2 * radius) ** 2 / 12
-
-
-@mistake(
-    "7b",
+known_7b(
     "moment-of-a-small-box",
     "That is the moment of a square box as wide as the radius; there is one for circles.",
-    about="moment",
+    lambda radius, mass: mass * 2 * radius**2 / 12,
 )
-def small_box(radius: float, mass: float) -> float:
-    return mass * 2 * radius**2 / 12
-
-
-@mistake(
-    "7b",
+known_7b(
     "moment-of-a-sphere",
     "2/5 m r² is the moment of a sphere; in two dimensions a ball is a disc.",
-    about="moment",
+    lambda radius, mass: mass * radius**2 * 2 / 5,
 )
-def sphere(radius: float, mass: float) -> float:
-    return mass * radius**2 * 2 / 5
-
-
-@mistake(
-    "7b",
+known_7b(
     "mass-is-left-out",
     "That is the moment of a disc of mass 1; a heavier ball is harder to turn.",
-    about="moment",
+    lambda radius, mass: exact.disc_moment(1.0, radius),
 )
-def without_mass(radius: float, mass: float) -> float:
-    return exact.disc_moment(1.0, radius)
-
-
-@mistake(
-    "7b",
+known_7b(
     "mass-and-radius-swapped",
     "Mass and radius have changed places: the mass comes first, then the inner and outer radius.",
-    about="moment",
+    lambda radius, mass: exact.disc_moment(radius, mass),
 )
-def swapped(radius: float, mass: float) -> float:
-    return exact.disc_moment(radius, mass)
-
-
-@mistake(
-    "7b",
+known_7b(
     "radius-is-not-squared",
     "The radius counts squared: a ball twice as wide and as heavy is four times as hard to turn.",
-    about="moment",
+    lambda radius, mass: mass * radius / 2,
 )
-def radius_not_squared(radius: float, mass: float) -> float:
-    return mass * radius / 2
-
-
-@mistake(
-    "7b",
+known_7b(
     "mass-for-moment",
     "That is the mass; how hard a ball is to turn also depends on how far out its mass is.",
-    about="moment",
+    lambda radius, mass: mass,
 )
-def mass_for_moment(radius: float, mass: float) -> float:
-    return mass
 
 
 # ---------------------------------------------------------------- 7c: what holds the bob
@@ -176,9 +122,11 @@ def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
     return "PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves
 
 
-@truth("rods")
 def right_rod() -> list[Rod]:
     return [pin(PIVOT)]
+
+
+truth("rods", right_rod)
 
 
 def length_off(off: int) -> Callable[[list[Rod]], int]:
@@ -192,80 +140,81 @@ def length_off(off: int) -> Callable[[list[Rod]], int]:
     return model
 
 
-truth("length")(length_off(0))
+truth("length", length_off(0))
 mistake(
     "7c",
+    "length",
     "rod-is-too-short",
     "The rod is shorter than 140 px, the way from (700, 90) to the bob when it is joined.",
-    about="length",
-)(length_off(-1))
+    length_off(-1),
+)
 mistake(
     "7c",
+    "length",
     "rod-is-too-long",
     "The rod is longer than 140 px, the way from (700, 90) to the bob when it is joined.",
-    about="length",
-)(length_off(1))
+    length_off(1),
+)
+
+known_7c = partial(mistake, "7c", "rods")
 
 
-def wrong_rods(name: str, meaning: str, *rods: Rod) -> None:
-    for rod in rods:
-        mistake("7c", name, meaning, about="rods")(lambda rod=rod: [rod])
+def held_by(rod: Rod) -> Model:
+    return always([rod])
 
 
-@mistake(
-    "7c",
+known_7c(
     "joint-is-not-in-the-space",
     "Nothing holds the bob: a joint works only once space.add() was called with it.",
-    about="rods",
+    always([]),
 )
-def no_rod() -> list[Rod]:
-    return []
-
-
-wrong_rods(
+known_7c(
     "rod-from-the-corner",
     "The rod starts at (0, 0), the corner of the window: the first anchor belongs at (700, 90).",
-    pin((0.0, 0.0)),
+    held_by(pin((0.0, 0.0))),
 )
-wrong_rods(
+known_7c(
     "bob-anchor-in-screen-coordinates",
     "An anchor is measured from its own body's centre: the bob's centre is (0, 0) there.",
-    pin(PIVOT, on_bob=BOB),
-    pin(PIVOT, on_bob=PIVOT),
-    pin((0.0, 0.0), on_bob=BOB),
+    held_by(pin(PIVOT, on_bob=BOB)),
+    held_by(pin(PIVOT, on_bob=PIVOT)),
+    held_by(pin((0.0, 0.0), on_bob=BOB)),
 )
-wrong_rods(
+known_7c(
     "anchors-the-wrong-way-round",
     "The anchors have changed places: the first is for the first body, the second for the other.",
-    pin((0.0, 0.0), on_bob=PIVOT),
+    held_by(pin((0.0, 0.0), on_bob=PIVOT)),
 )
-wrong_rods(
+known_7c(
     "rod-at-the-rim",
     "The rod holds the bob by its rim and turns it; it must hold the bob's centre.",
-    *(pin(PIVOT, on_bob=rim) for rim in ((-24.0, 0.0), (24.0, 0.0), (0.0, -24.0), (0.0, 24.0))),
+    *(
+        held_by(pin(PIVOT, on_bob=rim))
+        for rim in ((-24.0, 0.0), (24.0, 0.0), (0.0, -24.0), (0.0, 24.0))
+    ),
 )
-wrong_rods(
+known_7c(
     "rod-on-a-moving-body",
     "The body at the other end of the rod moves as well; space.static_body never does.",
-    pin(PIVOT, moves=True),
+    held_by(pin(PIVOT, moves=True)),
 )
-wrong_rods(
+known_7c(
     "rope-instead-of-rod",
     "A SlideJoint that may get shorter is a rope: it pulls and never pushes.",
-    ("SlideJoint", PIVOT, BOB, False),
+    held_by(("SlideJoint", PIVOT, BOB, False)),
 )
-wrong_rods(
+known_7c(
     "spring-instead-of-rod",
     "A DampedSpring gives way; a rod keeps its length.",
-    ("DampedSpring", PIVOT, BOB, False),
+    held_by(("DampedSpring", PIVOT, BOB, False)),
 )
-wrong_rods(
+known_7c(
     "pivot-turns-the-bob",
     "A PivotJoint at (700, 90) nails the bob to its rod and turns it; a pin joint does not.",
-    ("PivotJoint", PIVOT, PIVOT, False),
+    held_by(("PivotJoint", PIVOT, PIVOT, False)),
 )
-wrong_rods(
+known_7c(
     "bob-is-nailed-to-the-wall",
     "A PivotJoint at the bob's own place nails it there; the rod turns about (700, 90).",
-    ("PivotJoint", BOB, BOB, False),
+    held_by(("PivotJoint", BOB, BOB, False)),
 )

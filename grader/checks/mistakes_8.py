@@ -1,6 +1,7 @@
 """Known mistakes in TODO 8a to 8c, as models of what one step then returns."""
 
 from collections.abc import Sequence
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
@@ -9,116 +10,114 @@ from grader.judge.misconceptions import mistake, truth
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 Force = Sequence[float]
 
+known_8a = partial(mistake, "8a", SEMI_IMPLICIT)
+known_8b = partial(mistake, "8b", VERLET)
+known_8c = partial(mistake, "8c", RK4)
 
-@truth(SEMI_IMPLICIT)
+
 def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
     return exact.semi_implicit_euler(x, v, dt, polynomial(force))
 
 
-@truth(VERLET)
-def right_verlet(x: float, v: float, dt: float, force: Force) -> State:
-    return exact.velocity_verlet(x, v, dt, polynomial(force))
+truth(SEMI_IMPLICIT, right_semi_implicit)
 
+truth(VERLET, lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)))
 
-@truth(RK4)
-def right_rk4(x: float, v: float, dt: float, force: Force) -> State:
-    return exact.rk4(x, v, dt, polynomial(force))
+truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)))
 
 
 # ---------------------------------------------------------------- 8a
 
 
-@mistake(
-    "8a",
-    "explicit-euler-again",
-    "x moves with the old velocity; it must move with the velocity this step has just changed.",
-    about=SEMI_IMPLICIT,
-)
-@mistake(
-    "8b",
-    "explicit-euler-again",
-    "This is explicit Euler: x leaves out the acceleration, v the one at the end of the step.",
-    about=VERLET,
-)
-@mistake(
-    "8c",
-    "explicit-euler-again",
-    "This is explicit Euler: it takes one sample, at the start; RK4 takes four.",
-    about=RK4,
-)
 def explicit_euler(x: float, v: float, dt: float, force: Force) -> State:
     return x + v * dt, v + polynomial(force)(x) * dt
 
 
-@mistake(
-    "8a",
-    "position-first",
-    "x moves first and v follows; the lesson's table is for v first, then x with the new v.",
-    about=SEMI_IMPLICIT,
+known_8a(
+    "explicit-euler-again",
+    "x moves with the old velocity; it must move with the velocity this step has just changed.",
+    explicit_euler,
 )
-@mistake(
-    "8b",
-    "position-first",
-    "x moves without the acceleration, and v uses the acceleration at the end only.",
-    about=VERLET,
+known_8b(
+    "explicit-euler-again",
+    "This is explicit Euler: x leaves out the acceleration, v the one at the end of the step.",
+    explicit_euler,
 )
+known_8c(
+    "explicit-euler-again",
+    "This is explicit Euler: it takes one sample, at the start; RK4 takes four.",
+    explicit_euler,
+)
+
+
 def position_first(x: float, v: float, dt: float, force: Force) -> State:
     x += v * dt
     return x, v + polynomial(force)(x) * dt
 
 
-@mistake(
-    "8a",
-    "velocity-without-the-step",
-    "The whole acceleration is added to v; a step of dt seconds adds accel(x) * dt.",
-    about=SEMI_IMPLICIT,
+known_8a(
+    "position-first",
+    "x moves first and v follows; the lesson's table is for v first, then x with the new v.",
+    position_first,
 )
+known_8b(
+    "position-first",
+    "x moves without the acceleration, and v uses the acceleration at the end only.",
+    position_first,
+)
+
+
 def velocity_without_dt(x: float, v: float, dt: float, force: Force) -> State:
     v += polynomial(force)(x)
     return x + v * dt, v
 
 
-@mistake(
-    "8a",
+known_8a(
+    "velocity-without-the-step",
+    "The whole acceleration is added to v; a step of dt seconds adds accel(x) * dt.",
+    velocity_without_dt,
+)
+known_8a(
     "old-velocity-returned",
     "x moves with the new velocity, but the old one is returned.",
-    about=SEMI_IMPLICIT,
+    lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v),
 )
-def old_velocity_returned(x: float, v: float, dt: float, force: Force) -> State:
-    return right_semi_implicit(x, v, dt, force)[0], v
 
 
-@mistake(
-    "8a",
-    "velocity-returned-first",
-    "The pair is the wrong way round: return x first, then v.",
-    about=SEMI_IMPLICIT,
-)
 def velocity_returned_first(x: float, v: float, dt: float, force: Force) -> State:
     x, v = right_semi_implicit(x, v, dt, force)
     return v, x
 
 
-@mistake(
-    "8a",
-    "mean-of-both-velocities",
-    "x moves with the mean of the old and the new velocity; it must move with the new one alone.",
-    about=SEMI_IMPLICIT,
+known_8a(
+    "velocity-returned-first",
+    "The pair is the wrong way round: return x first, then v.",
+    velocity_returned_first,
 )
+
+
 def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
     new_v = v + polynomial(force)(x) * dt
     return x + (v + new_v) / 2 * dt, new_v
 
 
-@mistake(
-    "8a",
-    "acceleration-of-the-velocity",
-    "accel is asked about v; the acceleration depends on the position: accel(x).",
-    about=SEMI_IMPLICIT,
+known_8a(
+    "mean-of-both-velocities",
+    "x moves with the mean of the old and the new velocity; it must move with the new one alone.",
+    mean_velocity,
 )
+
+
 def acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
     v += polynomial(force)(v) * dt
     return x + v * dt, v
+
+
+known_8a(
+    "acceleration-of-the-velocity",
+    "accel is asked about v; the acceleration depends on the position: accel(x).",
+    acceleration_of_v,
+)
 
 
 # ---------------------------------------------------------------- 8b
@@ -128,89 +127,89 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
     return x + v * dt + accel(x) * dt**2 / 2
 
 
-@mistake(
-    "8b",
-    "old-acceleration-twice",
-    "Both accelerations are the one at the old x; the second belongs to the new x.",
-    about=VERLET,
-)
 def old_acceleration_twice(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     return parabola(x, v, dt, accel), v + accel(x) * dt
 
 
-@mistake(
-    "8b",
-    "new-acceleration-only",
-    "v uses the acceleration at the new x only; it needs the mean of both ends.",
-    about=VERLET,
+known_8b(
+    "old-acceleration-twice",
+    "Both accelerations are the one at the old x; the second belongs to the new x.",
+    old_acceleration_twice,
 )
+
+
 def new_acceleration_only(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     x = parabola(x, v, dt, accel)
     return x, v + accel(x) * dt
 
 
-@mistake(
-    "8b",
-    "sum-instead-of-mean",
-    "v gets the sum of both accelerations; it needs their mean, half of that.",
-    about=VERLET,
+known_8b(
+    "new-acceleration-only",
+    "v uses the acceleration at the new x only; it needs the mean of both ends.",
+    new_acceleration_only,
 )
+
+
 def sum_instead_of_mean(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = parabola(x, v, dt, accel)
     return end, v + (accel(x) + accel(end)) * dt
 
 
-@mistake(
-    "8b",
-    "half-is-missing-in-x",
-    "x gets a * dt² of the acceleration; on a parabola it is half of that.",
-    about=VERLET,
+known_8b(
+    "sum-instead-of-mean",
+    "v gets the sum of both accelerations; it needs their mean, half of that.",
+    sum_instead_of_mean,
 )
+
+
 def half_missing(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = x + v * dt + accel(x) * dt**2
     return end, v + (accel(x) + accel(end)) * dt / 2
 
 
-@mistake(
-    "8b",
-    "straight-line-in-x",
-    "x moves along a straight line, x + v * dt; the acceleration bends the way.",
-    about=VERLET,
+known_8b(
+    "half-is-missing-in-x",
+    "x gets a * dt² of the acceleration; on a parabola it is half of that.",
+    half_missing,
 )
+
+
 def straight_line(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     end = x + v * dt
     return end, v + (accel(x) + accel(end)) * dt / 2
 
 
-@mistake(
-    "8b",
+known_8b(
+    "straight-line-in-x",
+    "x moves along a straight line, x + v * dt; the acceleration bends the way.",
+    straight_line,
+)
+known_8b(
     "semi-implicit-euler-again",
     "This is semi-implicit Euler: it never asks for the acceleration at the new x.",
-    about=VERLET,
+    lambda x, v, dt, force: exact.semi_implicit_euler(x, v, dt, polynomial(force)),
 )
-def semi_implicit_again(x: float, v: float, dt: float, force: Force) -> State:
-    return exact.semi_implicit_euler(x, v, dt, polynomial(force))
 
 
-@mistake(
-    "8b",
-    "midpoint-method",
-    "This is the midpoint method: it samples half-way; Verlet uses both ends of the step.",
-    about=VERLET,
-)
-@mistake(
-    "8c",
-    "midpoint-method",
-    "This is the midpoint method: it stops after the second of the four samples.",
-    about=RK4,
-)
 def midpoint(x: float, v: float, dt: float, force: Force) -> State:
     return four_samples(x, v, dt, force, weights=(0, 6, 0, 0))
+
+
+known_8b(
+    "midpoint-method",
+    "This is the midpoint method: it samples half-way; Verlet uses both ends of the step.",
+    midpoint,
+)
+known_8c(
+    "midpoint-method",
+    "This is the midpoint method: it stops after the second of the four samples.",
+    midpoint,
+)
 
 
 # ---------------------------------------------------------------- 8c
@@ -236,72 +235,40 @@ def four_samples(
     return x, v
 
 
-@mistake(
-    "8c",
+known_8c(
     "equal-weights",
     "All four samples weigh the same; the two in the middle count twice: 1, 2, 2, 1.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(1.5,) * 4),
 )
-def equal_weights(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, weights=(1.5,) * 4)
-
-
-@mistake(
-    "8c",
+known_8c(
     "weights-are-swapped",
     "The first and the last sample count twice; it is the two in the middle that do: 1, 2, 2, 1.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(2, 1, 1, 2)),
 )
-def swapped_weights(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, weights=(2, 1, 1, 2))
-
-
-@mistake(
-    "8c",
+known_8c(
     "mean-of-both-ends",
     "Only the start and the end are sampled; RK4 takes two samples in the middle as well.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(
+        x, v, dt, force, reach=(1.0, 1.0, 1.0), weights=(3, 3, 0, 0)
+    ),
 )
-def mean_of_both_ends(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, reach=(1.0, 1.0, 1.0), weights=(3, 3, 0, 0))
-
-
-@mistake(
-    "8c",
+known_8c(
     "sum-is-not-divided",
     "The weighted sum is used as it is; the weights 1, 2, 2, 1 add up to 6, so divide by 6.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(6, 12, 12, 6)),
 )
-def sum_not_divided(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, weights=(6, 12, 12, 6))
-
-
-@mistake(
-    "8c",
+known_8c(
     "last-sample-at-half-step",
     "The last sample is taken half-way; it belongs to the end of the step.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, reach=(0.5, 0.5, 0.5)),
 )
-def last_sample_half_way(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, reach=(0.5, 0.5, 0.5))
-
-
-@mistake(
-    "8c",
+known_8c(
     "middle-samples-at-full-step",
     "All samples are taken a whole step ahead; the two in the middle belong half-way.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, reach=(1.0, 1.0, 1.0)),
 )
-def middle_at_the_end(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, reach=(1.0, 1.0, 1.0))
 
 
-@mistake(
-    "8c",
-    "third-sample-repeats-the-second",
-    "The third sample starts from the first again; it must use what the second one found.",
-    about=RK4,
-)
 def third_is_the_second(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     v1, a1 = v, accel(x)
@@ -310,21 +277,18 @@ def third_is_the_second(x: float, v: float, dt: float, force: Force) -> State:
     return x + dt / 6 * (v1 + 4 * v2 + v4), v + dt / 6 * (a1 + 4 * a2 + a4)
 
 
-@mistake(
-    "8c",
+known_8c(
+    "third-sample-repeats-the-second",
+    "The third sample starts from the first again; it must use what the second one found.",
+    third_is_the_second,
+)
+known_8c(
     "velocity-is-not-sampled",
     "Only the acceleration is sampled four times; each sample has a velocity of its own too.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt, force, moving=0.0),
 )
-def velocity_not_sampled(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, moving=0.0)
-
-
-@mistake(
-    "8c",
+known_8c(
     "step-stays-halved",
     "dt is halved for the samples and stays so: the step covers only half of its time.",
-    about=RK4,
+    lambda x, v, dt, force: four_samples(x, v, dt / 2, force, reach=(1.0, 1.0, 1.0)),
 )
-def step_stays_halved(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt / 2, force, reach=(1.0, 1.0, 1.0))

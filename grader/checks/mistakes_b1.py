@@ -1,6 +1,7 @@
 """Known mistakes in TODO B1, by what is seen of them at each moment that the checks look at."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from functools import partial
 
 from grader.checks.todo_b1 import (
     AFTER_A_HIT,
@@ -20,55 +21,59 @@ from grader.judge.misconceptions import Undecided, mistake, truth
 AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, ON_A_ROD, AFTER_A_PUSH, AFTER_A_HIT)
 RIGHT = dict.fromkeys((*AWAKE, FLOOR_GONE, CARRIED_AWAY), False) | {AT_REST: True, CHEAP: True}
 
-truth("sleep")(RIGHT.__getitem__)
+truth("sleep", RIGHT.__getitem__)
+
+known = partial(mistake, "B1", "sleep")
 
 
-def known(name: str, meaning: str, *wrong: str, unsure: Collection[str] = ()) -> None:
-    """A mistake that is seen at these moments, and perhaps at those."""
+def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], bool]:
+    """Asleep for awake or the other way round at these moments, and perhaps at the unsure ones."""
 
     def model(when: str) -> bool:
         if when in unsure:
             raise Undecided
-        return RIGHT[when] != (when in wrong)
+        return RIGHT[when] != (when in moments)
 
-    mistake("B1", name, meaning, about="sleep")(model)
+    return model
 
 
 known(
     "sleeps-too-soon",
     "It sleeps before half a second is over: still_for counts seconds, dt more in each step.",
-    AT_FIRST,
-    unsure=(AFTER_A_PUSH, CARRIED_AWAY),
+    wrong_at(AT_FIRST, unsure=(AFTER_A_PUSH, CARRIED_AWAY)),
 )
 known(
     "sleeps-at-the-top-of-a-throw",
     "A body that touches nothing cannot rest, however slow it is.",
-    FLYING,
+    wrong_at(FLYING),
 )
 known(
     "sleeps-while-it-spins",
     "A body that spins moves, even if its centre does not: speed() looks at both.",
-    SPINNING,
+    wrong_at(SPINNING),
 )
-known("sleeps-on-its-rod", "What hangs on a rod or a spring never sleeps: see held.", ON_A_ROD)
+known(
+    "sleeps-on-its-rod",
+    "What hangs on a rod or a spring never sleeps: see held.",
+    wrong_at(ON_A_ROD),
+)
 known(
     "the-time-never-begins-anew",
     "Time at rest is added up over pauses: set still_for to 0 in every step in which it moves.",
-    AFTER_A_PUSH,
+    wrong_at(AFTER_A_PUSH),
 )
 known(
     "sleeps-through-a-hit",
     "A sleeper sleeps on when something faster than WAKING touches it.",
-    AFTER_A_HIT,
+    wrong_at(AFTER_A_HIT),
 )
 known(
     "floats-when-its-support-leaves",
     "A sleeper stays in the air when what it lay on has gone: see has_left().",
-    *(FLOOR_GONE, CARRIED_AWAY),
+    wrong_at(FLOOR_GONE, CARRIED_AWAY),
 )
 known(
     "stands-still-without-sleeping",
     "The body stands still but is computed on: fall_asleep() makes it static for the while.",
-    CHEAP,
-    unsure=(AFTER_A_HIT, FLOOR_GONE, CARRIED_AWAY),
+    wrong_at(CHEAP, unsure=(AFTER_A_HIT, FLOOR_GONE, CARRIED_AWAY)),
 )

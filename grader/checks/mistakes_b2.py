@@ -1,19 +1,16 @@
 """Known mistakes in TODO B2, as models of what one step of a spring does to its ends."""
 
-from collections.abc import Callable
+from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Spring
 from grader.judge.misconceptions import mistake, truth
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
-Model = Callable[[Spring], Ends]
 
-truth("spring")(exact.spring_applied)
+truth("spring", exact.spring_applied)
 
-
-def known(name: str, meaning: str) -> Callable[[Model], Model]:
-    return mistake("B2", name, meaning, about="spring")
+known = partial(mistake, "B2", "spring")
 
 
 def pulled(spring: Spring, force: float) -> Ends:
@@ -25,32 +22,33 @@ def brake(spring: Spring) -> float:
     return spring.damping * spring.rod.speed
 
 
-known("pushes-when-stretched", "The force is turned round: a stretched spring must pull.")(
-    lambda s: pulled(s, -s.stiffness * s.stretch - brake(s))
+known(
+    "pushes-when-stretched",
+    "The force is turned round: a stretched spring must pull.",
+    lambda s: pulled(s, -s.stiffness * s.stretch - brake(s)),
 )
-
-known("damping-drives", "The damping has the wrong sign: it must work against the speed.")(
-    lambda s: pulled(s, s.stiffness * s.stretch - brake(s))
+known(
+    "damping-drives",
+    "The damping has the wrong sign: it must work against the speed.",
+    lambda s: pulled(s, s.stiffness * s.stretch - brake(s)),
 )
-
-known("damping-is-forgotten", "The damping is left out: the spring swings for ever.")(
-    lambda s: pulled(s, s.stiffness * s.stretch)
+known(
+    "damping-is-forgotten",
+    "The damping is left out: the spring swings for ever.",
+    lambda s: pulled(s, s.stiffness * s.stretch),
 )
-
 known(
     "takes-the-distance-for-the-stretch",
     "The force grows with the distance; it must grow with what that is above the length at rest.",
-)(lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)))
-
-
-@known(
-    "forgets-the-step", "The force acts for dt seconds: what changes the velocities is force·dt."
+    lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
 )
-def without_dt(spring: Spring) -> Ends:
-    return exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring))
+known(
+    "forgets-the-step",
+    "The force acts for dt seconds: what changes the velocities is force·dt.",
+    lambda spring: exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),
+)
 
 
-@known("forgets-the-masses", "Both ends get the same change of speed; each takes it by inv_mass.")
 def without_masses(spring: Spring) -> Ends:
     rod = spring.rod
     change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # px/s
@@ -58,11 +56,18 @@ def without_masses(spring: Spring) -> Ends:
     return (ax + change * x, ay + change * y), (bx - change * x, by - change * y)
 
 
-@known("moves-only-a", "Only A is pulled; B must get the opposite impulse.")
-def only_a(spring: Spring) -> Ends:
-    return exact.spring_applied(spring)[0], spring.rod.vel_b
-
-
-@known("moves-only-b", "Only B is pulled; A must get the opposite impulse.")
-def only_b(spring: Spring) -> Ends:
-    return spring.rod.vel_a, exact.spring_applied(spring)[1]
+known(
+    "forgets-the-masses",
+    "Both ends get the same change of speed; each takes it by inv_mass.",
+    without_masses,
+)
+known(
+    "moves-only-a",
+    "Only A is pulled; B must get the opposite impulse.",
+    lambda spring: (exact.spring_applied(spring)[0], spring.rod.vel_b),
+)
+known(
+    "moves-only-b",
+    "Only B is pulled; A must get the opposite impulse.",
+    lambda spring: (spring.rod.vel_a, exact.spring_applied(spring)[1]),
+)

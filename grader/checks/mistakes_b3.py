@@ -2,37 +2,42 @@
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import product
 
 from grader.checks.exact import Disc, Rect
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import always, mistake, truth
 
 CELL = 48.0  # px; who has chosen another is not told the mistake's name
 
 Bounds = tuple[float, float, float, float]  # left, top, right, bottom in px
 Cells = set[tuple[int, int]]
 Pairs = list[tuple[int, int]]
+Model = Callable[[Sequence[Disc], Sequence[Rect], Pairs], Pairs]
 
-truth("contacts")(lambda balls, boxes, touching: touching)
-truth("comparison of all")(lambda balls: False)
+truth("contacts", lambda balls, boxes, touching: touching)
+truth("comparison of all", always(False))
 
 mistake(
     "B3",
+    "comparison of all",
     "compares-all-pairs",
     "Every ball is still compared with every other. Only those that share a cell should be, "
     "and a cell should be little larger than a ball.",
-    about="comparison of all",
-)(lambda balls: True)
+    always(True),
+)
+
+known = partial(mistake, "B3", "contacts")
 
 
-def known(name: str, meaning: str, cells_of: Callable[[Bounds], Cells]) -> None:
+def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
     """A grid with these cells for a body; two bodies that share none are not looked at."""
 
     def model(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
         within = [cells_of(each) for each in all_bounds(balls, boxes)]
         return [(a, b) for a, b in touching if within[a] & within[b]]
 
-    mistake("B3", name, meaning, about="contacts")(model)
+    return model
 
 
 def all_bounds(balls: Sequence[Disc], boxes: Sequence[Rect]) -> list[Bounds]:
@@ -64,42 +69,37 @@ def cells_of_the_corners(bounds: Bounds) -> Cells:
 known(
     "forgets-the-last-cell",
     "The last cell of each body is left out: a range ends before its second number.",
-    lambda bounds: cells(bounds, beyond=0),
+    grid(lambda bounds: cells(bounds, beyond=0)),
 )
 known(
     "nothing-left-of-zero",
     "Bodies left of x = 0 or above y = 0 are in no cell; cells have negative numbers, too.",
-    lambda bounds: {(x, y) for x, y in cells(bounds) if x >= 0 and y >= 0},
+    grid(lambda bounds: {(x, y) for x, y in cells(bounds) if x >= 0 and y >= 0}),
 )
 known(
     "only-the-cell-of-the-centre",
     "A body lies in every cell that its extent reaches, not only in that of its centre.",
-    cell_of_the_centre,
+    grid(cell_of_the_centre),
 )
 known(
     "only-the-cells-of-the-corners",
     "A large body lies in all cells from corner to corner, not in those of the corners alone.",
-    cells_of_the_corners,
+    grid(cells_of_the_corners),
 )
 
 
-@mistake(
-    "B3",
-    "a-pair-once-per-cell",
-    "Two bodies that share several cells are found once for each; each pair must come once.",
-    about="contacts",
-)
 def once_per_cell(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     within = [cells(each) for each in all_bounds(balls, boxes)]
     return [(a, b) for a, b in touching for _ in within[a] & within[b]]
 
 
-@mistake(
-    "B3",
-    "only-the-nearest",
-    "A body can touch several others; it is not enough to look at the nearest.",
-    about="contacts",
+known(
+    "a-pair-once-per-cell",
+    "Two bodies that share several cells are found once for each; each pair must come once.",
+    once_per_cell,
 )
+
+
 def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
     places = [(each[0], each[1]) for each in (*balls, *boxes)]
     numbers = range(len(places))
@@ -109,3 +109,10 @@ def nearest(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pa
         if len(places) > 1
     ]
     return [(a, b) for a, b in touching if nearest_of[a] == b or nearest_of[b] == a]
+
+
+known(
+    "only-the-nearest",
+    "A body can touch several others; it is not enough to look at the nearest.",
+    nearest,
+)

@@ -36,7 +36,7 @@ def room(
     lab: Lab, *bodies: Thing, gravity: float = GRAVITY, joints: tuple[Thing, ...] = ()
 ) -> Thing:
     """A world in which bodies may sleep."""
-    world = lab.world(*bodies, gravity=(0.0, gravity), joints=joints)
+    world = lab.world(*bodies, gravity=(0.0, gravity), joints=joints, bonus=True)
     lab.put(world, sleeping=True)
     return world
 

@@ -54,7 +54,7 @@ def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
     lab.ran(f"{mass:g} kg on a spring of {stiffness:g} kg/s² and {damping:g} kg/s, for {seconds} s")
     hook, bob = lab.circle(STILL, 5.0, 0.0), lab.circle((130.0, 0.0), 10.0, mass)
     made = lab.call("SpringJoint", hook, bob, stiffness, damping, 100.0)
-    world = lab.world(hook, bob)
+    world = lab.world(hook, bob, bonus=True)
     lab.tell(world, "springs.append", lab.thing(made, "a SpringJoint"))
     swing = lab.simulate(world, [bob], round(seconds / STEP)).body(0)
     crossings = [time + when for time, when in zero_crossings([each.x - 100.0 for each in swing])]

@@ -22,7 +22,7 @@ def crowd(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> tuple[Thing, list[T
     """A world, and the bodies in it."""
     bodies = [lab.circle((ball.x, ball.y), ball.r) for ball in balls]
     bodies += [lab.box((box.x, box.y), (box.hx, box.hy)) for box in boxes]
-    return lab.world(*bodies), bodies
+    return lab.world(*bodies, bonus=True), bodies
 
 
 def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:

@@ -56,7 +56,7 @@ def moved(lab: Lab, before: Place, now: Place) -> Thing:
     """A body that a step of its world has brought from one place and angle to another."""
     vx, vy, omega = ((end - begin) / STEP for begin, end in zip(before, now, strict=True))
     body = lab.circle(before[:2], angle=before[2], vel=(vx, vy), omega=omega)
-    lab.simulate(lab.world(body), [body], 1)
+    lab.simulate(lab.world(body, bonus=True), [body], 1)
     return body
 
 

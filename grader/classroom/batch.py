@@ -39,14 +39,14 @@ from grader.classroom.intake import (
 )
 from grader.classroom.progress import Counter
 from grader.classroom.roster import CannotRead, read_roster
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade, work_folder
 from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade, module_of
 from grader.report.files import as_json
-from grader.report.terminal import clean
 from grader.todo_regions import python_files
+from grader.words import clean
 
 NOT_DECIDING = ("classroom", "maintain", "report")  # folders of the grader that give no points
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
@@ -72,7 +72,7 @@ def grade_package(package: Package, options: Options) -> Graded:
 
 
 @cache
-def shared_worker() -> WarmWorker | SpawnWorker:
+def shared_worker() -> Worker:
     """One for all submissions that this process grades; it ends when this process does."""
     return start_worker()
 

@@ -17,11 +17,11 @@ from typing import Any
 import msgspec
 from rich.console import Console
 
+from grader import words
 from grader.judge.grade import KIT, Options
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.submission import CannotGrade, plain_files
 from grader.maintain.sync import students_files
-from grader.report import terminal
 
 ASSIGNMENT = "physics-engine"
 ENGINE = "engine"  # the notebook that holds a cell for each TODO
@@ -294,7 +294,7 @@ def reasons(todo: TodoResult) -> str:
 
 
 def reason(check: CheckResult) -> list[str]:
-    told = [f"  {line}" for line in terminal.reasons(check)]
+    told = [f"  {line}" for line in words.reasons(check)]
     return [f"{check.title} ({check.points} / {check.max_points})", *told]
 
 

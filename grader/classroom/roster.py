@@ -19,7 +19,7 @@ from msgspec import Struct
 from grader.classroom import nbgrader
 from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
 from grader.report.sinks.tables import harmless
-from grader.report.terminal import clean
+from grader.words import clean
 
 if TYPE_CHECKING:
     from grader.classroom.book import Outcome

@@ -14,6 +14,7 @@ import psutil
 
 import grader
 from grader.protocol import (
+    ENVIRONMENT,
     NOT_A_MESSAGE,
     Answered,
     Asked,
@@ -123,6 +124,8 @@ def activity(pid: int) -> tuple[bool, float]:
 
 class Worker(Protocol):
     """Where children come from."""
+
+    layers: list[str]  # what shuts all its children in, beyond what each says of itself
 
     def open(self, setup: ChildSetup) -> Child: ...
 
@@ -307,17 +310,9 @@ class SpawnWorker:
 def clean_environment() -> dict[str, str]:
     """Nothing of the instructor's environment travels: no token, no path, no Python setting."""
     kept = ("PATH", "SYSTEMROOT", "LD_LIBRARY_PATH")
-    names = {name: os.environ[name] for name in kept if name in os.environ}
-    return names | {
-        "SDL_VIDEODRIVER": "dummy",
-        "SDL_AUDIODRIVER": "dummy",
-        "PYGAME_HIDE_SUPPORT_PROMPT": "1",
-        "PYTHONHASHSEED": "0",
-        "LANG": "C.UTF-8",
-        "TZ": "UTC",
-    }
+    return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
 
 
-def start_worker(spawn: bool = False) -> WarmWorker | SpawnWorker:
+def start_worker(spawn: bool = False) -> Worker:
     """The fastest kind this platform has; `spawn` forces the portable one."""
     return SpawnWorker() if spawn or not hasattr(os, "fork") else WarmWorker()

@@ -4,44 +4,58 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import msgspec
 
 from grader.judge import misconceptions
-from grader.judge.children import Child, SpawnWorker, WarmWorker, start_worker
-from grader.judge.isolation import STRICT, Isolation, unconfined
-from grader.judge.lab import Broke, Lab, NotYet, Observation
+from grader.judge.children import Child, Worker, start_worker
+from grader.judge.failures import Broke, NotYet
+from grader.judge.isolation import Isolation
+from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
-from grader.judge.submission import CannotGrade, Submission, take_in
-from grader.protocol import ChildSetup, Limits
+from grader.judge.sandbox import Sandbox
+from grader.judge.submission import Submission, take_in
 from grader.todo_regions import shape_of
 
-if TYPE_CHECKING:
-    from grader.judge.plugin import GradingPlugin
-
 KIT = Path(__file__).parents[2]
-FAILED = ("not yet", "error")  # what a known mistake may be the reason of
 
 
 @dataclass(frozen=True)
 class Options:
-    """How to grade; the defaults are what `make grade` uses."""
+    """How to grade; without any, as a student's copy does that has no reference.
+
+    `reference`: a complete tree, whose functions stand in for a submission's unfinished ones;
+    `shipped_reference()` is the one that `make grade` takes. With None, checks that need an
+    unfinished TODO wait for it.
+    `isolation`: "auto" confines as well as this machine can, "strict" refuses to grade where files
+    or the network cannot be shut off, "none" confines nothing.
+    `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
+    `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
+    `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
+    `progress`: told of each check as it ends. What it raises ends the grade.
+    `replays`: a folder for the replays of failed checks; None for no replays.
+    """
 
     reference: Path | None = None
     isolation: Isolation = "auto"
-    only: frozenset[str] = frozenset()  # TODO ids; empty for all
-    seed: int | None = None  # an instructor's secret, instead of the fixed examples
-    spawn: bool = False  # start each child anew, as on platforms without fork
-    progress: Callable[[CheckResult], None] | None = None  # told of each check as it ends
-    replays: Path | None = None  # a folder for the replays of failed checks; None for none
+    only: frozenset[str] = frozenset()
+    seed: int | None = None
+    spawn: bool = False
+    progress: Callable[[CheckResult], None] | None = None
+    replays: Path | None = None
+
+    def wants(self, todo: Todo) -> bool:
+        return not self.only or todo.id in self.only
+
+
+DEFAULT_OPTIONS = Options()
 
 
 def shipped_reference() -> Path | None:
@@ -50,18 +64,34 @@ def shipped_reference() -> Path | None:
     return folder if (folder / "mini_engine").is_dir() else None
 
 
-def grade(path: Path, options: Options, worker: WarmWorker | SpawnWorker | None = None) -> Result:
-    """Grade the submission at `path`; raises CannotGrade when there is nothing to grade.
+def grade(
+    path: Path | str, options: Options = DEFAULT_OPTIONS, worker: Worker | None = None
+) -> Result:
+    """Grade the submission at `path`, a folder or a Python file.
 
-    A `worker` that is handed in serves more than one grade and stays open.
+    A full grade takes seconds; the same submission and options always give the same marks. What
+    cannot be imported or does not end is graded, with the reason. Raises CannotGrade, with a
+    sentence that says what to do, when there is nothing to grade or not as the options ask.
+
+    A `worker` that is handed in, from `start_worker`, serves more than one grade and stays open.
     """
-    rubric = load_rubric()
+    with grading(Path(path), options, worker) as ours:
+        return ours.run()
+
+
+@contextmanager
+def grading(
+    path: Path, options: Options, worker: Worker | None = None, rubric: Rubric | None = None
+) -> Iterator["Grading"]:
+    """All that it takes to grade the submission at `path`, by another rubric where one is given."""
+    rubric = rubric or load_rubric()
     reference = Reference(options.reference, rubric)
     with work_folder() as work:
         submission = take_in(path, work / "submission", rubric, load_stubs())
         ours = worker or start_worker(options.spawn)
         try:
-            return Grading(options, rubric, reference, submission, ours, work).run()
+            sandbox = sandbox_for(submission, work, ours, options)
+            yield Grading(options, rubric, reference, submission, sandbox)
         finally:
             if worker is None:
                 ours.close()
@@ -70,15 +100,20 @@ def grade(path: Path, options: Options, worker: WarmWorker | SpawnWorker | None 
 @contextmanager
 def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
     """A way to open children of a tree as it is, without grading it."""
-    rubric = load_rubric()
     with work_folder() as work:
         worker = start_worker()
         try:
-            taken_in = take_in(tree, work / "tree", rubric, {})
-            alone = Reference(None, rubric)
-            yield Grading(Options(), rubric, alone, taken_in, worker, work).open_child
+            taken_in = take_in(tree, work / "tree", load_rubric(), {})
+            yield sandbox_for(taken_in, work, worker, DEFAULT_OPTIONS).open_child
         finally:
             worker.close()
+
+
+def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
+    """The sandbox of a tree: the grader and the reference are out of its children's reach."""
+    hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
+    loads = ["numpy"] if tree.uses_numpy else []
+    return Sandbox(tree.folder, work, worker, options.isolation, hidden, loads)
 
 
 @cache
@@ -108,91 +143,54 @@ class Grading:
     rubric: Rubric
     reference: Reference
     submission: Submission
-    worker: WarmWorker | SpawnWorker
-    work: Path
-    layers: list[str] = field(default_factory=list)  # what shuts its children in
+    sandbox: Sandbox
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
 
     def run(self) -> Result:
-        # Imported here: pytest and hypothesis load while the worker loads its libraries.
+        # Here for the time it takes, 0.2 s: pytest and hypothesis load while the worker loads.
         from grader.judge.plugin import GradingPlugin, run_pytest
 
-        unusable = self.find_unusable()
         plugin = GradingPlugin(
             self.submission,
             self.rubric,
             self.reference,
-            self.open_child,
-            unusable,
+            self.sandbox.open_child,
+            self.find_unusable(),
             self.options.only,
             self.options.seed,
             self.options.progress,
             observations=self.observations,
         )
         run_pytest(plugin, self.rubric)
-        result = self.result(plugin)
+        result = self.result(plugin.results)
         folder = self.options.replays
         if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
             return result
-        from grader.judge.replay import Replays  # only where wanted: it loads what makes pages
+        # Here for the time it takes, 0.04 s, without replays: it loads what makes pages.
+        from grader.judge.replay import Replays
 
         known = frozenset(self.submission.functions)
-        replays = Replays(folder, self.open_child, self.expected_children(), known)
+        replays = Replays(folder, self.sandbox.open_child, self.expected_children(), known)
         return replays.of(result, plugin.failing)
-
-    # ------------------------------------------------------------ children
-
-    def open_child(self, cpu_seconds: int, compiles: bool = False) -> Child:
-        scratch = Path(tempfile.mkdtemp(dir=self.work))
-        bytecode = shared_bytecode(self.work, scratch)
-        child = self.worker.open(
-            ChildSetup(
-                submission=str(self.submission.folder),
-                scratch=str(scratch),
-                limits=Limits(cpu_seconds=cpu_seconds),
-                confine=self.options.isolation != "none",
-                hidden=[str(KIT / "grader"), str(self.options.reference or KIT / "solution")],
-                bytecode=str(bytecode),
-                compiles=compiles,
-                loads=["numpy"] if self.submission.uses_numpy else [],
-            )
-        )
-        self.layers = self.layers_around(child)
-        return child
 
     def expected_children(self) -> Callable[[int], Child] | None:
         """A way to open children of the reference itself, to see what should happen."""
         if self.options.reference is None:
             return None
-        work = Path(tempfile.mkdtemp(dir=self.work))  # a name that no submission can guess
-        tree = take_in(self.options.reference, work / "tree", self.rubric, {})
-        return replace(self, submission=tree, work=work).open_child
-
-    def layers_around(self, child: Child) -> list[str]:
-        """What shuts this child in; CannotGrade, with nothing run, if that is not enough."""
-        if self.options.isolation == "none":
-            return ["processes"]
-        layers = ["processes", *child.ready.layers, *self.worker.layers]
-        open_to_it = [what for what in unconfined(layers) if what in STRICT]
-        if self.options.isolation == "strict" and open_to_it:
-            child.end()
-            raise CannotGrade(
-                f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} "
-                f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
-            )
-        return layers
+        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
+        taken_in = take_in(self.options.reference, work / "tree", self.rubric, {})
+        return sandbox_for(taken_in, work, self.sandbox.worker, self.options).open_child
 
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""
         modules = dict.fromkeys(
             check.module or todo.module
-            for todo in self.rubric.todos
+            for todo in filter(self.options.wants, self.rubric.todos)
             for check in todo.checks
-            if not self.options.only or todo.id in self.options.only
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:
-            lab = Lab(module, lambda: self.open_child(10, compiles=True), [])
+            lab = Lab(module, lambda: self.sandbox.open_child(10, compiles=True), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:
@@ -201,16 +199,13 @@ class Grading:
                     unusable[module] = failure
         return unusable
 
-    # ------------------------------------------------------------ the result
-
-    def result(self, plugin: "GradingPlugin") -> Result:
+    def result(self, results: Mapping[tuple[str, str], CheckResult]) -> Result:
+        """The marks; `results` are what came of the checks, by TODO and check."""
         todos = []
-        for todo in self.rubric.todos:
-            if not plugin.wanted(todo):
-                continue
-            checks = count_guards(todo, [plugin.results[todo.id, c.id] for c in todo.checks])
+        for todo in filter(self.options.wants, self.rubric.todos):
+            checks = count_guards(todo, [results[todo.id, each.id] for each in todo.checks])
             mistake = None
-            if any(check.state in FAILED for check in checks):
+            if any(check.failed for check in checks):
                 mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
             if mistake is not None:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
@@ -231,26 +226,10 @@ class Grading:
             points=0,
             max_points=0,
             bonus=0,
-            isolation=self.layers,
+            isolation=self.sandbox.layers,
             todos=[],
         )
         return nothing.with_todos(todos)
-
-
-def shared_bytecode(work: Path, scratch: Path) -> Path:
-    """A folder of compiled files in which all copies of one submission find the same.
-
-    Python looks under it for the path of the source, and each child's copy has a path of its own:
-    so each gets a link to what they share.
-    """
-    bytecode = work / "bytecode"
-    shared = bytecode / "shared"
-    shared.mkdir(parents=True, exist_ok=True)
-    link = bytecode / scratch.relative_to(scratch.anchor)
-    link.parent.mkdir(parents=True, exist_ok=True)
-    with suppress(OSError):  # Windows may not allow it: then each compiles for itself
-        link.symlink_to(shared, target_is_directory=True)
-    return bytecode
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
@@ -269,4 +248,4 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
 
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:
-    return msgspec.structs.replace(check, meaning=meaning) if check.state in FAILED else check
+    return msgspec.structs.replace(check, meaning=meaning) if check.failed else check

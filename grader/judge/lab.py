@@ -7,71 +7,37 @@ strictly typed and finite, or the check fails with a sentence that says what was
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import Any, Literal, NoReturn
+from dataclasses import dataclass
+from typing import Any, Literal
 
-from grader.judge.children import Child, ChildEnded
+from grader.judge.children import Child
+from grader.judge.connection import Answer, Connection, Send, ask_child
+from grader.judge.decode import Decoder, Pair, Thing
+from grader.judge.failures import Broke, NotYet
 from grader.protocol import (
-    Answered,
     Argument,
     BodyValue,
     Call,
-    ContactValue,
     Event,
     Get,
-    Import,
     Integrate,
-    Items,
     MakeBody,
     MakeWorld,
-    Missing,
     Piece,
     Play,
     Played,
-    Raised,
     Ref,
     Request,
     Returned,
     Set,
     Simulate,
     Simulated,
-    SpaceBody,
-    SpaceJoint,
-    SpaceValue,
     Value,
     Vec,
 )
 
 STEP = 1 / 120  # s
-MAX_OUTPUT = 65536  # characters kept of what a submission prints during one check
 MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
-
-Pair = tuple[float, float]
-
-
-class NotYet(Exception):
-    """The submission gave an answer, and it is not the right one."""
-
-    def __init__(self, ran: str, expected: str, got: str, meaning: str = "") -> None:
-        super().__init__(got)
-        self.ran, self.expected, self.got, self.meaning = ran, expected, got, meaning
-        self.quotes = False  # whether it repeats words of the submission
-
-
-class Broke(Exception):
-    """The submission's own code raised, or its process ended without an answer."""
-
-    def __init__(self, ran: str, got: str, raised: Raised | None = None) -> None:
-        super().__init__(got)
-        self.ran, self.got, self.raised = ran, got, raised
-        self.quotes = raised is not None
-
-
-@dataclass(frozen=True)
-class Thing:
-    """An object that lives in the child: a body, a contact, a joint, a world or a space."""
-
-    ref: int
 
 
 @dataclass(frozen=True)
@@ -83,45 +49,34 @@ class Observation:
     answer: Any
 
 
-@dataclass
-class Lab:
+class Lab(Decoder):
     """One check's view of the submission; `open_child` starts a fresh process when first needed."""
 
-    module: str  # what the check imports
-    open_child: Callable[[], Child]
-    pieces: list[Piece]
-    observations: list[Observation] = field(default_factory=list)
-    swapped: list[str] = field(default_factory=list)
-    output: str = ""
-    running: str = ""
-    failure: NotYet | Broke | None = None  # the first one, or the one the check ended with
-    again: Callable[..., None] | None = None  # what ran last; takes a lab to run in once more
-    _child: Child | None = None
-    _played: bool = False  # whether the child has run a program
-    _over: NotYet | Broke | None = None  # why nothing more can be asked
+    def __init__(
+        self,
+        module: str,  # what the check imports
+        open_child: Callable[[], Child],
+        pieces: list[Piece],
+        send: Send = ask_child,
+    ) -> None:
+        super().__init__(mixed=bool(pieces))
+        self.module = module
+        self.connection = Connection(module, open_child, pieces, send)
+        self.observations: list[Observation] = []
+        self.played = False  # whether the child has run a program
 
     @property
     def ended(self) -> bool:
         """Whether the submission's process ended, or had to be ended, before the check did."""
         return isinstance(self.failure, Broke) and self.failure.raised is None
 
-    # ------------------------------------------------------------ saying what a check does
-
-    def ran(self, text: str) -> None:
-        """Name the experiment, for the line *We ran*."""
-        self.running = text
-
-    def want(self, holds: bool, expected: str, got: str, meaning: str = "") -> None:
-        """Fail the check unless `holds`, with what was expected and what came out."""
-        if not holds:
-            self.fail(expected, got, meaning)
-
-    def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
-        raise self._remember(NotYet(self.running, expected, got, meaning))
-
-    def _remember(self, failure: NotYet | Broke) -> NotYet | Broke:
-        self.failure = self.failure or failure
-        return failure
+    @contextmanager
+    def opened(self) -> Iterator["Lab"]:
+        """End the child afterwards, whatever happened."""
+        try:
+            yield self
+        finally:
+            self.connection.end()
 
     def saw(self, about: str, inputs: tuple[Any, ...], answer: Any) -> None:
         """Remember an answer, so that a known mistake can be told by its numbers."""
@@ -132,7 +87,7 @@ class Lab:
 
     def probe(self) -> None:
         """Import the submission and nothing more."""
-        self._begin()
+        self.connection.begin(self.running)
 
     def call(self, name: str, *args: Any, **kwargs: Any) -> Value:
         """Call `name` of the TODO's module, or `module:name`."""
@@ -156,44 +111,6 @@ class Lab:
 
     def put(self, thing: Thing, **fields: Any) -> None:
         self._value(Set(thing.ref, {name: plain(value) for name, value in fields.items()}))
-
-    def number(self, value: Value, what: str) -> float:
-        """The value as a finite number."""
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            self.fail(f"a number as {what}", self.describe(value))
-        if not math.isfinite(value):
-            self.fail(f"a finite number as {what}", f"{value}")
-        return float(value)
-
-    def pair(self, value: Value, what: str) -> Pair:
-        """The value as two finite numbers."""
-        if not isinstance(value, Vec):
-            self.fail(f"a pair of numbers as {what}", self.describe(value))
-        return self.number(value.x, what), self.number(value.y, what)
-
-    def items(self, value: Value, what: str) -> list[Value]:
-        """The value as a list; a pair of numbers counts as one of two."""
-        if isinstance(value, Vec):
-            return [value.x, value.y]
-        if not isinstance(value, Items):
-            self.fail(f"a list or tuple as {what}", self.describe(value))
-        return value.items
-
-    def describe(self, value: Value) -> str:
-        match value:
-            case None:
-                return "None (is there a return missing?)"
-            case Ref(kind=kind):
-                return "an object" if self.pieces else f"an object of type {kind}"
-            case Items():
-                return f"a list or tuple of {len(value.items)}"
-            case str() if self.pieces:
-                return "a text"
-            case bool() | int() | float() | str():
-                return f"{value!r}"[:200]
-            case Vec(x, y):
-                return f"the pair ({x:.6g}, {y:.6g})"
-        return f"a {type(value).__name__.removesuffix('Value').lower()}"
 
     # ------------------------------------------------------------ the lesson's engine
 
@@ -220,33 +137,9 @@ class Lab:
         request = MakeBody(self.module, shape, size, Vec(*pos), float(mass), surface, rest)
         return self.thing(self._value(request), "a Body")
 
-    def thing(self, value: Value, what: str = "an object") -> Thing:
-        """The value as an object that lives in the child."""
-        if isinstance(value, Ref):
-            return Thing(value.id)
-        if isinstance(value, BodyValue | ContactValue | SpaceValue | SpaceBody):
-            return Thing(value.ref)
-        self.fail(what, self.describe(value))
-
     def state(self, body: Thing) -> BodyValue:
         """A body's numbers, all finite."""
-        value = self._value(Get(body.ref))
-        if not isinstance(value, BodyValue):
-            self.fail("a Body", self.describe(value))
-        numbers = (*value.pos, *value.vel, value.angle, value.omega)
-        if not all(map(math.isfinite, numbers)):
-            self.fail("finite numbers in every body", f"{numbers}")
-        return value
-
-    def contact_or_none(self, value: Value) -> ContactValue | None:
-        """The value as a Contact or None, with finite numbers."""
-        if value is None or isinstance(value, ContactValue):
-            if value is not None:
-                self.pair(value.normal, "the normal")
-                self.pair(value.point, "the point")
-                self.number(value.depth, "the depth")
-            return value
-        self.fail("a Contact or None", self.describe(value))
+        return self.body(self._value(Get(body.ref)))
 
     def world(
         self,
@@ -255,8 +148,12 @@ class Lab:
         linear_damping: float = 0.0,
         angular_damping: float = 0.0,
         joints: Sequence[Thing] = (),
+        bonus: bool = False,
     ) -> Thing:
-        """A World with these bodies; without gravity and damping unless asked for."""
+        """A World with these bodies; without gravity and damping unless asked for.
+
+        `bonus`: the world of the bonus tasks. Older submissions have one World for everything.
+        """
         request = MakeWorld(
             self.module,
             Vec(*gravity),
@@ -264,6 +161,7 @@ class Lab:
             angular_damping,
             [body.ref for body in bodies],
             [joint.ref for joint in joints],
+            bonus,
         )
         return self.thing(self._value(request), "a World")
 
@@ -291,12 +189,6 @@ class Lab:
 
     # ------------------------------------------------------------ pymunk, forces, programs
 
-    def space(self, value: Value) -> SpaceValue:
-        """The value as a pymunk Space, described."""
-        if not isinstance(value, SpaceValue):
-            self.fail("a pymunk Space", self.describe(value))
-        return value
-
     def integrate(
         self, method: str, start: Pair, dt: float, force: Sequence[float], steps: int = 1
     ) -> list[Pair]:
@@ -322,17 +214,16 @@ class Lab:
 
         A second run has a process of its own: main() may count on being run once.
         """
-        if self._played and self._child is not None and self._over is None:
-            self._child.end()
-            self._child = None
-        self._played = True
+        if self.played:
+            self.connection.restart()
+        self.played = True
         request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
         return reply
 
-    # ------------------------------------------------------------ the wire
+    # ------------------------------------------------------------ the replies
 
     def _value(self, request: Request) -> Value:
         return self._returned(request).value
@@ -343,59 +234,12 @@ class Lab:
             self.fail("a value", "something else")
         return reply
 
-    def _reply(self, request: Request) -> Any:
-        if self._child is None:
-            self._begin()
-        return self._ask(request)
-
-    def _begin(self) -> None:
+    def _reply(self, request: Request) -> Answer:
         try:
-            self._child = self.open_child()
-        except ChildEnded as error:
-            self._stop(str(error))
-        try:
-            reply = self._ask(Import(self.module, self.pieces))
+            return self.connection.ask(request, self.running)
         except (Broke, NotYet) as failure:
-            self._over = failure
+            self.remember(failure)
             raise
-        if isinstance(reply, Returned) and isinstance(reply.value, str):
-            self.swapped = reply.value.split(",") if reply.value else []
-
-    def _ask(self, request: Request) -> Any:
-        if self._over is not None:
-            raise self._over
-        try:
-            answered = self._send(request)
-        except ChildEnded as error:
-            self._stop(str(error))
-        self.output += answered.output[: MAX_OUTPUT - len(self.output)]
-        match answered.reply:
-            case Raised() as raised:
-                text = f"{raised.error}: {raised.message}"
-                raise self._remember(Broke(self.running, text, raised))
-            case Missing(what):
-                missing = NotYet(self.running, "the names and types of the lesson", what)
-                missing.quotes = True
-                raise self._remember(missing)
-        return answered.reply
-
-    def _send(self, request: Request) -> Answered:
-        assert self._child is not None
-        return self._child.ask(request)
-
-    def _stop(self, why: str) -> NoReturn:
-        """The child is gone: this check has its outcome, whatever else it would have asked."""
-        self._over = Broke(self.running, why)
-        raise self._remember(self._over)
-
-    @contextmanager
-    def opened(self) -> Iterator["Lab"]:
-        """End the child afterwards, whatever happened."""
-        try:
-            yield self
-        finally:
-            if self._child is not None:
-                self._child.end()
 
 
 class Run:
@@ -436,4 +280,4 @@ def plain(value: Any) -> Argument:
     return value  # type: ignore[no-any-return]
 
 
-__all__ = ["Broke", "Lab", "Moment", "NotYet", "Observation", "Pair", "Run", "SpaceJoint", "Thing"]
+__all__ = ["Broke", "Lab", "Moment", "NotYet", "Observation", "Pair", "Run", "Thing"]

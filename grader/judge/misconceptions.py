@@ -35,24 +35,25 @@ known: list[Mistake] = []
 right: dict[str, Model] = {}
 
 
-def truth(about: str) -> Callable[[Model], Model]:
+def truth(about: str, model: Model) -> None:
     """Register the right model of the observations called `about`."""
-
-    def register(model: Model) -> Model:
-        right[about] = model
-        return model
-
-    return register
+    right[about] = model
 
 
-def mistake(todo: str, name: str, meaning: str, *, about: str) -> Callable[[Model], Model]:
-    """Register a wrong model: what comes out of the observations `about` for this mistake."""
+def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> None:
+    """Register a mistake: what each model gives for the observations called `about`.
 
-    def register(model: Model) -> Model:
-        known.append(Mistake(todo, name, meaning, about, model))
-        return model
+    One model that explains the answers is enough. Of several TODOs the ids are separated by spaces.
+    Where two mistakes explain the same answers, the one registered first is named. A file that says
+    the first two arguments often makes a partial of this function: `known`.
+    """
+    for model in models:
+        known.extend(Mistake(todo, name, meaning, about, model) for todo in todos.split())
 
-    return register
+
+def always(answer: Any) -> Model:
+    """The model that gives the same answer whatever is asked."""
+    return lambda *inputs: answer
 
 
 @cache
@@ -73,9 +74,9 @@ def load_known(todo: str) -> None:
 def take_from(table: Recorded, todo: str) -> None:
     for each in table.mistakes:
         if each.todo == todo:
-            mistake(todo, each.id, each.meaning, about=each.about)(looked_up(each.answers))
+            mistake(todo, each.about, each.id, each.meaning, looked_up(each.answers))
     for about, answers in table.right.items():
-        truth(about)(looked_up(answers))
+        truth(about, looked_up(answers))
 
 
 def looked_up(answers: Answers) -> Model:

@@ -4,40 +4,21 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import partial, wraps
+from functools import partial
 from typing import Any
 
-import hypothesis
 import pytest
-from hypothesis.internal.conjecture import providers
+from hypothesis.errors import Flaky
 
 from grader.judge.children import Child
-from grader.judge.lab import Broke, Lab, NotYet, Observation
+from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
+from grader.judge.failures import Broke, NotYet
+from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission
 from grader.protocol import Piece
-
-EXAMPLES = 25  # per property
-
-hypothesis.settings.register_profile(
-    "judge",
-    derandomize=True,
-    deadline=None,
-    database=None,
-    max_examples=EXAMPLES,
-    report_multiple_bugs=False,
-    print_blob=False,
-    phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
-    suppress_health_check=list(hypothesis.HealthCheck),
-)
-
-# Without this, examples would depend on which of our modules happen to be loaded, and on what
-# hypothesis has drawn in this process before.
-NO_CONSTANTS = type(providers._local_constants)()
-providers._get_local_constants = lambda: NO_CONSTANTS
-providers.CONSTANTS_CACHE.cache.clear()
 
 
 @dataclass(frozen=True)
@@ -46,7 +27,7 @@ class Failing:
 
     todo: Todo
     check: Check
-    again: Callable[..., None]  # takes a lab
+    again: Example
     pieces: list[Piece]
 
 
@@ -142,49 +123,50 @@ class GradingPlugin:
 
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
         """With the reference in the other TODOs' places; failing that, the program as it is."""
-        lab = self._attempt(todo, check, function, isolated=True)
-        if lab.failure is not None and lab.swapped and not lab.ended:
-            as_it_is = self._attempt(todo, check, function, isolated=False)
+        lab, again = self._attempt(todo, check, function, isolated=True)
+        if lab.failure is not None and lab.connection.swapped and not lab.ended:
+            as_it_is, its_own = self._attempt(todo, check, function, isolated=False)
             if as_it_is.failure is None or lab.failure.quotes:
-                lab = as_it_is
+                lab, again = as_it_is, its_own
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if lab.failure is not None:
-            if lab.again is not None and not lab.ended:
-                self.failing[todo.id, check.id] = Failing(todo, check, lab.again, lab.pieces)
+            if not lab.ended:
+                failing = Failing(todo, check, again, lab.connection.pieces)
+                self.failing[todo.id, check.id] = failing
             return self._failure(todo, check, title, lab.failure)
         return self._result(todo, check, title, "passed")
 
-    def _attempt(self, todo: Todo, check: Check, function: Any, isolated: bool) -> Lab:
-        """A property draws the same for all, so it asks at once what another submission has passed.
+    def _attempt(
+        self, todo: Todo, check: Check, function: Any, isolated: bool
+    ) -> tuple[Lab, Example]:
+        """A lab in which the check ran, and what ran there last.
 
+        A property draws the same for all, so it asks at once what another submission has passed.
         Only where that fails need hypothesis look for the simplest example.
         """
         known = passed_before.get((function, self.seed))
         if known is not None:
-            lab = self._asked(todo, check, partial(each_of, known), isolated)
+            example = partial(each_of, known)
+            lab = self._asked(todo, check, example, isolated)
             if lab.failure is None or lab.ended:
-                return lab
+                return lab, example
         with kept_examples(function) as examples, seeded(function, self.seed):
             lab = self._asked(todo, check, function, isolated)
-        if examples:
-            lab.again = examples[-1]
-            if lab.failure is None:
-                passed_before[function, self.seed] = examples
-        return lab
+        if examples and lab.failure is None:
+            passed_before[function, self.seed] = examples
+        return lab, examples[-1] if examples else function
 
-    def _asked(
-        self, todo: Todo, check: Check, function: Callable[..., None], isolated: bool
-    ) -> Lab:
+    def _asked(self, todo: Todo, check: Check, example: Example, isolated: bool) -> Lab:
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
-        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces, again=function)
+        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces)
         with lab.opened():
             try:
-                function(lab=lab)
+                example(lab=lab)
             except (NotYet, Broke) as failure:
                 lab.failure = failure
-            except hypothesis.errors.Flaky:  # the lab kept the first failure, if it saw one
+            except Flaky:  # the lab kept the first failure, if it saw one
                 lab.failure = lab.failure or Broke(lab.running, "another answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
@@ -229,8 +211,6 @@ TODO = pytest.StashKey[Todo]()
 CHECK = pytest.StashKey[Check]()
 
 
-Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
-
 # By the property and its seed, all the examples that a submission passed.
 passed_before: dict[tuple[Any, int | None], list[Example]] = {}
 
@@ -241,54 +221,16 @@ def each_of(examples: list[Example], lab: Lab) -> None:
 
 
 @contextmanager
-def kept_examples(function: Any) -> Iterator[list[Example]]:
-    """The examples of a property, as they come; of any other check there are none."""
-    examples: list[Example] = []
-    if not hasattr(function, "hypothesis"):
-        yield examples
-        return
-    inner = function.hypothesis.inner_test
-
-    @wraps(inner)  # hypothesis draws by the source and signature, which stay the same
-    def example(*args: Any, **drawn: Any) -> None:
-        examples.append(partial(inner, *args, **{k: drawn[k] for k in drawn if k != "lab"}))
-        inner(*args, **drawn)
-
-    function.hypothesis.inner_test = example
-    try:
-        yield examples
-    finally:
-        function.hypothesis.inner_test = inner
-
-
-@contextmanager
-def seeded(function: Any, seed: int | None) -> Iterator[None]:
-    """Let a property draw as the judge does, by this seed, this once.
-
-    The function outlives the grade, and may have been loaded under other settings before it.
-    """
-    hypothesis.seed(seed)(function)
-    if not hasattr(function, "_hypothesis_internal_settings_applied"):  # by a decorator of its own
-        function._hypothesis_internal_use_settings = hypothesis.settings.get_profile("judge")
-    try:
-        yield
-    finally:
-        hypothesis.seed(None)(function)
-
-
-@contextmanager
 def settled_environment() -> Iterator[None]:
-    """Our hypothesis profile, and no option or plugin of pytest that is on this machine."""
-    profile = hypothesis.settings.get_current_profile_name()
+    """The judge's settings, and no option or plugin of pytest that is on this machine."""
     usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
     for name in usual:
         del os.environ[name]
     os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
-    hypothesis.settings.load_profile("judge")
     try:
-        yield
+        with judge_settings():
+            yield
     finally:
-        hypothesis.settings.load_profile(profile)
         del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]
         os.environ.update(usual)
 

@@ -7,6 +7,8 @@ from msgspec import Struct, structs
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
 
+FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
+
 
 class Where(Struct, frozen=True):
     file: str
@@ -29,17 +31,10 @@ class CheckResult(Struct, frozen=True):
     where: Where | None = None
     replay: str | None = None
 
-    def reasons(self, task: str = "") -> list[tuple[str, str]]:
-        """Why it is not passed, in named lines; `task` stands behind the place to look at."""
-        place = f"{self.where.file}:{self.where.line}{task}" if self.where else ""
-        words = (
-            ("We ran", self.ran),
-            ("Expected", self.expected),
-            ("Got", self.got),
-            ("Meaning", self.meaning),
-            ("Look at", place),
-        )
-        return [(name, text) for name, text in words if text]
+    @property
+    def failed(self) -> bool:
+        """Whether there is something to say about it."""
+        return self.state in FAILED
 
 
 def is_bonus(todo: str) -> bool:
@@ -60,6 +55,11 @@ class TodoResult(Struct, frozen=True):
     def bonus(self) -> bool:
         """Whether its points are counted apart from those of the result."""
         return is_bonus(self.id)
+
+    @property
+    def failed(self) -> list[CheckResult]:
+        """The checks that there is something to say about."""
+        return [check for check in self.checks if check.failed]
 
 
 class Result(Struct, frozen=True):

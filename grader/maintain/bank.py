@@ -5,6 +5,7 @@
   mistake's; `+` and more follow where the same one is made in another way.
 - `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
 - `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
+- `tests/bank/old_package/`: the package as it was handed out before its bonus tasks had a folder.
 """
 
 import os
@@ -25,7 +26,7 @@ from grader.todo_regions import python_files, read_source, regions_in, replaced
 
 Kind = Literal["wrong", "right", "hostile"]
 Form = Literal["package", "single file"]
-Base = Literal["solution", "starter", "empty"]
+Base = Literal["solution", "starter", "old package", "empty"]
 
 
 class Entry(Struct, frozen=True, forbid_unknown_fields=True):
@@ -39,6 +40,7 @@ class Entry(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Book(Struct, frozen=True, forbid_unknown_fields=True):
+    wrong: dict[str, Entry] = {}
     right: dict[str, Entry] = {}
     hostile: dict[str, Entry] = {}
 
@@ -92,7 +94,10 @@ class Member:
             folder.mkdir(parents=True)
         else:
             ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
-            shutil.copytree(kit / base, folder, ignore=ignored)
+            tree = "starter" if base == "starter" else "solution"
+            shutil.copytree(kit / tree, folder, ignore=ignored)
+        if base == "old package":
+            use_old_package(kit, folder)
         if self.form == "single file":
             use_single_file(kit, folder)
         if self.source is not None and self.source.is_dir():
@@ -134,7 +139,8 @@ def members(kit: Path) -> Iterator[Member]:
     bank = kit / "tests" / "bank"
     book = msgspec.toml.decode((bank / "bank.toml").read_bytes(), type=Book)
     for path in sorted((bank / "wrong").glob("*.py")):
-        member = Member("wrong", path.stem, "package", Entry(), path)
+        entry = book.wrong.get(path.stem, Entry())
+        member = Member("wrong", path.stem, "package", entry, path)
         yield member
         if member.todos <= set("123456"):
             yield Member("wrong", path.stem, "single file", Entry(), path)
@@ -151,6 +157,12 @@ def use_single_file(kit: Path, folder: Path) -> None:
     shutil.copyfile(
         kit / "tests" / "bank" / "single_file" / "mini_engine.py", folder / "mini_engine.py"
     )
+
+
+def use_old_package(kit: Path, folder: Path) -> None:
+    shutil.rmtree(folder / "mini_engine")
+    old = kit / "tests" / "bank" / "old_package" / "mini_engine"
+    shutil.copytree(old, folder / "mini_engine", ignore=shutil.ignore_patterns("__pycache__"))
 
 
 def lay_over(source: Path, folder: Path) -> None:
@@ -198,13 +210,23 @@ def rewrite(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
 def into_one_file(folder: Path) -> None:
     """The package as one mini_engine.py, in which each part follows those that it imports."""
     package = folder / "mini_engine"
-    texts = {path.stem: read_source(path) for path in package.glob("[!_]*.py")}
-    needs = {name: re.findall(r"^from \.(\w+)", text, re.MULTILINE) for name, text in texts.items()}
-    parts = [texts[name] for name in TopologicalSorter(needs).static_order()]
-    merged = re.sub(r"^from \..*\n", "", "\n\n".join(parts), flags=re.MULTILINE)
+    texts = {path: read_source(path) for path in package.rglob("[!_]*.py")}
+    needs = {path: list(imported_parts(path, text)) for path, text in texts.items()}
+    parts = [texts[path] for path in TopologicalSorter(needs).static_order()]
+    merged = re.sub(RENAMED_IMPORT, r"\2 = \1\n", "\n\n".join(parts))
+    merged = re.sub(r"^from \..*\n", "", merged, flags=re.MULTILINE)
     shutil.rmtree(package)
     start = '\n\nif __name__ == "__main__":\n    main()\n'
     (folder / "mini_engine.py").write_text(merged + start, encoding="utf-8")
+
+
+RENAMED_IMPORT = re.compile(r"^from \..* import (\w+) as (\w+)\n", re.MULTILINE)
+
+
+def imported_parts(path: Path, text: str) -> Iterator[Path]:
+    """The files of the package that one of them imports from, as in `from ..world import World`."""
+    for dots, name in re.findall(r"^from (\.+)(\w+)", text, re.MULTILINE):
+        yield path.parents[len(dots) - 1] / f"{name}.py"
 
 
 def link_out(folder: Path) -> None:

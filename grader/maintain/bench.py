@@ -20,10 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.judge.children import Child, clean_environment, start_worker
-from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
-from grader.judge.reference import Reference
-from grader.judge.rubric import load_rubric
-from grader.judge.submission import take_in
+from grader.judge.grade import KIT, Options, grading, shipped_reference, work_folder
 from grader.protocol import Answered, ChildSetup, Film, Play, Ready, Request, Simulate
 from grader.worker.child import answer
 from grader.worker.film import Camera
@@ -110,19 +107,15 @@ def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
 
 def run_once(isolated: bool) -> Times:
     """One full grade of the solution."""
-    times, rubric = Times(), load_rubric()
-    options = Options(shipped_reference())
+    times, options = Times(), Options(shipped_reference())
     start = perf_counter()
-    with work_folder() as work:
-        submission = take_in(KIT / "solution", work / "submission", rubric, load_stubs())
-        worker: Any = start_worker() if isolated else OpenWorker(times)
-        reference = Reference(options.reference, rubric)
-        grading = Grading(options, rubric, reference, submission, worker, work)
-        try:
-            with nullcontext() if isolated else replaced_clocks(worker.clock):
-                result = grading.run()
-        finally:
-            worker.close()
+    worker: Any = start_worker() if isolated else OpenWorker(times)
+    clocks = nullcontext() if isolated else replaced_clocks(worker.clock)
+    try:
+        with grading(KIT / "solution", options, worker) as run, clocks:
+            result = run.run()
+    finally:
+        worker.close()
     times.total = perf_counter() - start
     if result.points != result.max_points:
         raise RuntimeError(f"the solution got {result.points} of {result.max_points} points")

@@ -28,13 +28,11 @@ from rich.table import Table
 from grader.classroom.progress import Counter
 from grader.judge import misconceptions
 from grader.judge.definitions import function_named, statements
-from grader.judge.grade import KIT, Grading, Options, load_stubs, shipped_reference, work_folder
+from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
-from grader.judge.reference import Reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
-from grader.judge.submission import take_in
 from grader.maintain.bank import Entry, Member
 from grader.maintain.operators import changes, names_in, normal
 from grader.maintain.verify import shared_worker
@@ -216,12 +214,8 @@ def watched(
 ) -> tuple[Result, dict[str, list[Observation]]]:
     """The result for a submission, and every answer it gave, by TODO."""
     rubric, options = hurried(load_rubric()), Options(shipped_reference(), only=only, seed=seed)
-    with work_folder() as work:
-        submission = take_in(path, work / "submission", rubric, load_stubs())
-        reference = Reference(options.reference, rubric)
-        grading = Grading(options, rubric, reference, submission, shared_worker(), work)
-        result = grading.run()
-    return result, grading.observations
+    with grading(path, options, shared_worker(), rubric) as run:
+        return run.run(), run.observations
 
 
 def hurried(rubric: Rubric) -> Rubric:

@@ -20,7 +20,7 @@ import msgspec
 from rich.console import Console
 
 import grader
-from grader.judge.grade import KIT
+from grader.judge.grade import KIT, opened
 from grader.judge.replay import record_expected
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -77,7 +77,8 @@ def build(work: Path, wrong: Iterable[Tree]) -> Path:
     built.mkdir(parents=True)
     write_copy(copy, wrong)
     runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
-    runs.write_bytes(record_expected(KIT / "solution"))
+    with opened(KIT / "solution") as open_child:
+        runs.write_bytes(record_expected(open_child))
     lay_out(tree)
     lock = pinned((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_of([copy, tree], lock)

@@ -18,13 +18,11 @@ import msgspec
 
 from grader.checks import exact
 from grader.judge import misconceptions
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
-from grader.judge.grade import KIT, Grading, Options, load_stubs, work_folder
+from grader.judge.children import Worker, start_worker
+from grader.judge.grade import KIT, Options, grading
 from grader.judge.lab import Observation
 from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
-from grader.judge.reference import Reference
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
-from grader.judge.submission import take_in
 from grader.maintain.cut import asked_of, pruned, with_bodies
 
 NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
@@ -155,14 +153,9 @@ def without_properties(rubric: Rubric) -> Rubric:
     return Rubric(todos)
 
 
-def watch(
-    path: Path, todos: frozenset[str], rubric: Rubric, worker: WarmWorker | SpawnWorker
-) -> list[Observation]:
+def watch(path: Path, todos: frozenset[str], rubric: Rubric, worker: Worker) -> list[Observation]:
     """What these checks see of a submission."""
-    options = Options(reference=None, only=todos)
-    with work_folder() as work:
-        submission = take_in(path, work / "submission", rubric, load_stubs())
-        run = Grading(options, rubric, Reference(None, rubric), submission, worker, work)
+    with grading(path, Options(reference=None, only=todos), worker, rubric) as run:
         run.run()
     return [each for observations in run.observations.values() for each in observations]
 

@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.classroom.progress import Counter
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -105,7 +105,7 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
 
 
 @cache
-def shared_worker() -> WarmWorker | SpawnWorker:
+def shared_worker() -> Worker:
     """One for all members that this process grades; it ends when this process does."""
     worker = start_worker()
     if isinstance(worker, WarmWorker):

@@ -22,6 +22,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
+from grader.words import digits, printable
 
 MAX_ANSWER = 160  # characters
 
@@ -141,7 +142,7 @@ def in_words(reply: Reply) -> str:
             text = f"{sum(steps)} steps{seen}"
         case _:
             text = ""
-    line = "".join(c if c.isprintable() else " " for c in text[: 4 * MAX_ANSWER])
+    line = printable(text[: 4 * MAX_ANSWER])
     return line if len(line) <= MAX_ANSWER else line[: MAX_ANSWER - 1] + "…"
 
 
@@ -168,8 +169,3 @@ def value_in_words(value: Value) -> str:
             turning = "infinite" if moment is None else digits(moment)
             return f"a body of mass {digits(mass)}, moment {turning}"
     return ""
-
-
-def digits(value: float) -> str:
-    """Six digits, without the noise that rounding leaves around 0."""
-    return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)

@@ -11,8 +11,10 @@ import msgspec
 from markupsafe import Markup
 
 from grader.player.film import Replay
+from grader.words import printable
 
 TEMPLATES = Path(__file__).with_name("templates")
+MAX_WORDS = 1000  # characters of a submission in one line: a page has more room than a terminal
 
 
 def page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
@@ -72,4 +74,4 @@ def as_data(value: object) -> Markup:
 
 def one_line(text: str) -> str:
     """A submission's words without line breaks, control and direction characters."""
-    return "".join(c if c.isprintable() else " " for c in text)[:1000]
+    return printable(text)[:MAX_WORDS]

@@ -1,4 +1,4 @@
-"""Two runs put together, frame by frame, and where they part."""
+"""Two runs compared frame by frame, and the first frame in which they differ."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from grader.player.film import Both, Line, Parting, Replay, Scene, Take, numbers, thinned
 from grader.protocol import BodyLook, BodyRow, Shot
+from grader.words import about
 
 VISIBLE = 0.5  # px, and px/s where nothing has moved yet
 A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass
@@ -15,15 +16,15 @@ ROUNDING = 1e-6  # of the fastest speed, and of a mass; px
 Moment = tuple[Shot, Shot | None]  # yours, and what should be
 
 
-class Eye(NamedTuple):
-    """How much it takes to be seen."""
+class Tolerance(NamedTuple):
+    """How far two runs may differ and still count as equal."""
 
     place: float  # px
     speed: float  # px/s
     share: float  # of a mass
 
 
-class Together(NamedTuple):
+class PairedRequest(NamedTuple):
     """A request in both runs; the other is None where the right run is not known."""
 
     line: Line
@@ -41,36 +42,38 @@ def replay(yours: Sequence[Take], expected: Sequence[Take], exact: bool = True) 
     takes = [
         (mine, right or Take("")) for mine, right in zip_longest(yours, expected[: len(yours)])
     ]
-    rows = [list(together(mine, right)) for mine, right in takes]
+    rows = [list(paired_requests(mine, right)) for mine, right in takes]
     scenes = [scene(*pair, each) for pair, each in zip(takes, rows, strict=True)]
-    eyes = (seen, seen_and_weighed, measured) if exact else (seen, seen_and_weighed)
+    tolerances = (
+        (visible, visible_or_heavier, beyond_rounding) if exact else (visible, visible_or_heavier)
+    )
     parting = None
-    for eye in eyes:
+    for tolerance_for in tolerances:
         found = (
-            first_parting(number, pair, each, eye(max(map(fastest, pair))))
+            first_difference(number, pair, each, tolerance_for(max(map(fastest, pair))))
             for number, (pair, each) in enumerate(zip(takes, rows, strict=True))
         )
         parting = parting or next(filter(None, found), None)
     return Replay(scenes, parting, any(each.expected for each in scenes))
 
 
-def together(mine: Take, right: Take) -> Iterator[Together]:
-    """Line beside line, until one of the runs asks something else."""
+def paired_requests(mine: Take, right: Take) -> Iterator[PairedRequest]:
+    """Each request beside its counterpart, until the two runs ask something different."""
     known = True
     for line, other in zip_longest(mine.lines, right.lines[: len(mine.lines)]):
         known = known and other is not None and other.sign == line.sign
         beside = other if known else None
         count = max(len(line.shots), len(beside.shots) if beside and line.shots else 0)
-        moments = [(at(line, n), at(beside, n) if beside else None) for n in range(count)]
-        yield Together(line, beside, [(shot, right) for shot, right in moments if shot])
+        moments = [(shot_at(line, n), shot_at(beside, n) if beside else None) for n in range(count)]
+        yield PairedRequest(line, beside, [(shot, right) for shot, right in moments if shot])
 
 
-def at(line: Line, number: int) -> Shot | None:
+def shot_at(line: Line, number: int) -> Shot | None:
     """A shot of a line; the last one stays when there are no more."""
     return line.shots[min(number, len(line.shots) - 1)] if line.shots else None
 
 
-def scene(mine: Take, right: Take, rows: Sequence[Together]) -> Scene:
+def scene(mine: Take, right: Take, rows: Sequence[PairedRequest]) -> Scene:
     lines: list[Both] = []
     moments: list[Moment] = []
     for row in rows:
@@ -91,18 +94,19 @@ def scene(mine: Take, right: Take, rows: Sequence[Together]) -> Scene:
 # ---------------------------------------------------------------- where they part
 
 
-def seen(speed: float) -> Eye:
-    """What a person sees where `speed` is the fastest, px/s."""
-    return Eye(VISIBLE, min(VISIBLE, A_SHARE * speed), math.inf)
+def visible(speed: float) -> Tolerance:
+    """A person sees no smaller difference where `speed` (px/s) is the fastest."""
+    return Tolerance(VISIBLE, min(VISIBLE, A_SHARE * speed), math.inf)
 
 
-def seen_and_weighed(speed: float) -> Eye:
-    return seen(speed)._replace(share=A_SHARE)
+def visible_or_heavier(speed: float) -> Tolerance:
+    """The same, and a difference in mass, which shows only later."""
+    return visible(speed)._replace(share=A_SHARE)
 
 
-def measured(speed: float) -> Eye:
-    """All that rounding does not explain."""
-    return Eye(ROUNDING, max(ROUNDING * speed, 1e-12), ROUNDING)
+def beyond_rounding(speed: float) -> Tolerance:
+    """Rounding explains no larger difference."""
+    return Tolerance(ROUNDING, max(ROUNDING * speed, 1e-12), ROUNDING)
 
 
 def fastest(take: Take) -> float:
@@ -115,18 +119,18 @@ def fastest(take: Take) -> float:
 
 
 def reach(look: BodyLook | None) -> float:
-    """How far from its centre a turn of a body is seen, px."""
+    """The largest radius of a body's shapes, px: a turn moves that point the most."""
     return max((shape.radius for shape in look.shapes), default=0.0) if look else 0.0
 
 
-def first_parting(
-    number: int, takes: tuple[Take, Take], rows: Sequence[Together], eye: Eye
+def first_difference(
+    number: int, takes: tuple[Take, Take], rows: Sequence[PairedRequest], tolerance: Tolerance
 ) -> Parting | None:
     """Where two takes differ for the first time: in a body, a rod, a contact, or an answer."""
     frame = 0
     for row in rows:
         for shot, other in row.moments:
-            found = difference(shot, other, takes, eye) if other else None
+            found = shot_difference(shot, other, takes, tolerance) if other else None
             if found:
                 return Parting(number, frame, *found)
             frame += 1
@@ -136,10 +140,10 @@ def first_parting(
     return None
 
 
-def difference(
-    shot: Shot, other: Shot, takes: tuple[Take, Take], eye: Eye
+def shot_difference(
+    shot: Shot, other: Shot, takes: tuple[Take, Take], tolerance: Tolerance
 ) -> tuple[int, str] | None:
-    """The first body that is off, by its number, and in what; 0 for what is no body."""
+    """The number of the first body that differs, and how; 0 for a rod or contact."""
     mine, right = takes
     expected = {row.number: row for row in other.bodies}
     for row in shot.bodies:
@@ -148,8 +152,8 @@ def difference(
         if wanted is None:
             return row.number, f"{name} should not be there"
         look, right_look = mine.looks.get(row.number), right.looks.get(row.number)
-        words = off(row, wanted, max(reach(look), 1.0), eye)
-        if not words and look and right_look and weighs_otherwise(look, right_look, eye.share):
+        words = body_difference(row, wanted, max(reach(look), 1.0), tolerance)
+        if not words and look and right_look and mass_differs(look, right_look, tolerance.share):
             words = "has another mass or moment"
         if words:
             return row.number, f"{name} {words}"
@@ -161,34 +165,30 @@ def difference(
     ):
         if len(here) != len(there):
             return 0, f"{len(here)} {what} instead of {len(there)}"
-    if any(math.dist(*pair) > eye.place for pair in zip(shot.rods, other.rods, strict=True)):
+    if any(math.dist(*pair) > tolerance.place for pair in zip(shot.rods, other.rods, strict=True)):
         return 0, "a rod has its ends elsewhere"
     return None
 
 
-def off(row: BodyRow, right: BodyRow, radius: float, eye: Eye) -> str:
-    """How a body differs from the expected one, in words; empty if that cannot be seen."""
+def body_difference(row: BodyRow, right: BodyRow, radius: float, tolerance: Tolerance) -> str:
+    """How a body differs from the expected one, in words; empty if it does not."""
     if not all(map(math.isfinite, numbers(row))):
         return "is nowhere: its numbers are not finite"
     away = math.dist((row.x, row.y), (right.x, right.y))
     turned, spin = abs(row.angle - right.angle), abs(row.omega - right.omega)
     faster = math.dist((row.vx, row.vy), (right.vx, right.vy))
-    if away > eye.place:
+    if away > tolerance.place:
         return f"is {about(away)} px off"
-    if turned * radius > eye.place:
+    if turned * radius > tolerance.place:
         return f"is turned by {about(turned)} rad too much or too little"
-    if faster > eye.speed:
+    if faster > tolerance.speed:
         return f"has a velocity that is {about(faster)} px/s off"
-    if spin * radius > eye.speed:
+    if spin * radius > tolerance.speed:
         return f"has a spin that is {about(spin)} rad/s off"
     return ""
 
 
-def about(value: float) -> str:
-    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
-
-
-def weighs_otherwise(mine: BodyLook, right: BodyLook, share: float) -> bool:
+def mass_differs(mine: BodyLook, right: BodyLook, share: float) -> bool:
     pairs = ((mine.mass, right.mass), (mine.moment, right.moment))
     return any(
         (a is None) != (b is None)

@@ -29,12 +29,13 @@ from grader.protocol import (
     Value,
     Vec,
 )
+from grader.words import printable
 
 MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
 FEW = 40  # lines that are shown as they are
 STATE = ("pos", "vel", "angle", "omega")
-PARTS = {  # what the package does not pass on
+PARTS = {  # what a package without a BonusWorld does not pass on
     "mini_engine:between": "mini_engine.game_loop",
     "mini_engine:wake": "mini_engine.sleeping",
 }
@@ -60,6 +61,7 @@ class Translator:
     names: dict[int, str] = field(default_factory=dict)  # by the child's number
     imports: set[tuple[str, str]] = field(default_factory=set)
     libraries: set[str] = field(default_factory=set)
+    parts: dict[str, str] = field(default_factory=dict)  # where to find what is not passed on
 
     def code(self, request: Request, reply: Reply) -> list[str]:
         value = reply.value if isinstance(reply, Returned) else None
@@ -162,7 +164,7 @@ class Translator:
         if module == "pymunk":
             self.libraries.add(module)
             return f"pymunk.{path}"
-        self.imports.add((PARTS.get(target, module), path.partition(".")[0]))
+        self.imports.add((self.parts.get(target, module), path.partition(".")[0]))
         return path
 
     # ------------------------------------------------------------ values
@@ -198,14 +200,18 @@ class Translator:
         return [f"{name} = Body({', '.join(given)})", *fields]
 
     def _world(self, request: MakeWorld, value: Value) -> list[str]:
-        self.imports.add((request.module, "World"))
+        made = value.kind if isinstance(value, Ref) else ""
+        kind = "BonusWorld" if request.bonus and made == "BonusWorld" else "World"
+        if request.bonus and kind == "World":
+            self.parts = PARTS
+        self.imports.add((request.module, kind))
         name = self._new(value.id, "world") if isinstance(value, Ref) else "world"
         given = [
             f"gravity={self.argument(request.gravity)}",
             f"linear_damping={number(request.linear_damping)}",
             f"angular_damping={number(request.angular_damping)}",
         ]
-        lines = [f"{name} = World({', '.join(given)})"]
+        lines = [f"{name} = {kind}({', '.join(given)})"]
         if len(request.bodies) > 2:
             bodies = ", ".join(map(self.name, request.bodies))
             lines += [f"for body in ({bodies}):", f"    {name}.add(body)"]
@@ -286,7 +292,7 @@ def imported(translator: Translator, body: str) -> Iterator[str]:
 
 def comment(text: str) -> str:
     """On one line, whatever a submission put into it."""
-    line = "".join(c if c.isprintable() else " " for c in text)
+    line = printable(text)
     return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
 
 

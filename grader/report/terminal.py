@@ -1,7 +1,6 @@
 """The result in a terminal: one line per TODO, and a few for each check that is not there yet."""
 
 import os
-import sys
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -12,25 +11,29 @@ from rich.console import Console
 from rich.text import Text
 
 from grader.judge.isolation import unconfined
-from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.judge.rubric import load_rubric
+from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
+from grader.words import (
+    MEANINGS,
+    NAMES,
+    clean,
+    command,
+    hidden_points_note,
+    place_of,
+    plural,
+    reasons,
+    task_of,
+    total,
+)
 
-LABELS: dict[State, tuple[str, str]] = {
-    "passed": ("PASSED", "green"),
-    "not yet": ("NOT YET", "yellow"),
-    "not started": ("NOT STARTED", "bright_black"),
-    "waiting": ("WAITING", "bright_black"),
-    "error": ("ERROR", "red"),
+STYLES: dict[State, str] = {
+    "passed": "green",
+    "not yet": "yellow",
+    "not started": "bright_black",
+    "waiting": "bright_black",
+    "error": "red",
 }
-MEANINGS: dict[State, str] = {
-    "not yet": "a check got another answer than the right one",
-    "not started": "only what was handed out is there",
-    "waiting": "something else must pass first; the line below it says what",
-    "error": "the code raised an error, or gave no answer",
-}
-FAILED = ("not yet", "error")
 STATES = 12  # columns of the states
-NAMES = 14  # columns up to the words of *Got* and the like
+MARGIN = 4  # columns left of why a check failed
 WIDTH = 80  # at most
 
 
@@ -62,13 +65,12 @@ class Teller:
         say(words, self.console, style="bold")
 
     def tell_todo(self, todo: TodoResult) -> None:
-        label, style = LABELS[todo.state]
-        line = Text(label.ljust(STATES), style=style)
+        line = Text(todo.state.upper().ljust(STATES), style=STYLES[todo.state])
         line.append(f"{todo.id:<6}{todo.title:<48}", style="default")
         bonus = " bonus" * todo.bonus
         line.append(f"{todo.points:>3} / {todo.max_points}{bonus}", style="default")
         self.console.print(line, soft_wrap=True)
-        for checks in alike(each for each in todo.checks if each.state in FAILED):
+        for checks in alike(todo.failed):
             self.tell_failed(todo, checks)
         for checks in alike(each for each in todo.checks if each.state == "waiting"):
             say(f"  {subject(checks)}: {clean(checks[0].got)}", self.console, indent=4)
@@ -84,19 +86,11 @@ class Teller:
         if ("meaning", first.meaning) in self.told:
             first = msgspec.structs.replace(first, meaning="")
         self.told |= {reason(first), ("meaning", first.meaning)}
-        for line in reasons(first, f", TODO {todo.id}" * (todo.id != "whole")):
-            say(f"    {line}", self.console, indent=NAMES)
+        for line in reasons(first, task_of(todo)):
+            say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
         if self.replays is not None and first.replay is not None:
             path = os.path.relpath(self.replays.parent / first.replay).replace(os.sep, "/")
-            say(f"    {'See it':<9} {path}", self.console, indent=2, whole=True)
-
-
-def total(result: Result) -> str:
-    """The points, and the bonus apart from them; the bonus alone where nothing else was asked."""
-    if not result.counted:
-        return f"{result.bonus} bonus"
-    bonus = f"  and {result.bonus} bonus" if result.bonus else ""
-    return f"{result.points} / {result.max_points}{bonus}"
+            say(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", self.console, indent=2, whole=True)
 
 
 def alike(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
@@ -113,21 +107,13 @@ def reason(check: CheckResult) -> tuple[str, ...]:
 
 
 def subject(checks: list[CheckResult]) -> str:
-    return checks[0].title if len(checks) == 1 else f"{len(checks)} checks"
-
-
-def reasons(check: CheckResult, task: str = "") -> list[str]:
-    """Why a check is not passed, a line each; `task` stands behind the place to look at."""
-    return [f"{name:<9} {clean(words)}" for name, words in check.reasons(task)]
+    return checks[0].title if len(checks) == 1 else plural(len(checks), "check")
 
 
 def show_standing(result: Result, teller: Teller) -> None:
     """Print what a student wants to know: the result, what its words mean, and what comes next."""
     teller.tell(result)
-    shown = {todo.id for todo in result.todos}
-    hidden = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in shown)
-    if hidden:
-        words = f"{hidden} more points come from checks that only your instructor runs."
+    if words := hidden_points_note(result):
         say(words, teller.console)
     teller.console.print()
     show_states(result, teller.console)
@@ -138,7 +124,7 @@ def show_states(result: Result, console: Console) -> None:
     """Say what the states mean, those that are there."""
     for state, meaning in MEANINGS.items():
         if any(todo.state == state for todo in result.shown):
-            say(f"{LABELS[state][0]:<{STATES}}{meaning}", console, STATES, "bright_black")
+            say(f"{state.upper():<{STATES}}{meaning}", console, STATES, "bright_black")
 
 
 def show_next(result: Result, console: Console) -> None:
@@ -151,7 +137,7 @@ def show_next(result: Result, console: Console) -> None:
     if not left:
         return
     todo = min(left, key=lambda each: (each.id == "whole", each.state == "not started"))
-    place = next((f"{c.where.file}:{c.where.line}" for c in todo.checks if c.where), "")
+    place = next(filter(None, map(place_of, todo.checks)), "")
     cannot, _, module = todo.checks[0].ran.partition("import ")
     if todo.state == "error" and module and not cannot:
         say(f"Next: mend {place}: nothing in {module} can be checked before", console, 6, "bold")
@@ -160,17 +146,6 @@ def show_next(result: Result, console: Console) -> None:
     say(f"  check it alone: {command('check', todo.id)}", console)
     if todo.id != "whole":
         say(f"  a hint:         {command('hint', todo.id)}", console)
-
-
-def command(name: str, todo: str, level: int = 1) -> str:
-    """One of the student's commands, as this person would type it here."""
-    if "MAKELEVEL" in os.environ:
-        return f"make {name} TODO={todo}" + f" LEVEL={level}" * (level > 1)
-    python = sys.orig_argv[0]
-    start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
-    if os.path.basename(sys.argv[0]) == "grader":
-        start = "grader"
-    return f"{start} {name} --todo {todo}" + f" --level {level}" * (level > 1)
 
 
 def say(
@@ -192,8 +167,3 @@ def say(
         break_long_words=not whole,
     )
     console.print(Text("\n".join(lines), style=style), soft_wrap=True)
-
-
-def clean(words: str) -> str:
-    """A submission's words on one line, with nothing that a terminal would obey."""
-    return "".join(c if c.isprintable() else " " for c in words)[:400]

@@ -1,4 +1,8 @@
-"""One child: meets the submission, answers the judge's requests one by one, until it is ended."""
+"""One child: confines itself, imports the submission and answers requests until the judge hangs up.
+
+Each request has a number and gets exactly one answer. An exception of the submission is an answer
+as well, so this loop ends only with the channel or the process.
+"""
 
 import contextlib
 import os
@@ -12,6 +16,7 @@ import msgspec
 import pygame.sysfont
 
 from grader.protocol import (
+    ENVIRONMENT,
     Answered,
     Asked,
     Call,
@@ -43,7 +48,7 @@ from grader.worker.imports import ImportRule
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import NotThere, Subject
+from grader.worker.subject import ContractError, Subject
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
@@ -51,7 +56,11 @@ decoder = msgspec.msgpack.Decoder(Asked)
 
 
 def serve(channel: Channel, setup: ChildSetup) -> None:
-    """Answer until the judge closes the channel. Whatever the submission raises is an answer."""
+    """Answer until the judge closes the channel. Whatever the submission raises is an answer.
+
+    Rights are given up and clocks replaced before the submission is imported: later, its top level
+    would have run with the grader's rights and kept the real clock.
+    """
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
     channel.send(Ready(os.getpid(), confine(setup)))
@@ -71,8 +80,8 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
         reply: Reply | Filmed
         match asked.request:
             case Film() as film:
-                camera.load(film)
-                reply = camera.developed(attempt(subject, clock, output, camera, film.request))
+                camera.start(film)
+                reply = camera.finish(attempt(subject, clock, output, camera, film.request))
             case request:
                 reply = attempt(subject, clock, output, camera, request)
         send(channel, Answered(asked.number, reply, output.take()))
@@ -81,16 +90,20 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
 def attempt(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
 ) -> Reply:
-    """The answer, or what came instead of one."""
+    """The answer, or what came instead of one.
+
+    BaseException, because a submission may call sys.exit() or raise KeyboardInterrupt anywhere.
+    """
     try:
         return answer(subject, clock, output, camera, request)
-    except NotThere as error:
+    except ContractError as error:
         return Missing(str(error))
     except BaseException as error:
         return subject.raised(error)
 
 
 def send(channel: Channel, answered: Answered) -> None:
+    """Send an answer, or say why it cannot be sent: too long, or with a number too large for it."""
     try:
         channel.send(answered)
     except (ProtocolError, OverflowError, ValueError) as error:
@@ -100,6 +113,7 @@ def send(channel: Channel, answered: Answered) -> None:
 def answer(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
 ) -> Reply:
+    """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
         case Import(module, pieces):
             return Returned(",".join(subject.load(module, pieces)))
@@ -125,6 +139,7 @@ def answer(
 
 
 def call(subject: Subject, request: Call) -> Returned:
+    """Call a function or method of the submission, and count other calls meanwhile if asked to."""
     function = subject.find(request.target)
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
@@ -143,20 +158,25 @@ def call(subject: Subject, request: Call) -> Returned:
 
 
 class CallCounter:
-    """Counts how often any of some functions is called, by whatever name."""
+    """Counts how often any of some functions is called, by whatever name.
+
+    Functions are known by their code objects: replacing a name by a counting wrapper would miss
+    calls through another name, such as the one that `from contacts import collide` makes.
+    """
 
     def __init__(self, functions: list[Any]) -> None:
         self.codes = {getattr(each, "__code__", None) for each in functions}
         self.calls = 0
 
     def __enter__(self) -> "CallCounter":
-        sys.setprofile(self.look)
+        sys.setprofile(self.count_call)
         return self
 
     def __exit__(self, *_: object) -> None:
         sys.setprofile(None)
 
-    def look(self, frame: FrameType, event: str, _: object) -> None:
+    def count_call(self, frame: FrameType, event: str, _: object) -> None:
+        """The profile function: Python calls it whenever a function begins."""
         self.calls += event == "call" and frame.f_code in self.codes
 
 
@@ -181,10 +201,7 @@ def own_copy(submission: Path, scratch: Path) -> Path:
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
     wanted = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
-    wanted |= dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
-    wanted |= {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONHASHSEED": "0"}
-    wanted |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "LANG": "C.UTF-8", "TZ": "UTC"}
-    wanted["OPENBLAS_NUM_THREADS"] = "1"  # numpy's: or it wants memory for each core there is
+    wanted |= ENVIRONMENT | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
     for name in set(os.environ) - set(wanted):
         del os.environ[name]
     for name in wanted:

@@ -1,6 +1,10 @@
-"""What a child may not do, in layers; each is used where the machine has it, and is named.
+"""What a child may not do, in layers. Each is used where the machine has it, and reports name it.
 
-Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(7).
+isolate_server runs once, in the warm process; confine runs in each child, before it imports the
+submission. Each layer is for something else, and a missing one leaves the others in force.
+
+Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(7). The others are
+those of <sys/prctl.h>, <sched.h> and <sys/mount.h>.
 """
 
 import ctypes
@@ -33,11 +37,13 @@ ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule o
 TCP_BIND_AND_CONNECT = 0b11
 SCOPE_SOCKETS_AND_SIGNALS = 0b11
 
-# Numbers of users that no account has: systemd lends them to services, one each.
-STRANGERS = range(61184, 65520)
+# User ids that no account has: systemd assigns them to services for a while (DynamicUser).
+UNUSED_UIDS = range(61184, 65520)
 
 
 class RulesetAttr(ctypes.Structure):
+    """struct landlock_ruleset_attr: which rights are denied unless a rule allows them."""
+
     _fields_ = [
         ("handled_access_fs", ctypes.c_uint64),
         ("handled_access_net", ctypes.c_uint64),
@@ -46,21 +52,25 @@ class RulesetAttr(ctypes.Structure):
 
 
 class PathBeneathAttr(ctypes.Structure):
+    """struct landlock_path_beneath_attr: the rights on one file or folder and all below it."""
+
     _pack_ = 1
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
 @cache
 def libc() -> ctypes.CDLL:
-    """The C library; loaded once before the fork, it costs no child anything."""
+    """The C library, for calls that Python lacks; loaded once, before the fork."""
     return ctypes.CDLL(None, use_errno=True)
 
 
-def prepare_server(keep: int) -> list[str]:
-    """Once for the warm process: leave the network and other processes behind.
+def isolate_server(keep: int) -> list[str]:
+    """Once for the warm process: leave the network and other processes behind; returns the layers.
 
-    The call may return in a child, the first process of a namespace, with which all others of it
-    die; this one then only waits for it. The descriptor `keep` is the child's alone.
+    Without this a submission could send the questions out, or signal and trace the judge. The call
+    may return in a child process: the first one of a PID namespace, with which all others in it
+    end. The process that called only waits for that one then. The descriptor `keep`, the control
+    socket, belongs to the child alone, so that the judge sees at once when it ends.
     """
     if not sys.platform.startswith("linux"):
         return []
@@ -79,7 +89,7 @@ def prepare_server(keep: int) -> list[str]:
 
 
 def confine(setup: ChildSetup) -> list[str]:
-    """Shut this process in for good; returns the names of the layers that hold."""
+    """Give up this process's rights for good; returns the names of the layers that hold."""
     if not setup.confine:
         return []
     layers = []
@@ -87,27 +97,30 @@ def confine(setup: ChildSetup) -> list[str]:
         with suppress(PermissionError):  # a spawned child leads its session already
             os.setsid()
         layers.append("process-group")
-    layers += limit(setup.limits)
+    layers += set_resource_limits(setup.limits)
     if sys.platform.startswith("linux"):
-        # In a user namespace nobody becomes another user: where no Landlock follows, this is first.
+        # A user namespace of ours has one user only. So where Landlock is missing, and a user of
+        # its own is what protects files, that comes first; the namespace may then be refused.
         if landlock_version() < 1:
-            layers += own_user(setup)
-        layers += own_namespaces(setup)
+            layers += become_own_user(setup)
+        layers += enter_own_namespaces(setup)
         if "user-namespace" not in layers:
-            layers += own_user(setup)
-        layers += landlock(setup)
+            layers += become_own_user(setup)
+        layers += restrict_with_landlock(setup)
     return layers
 
 
-def own_user(setup: ChildSetup) -> list[str]:
-    """Root becomes a user to whom nothing belongs but the scratch folder: another for each child.
+def become_own_user(setup: ChildSetup) -> list[str]:
+    """Root becomes a user who owns nothing but the scratch folder: another one for each child.
 
-    Not where this user could not reach Python or the submission: then all checks would fail.
+    As root a submission could write anywhere; as one user for all, children could signal and trace
+    each other. Skipped where that user could not read Python or the submission: then every check
+    would fail.
     """
     if os.geteuid() != 0:
         return []
-    user = STRANGERS[os.getpid() % len(STRANGERS)]
-    needed = [*map(str, readable(tuple(setup.hidden))), setup.submission, setup.scratch]
+    user = UNUSED_UIDS[os.getpid() % len(UNUSED_UIDS)]
+    needed = [*map(str, readable_paths(tuple(setup.hidden))), setup.submission, setup.scratch]
     reached = False
     with suppress(OSError):  # a container may lack the right, or the number
         os.chmod(Path(setup.submission).parent, 0o711)  # to pass through, not to list
@@ -127,10 +140,11 @@ def own_user(setup: ChildSetup) -> list[str]:
     return ["own-user"]
 
 
-def own_namespaces(setup: ChildSetup) -> list[str]:
-    """Shared memory, keys and the scratch folder for this child alone: none tells another.
+def enter_own_namespaces(setup: ChildSetup) -> list[str]:
+    """Shared memory, keys and the scratch folder for this child alone.
 
-    The folder becomes a small file system in memory, which ends with the child.
+    Otherwise one check could leave a message for a later one there, such as the reference's
+    answers. The folder becomes a small file system in memory, which ends with the child.
     """
     if not enter_user_namespace(CLONE_NEWIPC | CLONE_NEWNS):
         return []
@@ -145,7 +159,10 @@ def own_namespaces(setup: ChildSetup) -> list[str]:
 
 
 def enter_user_namespace(others: int) -> bool:
-    """Leave for a user namespace, and `others`, where this user stays who it is."""
+    """Enter a user namespace, which allows an ordinary user to enter `others` (CLONE_ flags) too.
+
+    Returns whether the kernel let us. User and group are mapped to themselves.
+    """
     user, group = os.getuid(), os.getgid()
     if libc().unshare(CLONE_NEWUSER | others) != 0:
         return False
@@ -156,7 +173,12 @@ def enter_user_namespace(others: int) -> bool:
     return True
 
 
-def limit(limits: Limits) -> list[str]:
+def set_resource_limits(limits: Limits) -> list[str]:
+    """Bound processor time, memory, file sizes, open files and processes, for the machine's sake.
+
+    Units are those of Limits. At the soft limit of processor time a child gets SIGXCPU; one that
+    ignores it is killed a second later.
+    """
     try:
         import resource
     except ImportError:
@@ -177,31 +199,39 @@ def limit(limits: Limits) -> list[str]:
 
 
 @cache
-def readable(hidden: tuple[str, ...]) -> list[Path]:
-    """What Python and its packages need, and nothing that is hidden."""
+def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
+    """What Python and its packages need to read, and nothing that is hidden, such as the kit.
+
+    An installation may put the kit among the packages; then their folder is allowed entry by
+    entry, without it.
+    """
     paths = sysconfig.get_paths()
     roots = [Path(sys.base_prefix, "lib")]
     roots += [Path(paths[name]) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
     roots += map(Path, ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache"))
     roots += map(Path, ("/usr/local/lib", "/usr/share/zoneinfo", "/dev/urandom"))
-    out = {Path(each).resolve() for each in hidden}
+    hidden_paths = {Path(each).resolve() for each in hidden}
     kept: set[Path] = set()
     for root in {each.resolve() for each in roots if each.exists()}:
-        if any(each.is_relative_to(root) for each in out):  # installed among the packages
-            kept.update(each for each in root.iterdir() if each.resolve() not in out)
+        if any(each.is_relative_to(root) for each in hidden_paths):  # installed among the packages
+            kept.update(each for each in root.iterdir() if each.resolve() not in hidden_paths)
         else:
             kept.add(root)
     return sorted(kept)
 
 
 def landlock_version() -> int:
-    """The version of its interface; less than 1 where there is none."""
+    """The version of the kernel's Landlock interface; less than 1 where there is none."""
     version: int = libc().syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
     return version
 
 
-def landlock(setup: ChildSetup) -> list[str]:
-    """Files: read Python and the submission, write the scratch folder; no TCP, no signals out."""
+def restrict_with_landlock(setup: ChildSetup) -> list[str]:
+    """Files: read Python and the submission, write the scratch folder; no TCP, no signals out.
+
+    This is what keeps the kit, the solution, other submissions and home folders unreadable. Only
+    rights that the ruleset handles are denied, so it handles all that this kernel's version knows.
+    """
     version = landlock_version()
     if version < 1:
         return []
@@ -215,7 +245,7 @@ def landlock(setup: ChildSetup) -> list[str]:
     ruleset = libc().syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
     if ruleset < 0:
         return []
-    allowed = [(path, READ_ONLY) for path in readable(tuple(setup.hidden))]
+    allowed = [(path, READ_ONLY) for path in readable_paths(tuple(setup.hidden))]
     allowed += [
         (Path(setup.submission), READ_ONLY),
         (Path(setup.bytecode), every_right if setup.compiles else READ_ONLY),
@@ -223,18 +253,19 @@ def landlock(setup: ChildSetup) -> list[str]:
         (Path(os.devnull), READ_FILE | WRITE_FILE),
     ]
     for path, rights in allowed:
-        allow(ruleset, path, rights & every_right)
+        allow_beneath(ruleset, path, rights & every_right)
     libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    held = libc().syscall(LANDLOCK_RESTRICT_SELF, ruleset, 0) == 0
+    enforced = libc().syscall(LANDLOCK_RESTRICT_SELF, ruleset, 0) == 0
     os.close(ruleset)
-    if not held:
+    if not enforced:
         return []
     return (
         ["landlock-files"] + ["landlock-tcp"] * (version >= 4) + ["landlock-scope"] * (version >= 6)
     )
 
 
-def allow(ruleset: int, path: Path, rights: int) -> None:
+def allow_beneath(ruleset: int, path: Path, rights: int) -> None:
+    """Add a rule: these rights on this path and all below it."""
     descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
     try:
         if not path.is_dir():

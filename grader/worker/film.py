@@ -1,4 +1,8 @@
-"""Shows what a request does to the bodies: for replays, made when all marks are decided."""
+"""Records the bodies while a request is answered: for replays, made after all marks are decided.
+
+A shot is what is to be seen at one moment. Lengths are px, speeds px/s, angles rad, in the
+coordinates of the screen (y down).
+"""
 
 import math
 from collections.abc import Callable
@@ -8,10 +12,21 @@ from typing import Any
 
 import pymunk
 
-from grader.protocol import BodyLook, BodyRow, Film, Filmed, Reply, ShapeLook, Shot, TouchRow
+from grader.protocol import (
+    MAX_BODIES,
+    MAX_RODS,
+    MAX_TOUCHES,
+    BodyLook,
+    BodyRow,
+    Film,
+    Filmed,
+    Reply,
+    ShapeLook,
+    Shot,
+    TouchRow,
+)
 from grader.worker.subject import Subject, field, field_number, field_pair, shape_order
 
-MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot; the judge keeps no more
 MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
 
 Ends = tuple[float, float, float, float]
@@ -25,58 +40,66 @@ def lesson_state(body: Any) -> list[float]:
 
 
 class Camera:
-    """Takes shots of the submission's bodies while a filmed request is answered."""
+    """Takes shots of the submission's bodies while a filmed request is answered.
+
+    A submission may have made anything of its objects, so a thing that cannot be described is left
+    out, and everything has an upper bound.
+    """
 
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
         self.film: Film | None = None
-        self.cast: dict[int, Any] = {}  # the bodies by number
-        self.numbers: dict[int, int] = {}  # by id(body); the cast keeps those alive
-        self.before = 0  # objects up to this number belong to an earlier scene
+        self.bodies: dict[int, Any] = {}  # the bodies by number
+        self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
+        self.hidden_refs = 0  # objects up to this number belong to an earlier scene
         self.world: Any = None  # of the program that runs, if one does
         self.owner: type | None = None
-        self._new_film(None)
+        self._reset(None)
 
-    # ------------------------------------------------------------ rolling
+    # ------------------------------------------------------------ one request
 
-    def load(self, film: Film) -> None:
-        """Get ready for one request."""
+    def start(self, film: Film) -> None:
+        """Get ready to film one request."""
         if film.cut:
-            self.before = len(self.subject.objects)
-            self.cast.clear()
+            self.hidden_refs = len(self.subject.objects)
+            self.bodies.clear()
             self.numbers.clear()
-        self._new_film(film)
+        self._reset(film)
 
-    def _new_film(self, film: Film | None) -> None:
+    def _reset(self, film: Film | None) -> None:
+        """Forget the shots taken; bodies keep their numbers as long as the scene goes on."""
         self.film = film
         self.shots: list[Shot] = []
         self.looks: dict[int, BodyLook] = {}
         self.every = self.total = 1
-        self.seen = 0
+        self.moments = 0
 
     def expect(self, moments: int) -> None:
-        """Say how many moments there will be, so that not more of them are taken than wanted."""
+        """Say how many moments a run has, so that the shots wanted are spread over all of it."""
         self.total = moments
         self.every = math.ceil(moments / self.film.most) if self.film else 1
 
-    def look(self, time: float, steps: int) -> None:
-        """A moment of a run; some are taken, the last one always."""
-        self.seen += 1
-        if self.film and (self.seen % self.every == 0 or self.seen == self.total):
-            self._shoot(time, steps)
+    def record(self, time: float, steps: int) -> None:
+        """A moment of a run, at `time` in s. One in so many becomes a shot, and always the last."""
+        self.moments += 1
+        if self.film and (self.moments % self.every == 0 or self.moments == self.total):
+            self._take_shot(time, steps)
 
-    def developed(self, reply: Reply) -> Filmed:
+    def finish(self, reply: Reply) -> Filmed:
         """The reply with its shots: at least the one of how it ended."""
         if not self.shots:
-            self._shoot(0.0, 0)
+            self._take_shot(0.0, 0)
         filmed = Filmed(reply, self.looks, self.shots)
-        self._new_film(None)
+        self._reset(None)
         return filmed
 
     # ------------------------------------------------------------ a program's world
 
-    def follow(self, owner: type, moments: int) -> None:
-        """Watch the latest World or Space that is made."""
+    def watch_worlds(self, owner: type, moments: int) -> None:
+        """Film the latest World or Space that the program makes.
+
+        A program keeps its world in a local variable of main(), so we learn of it as it is made.
+        """
         self.expect(moments)
         if self.film is None:
             return
@@ -88,59 +111,67 @@ class Camera:
 
         owner.__init__ = init  # type: ignore[misc]
 
-    def unfollow(self) -> None:
+    def stop_watching(self) -> None:
+        """Give the class its own __init__ back."""
         if self.owner is not None:
             self.owner.__init__ = self.real  # type: ignore[misc]
             self.owner = None
 
     # ------------------------------------------------------------ a shot
 
-    def _shoot(self, time: float, steps: int) -> None:
-        """What cannot be looked at is left out: a submission may have made anything of it."""
+    def _take_shot(self, time: float, steps: int) -> None:
+        """A shot of all that can be described; with an error, of what came before it."""
         shot = Shot(float(time), steps, [], [], [])
         with suppress(Exception):
-            for thing in self._things():
-                self._show(thing, shot)
+            for thing in self._visible():
+                self._add_visible(thing, shot)
         self.shots.append(shot)
 
-    def _things(self) -> list[Any]:
+    def _visible(self) -> list[Any]:
+        """What to show: the running program's world, or what this scene has made so far."""
         if self.world is not None:
             return [self.world]
-        return [each for ref, each in self.subject.objects.items() if ref > self.before]
+        return [each for ref, each in self.subject.objects.items() if ref > self.hidden_refs]
 
-    def _show(self, thing: Any, shot: Shot) -> None:
+    def _add_visible(self, thing: Any, shot: Shot) -> None:
+        """Add a world or space with all in it, or one thing alone."""
         if isinstance(thing, pymunk.Space):
             for body in (thing.static_body, *thing.bodies):
-                self._add(shot.bodies, MAX_BODIES, self._body, body)
+                self._append(shot.bodies, MAX_BODIES, self._body, body)
             for joint in thing.constraints:
-                self._add(shot.rods, MAX_RODS, pymunk_rod, joint)
+                self._append(shot.rods, MAX_RODS, pymunk_rod, joint)
         elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
             for name in ("bodies", "joints", "springs", "contacts"):
                 for each in islice(getattr(thing, name, ()), MAX_TOUCHES):
-                    self._show_one(each, shot)
+                    self._add_thing(each, shot)
         else:
-            self._show_one(thing, shot)
+            self._add_thing(thing, shot)
 
-    def _show_one(self, thing: Any, shot: Shot) -> None:
+    def _add_thing(self, thing: Any, shot: Shot) -> None:
+        """Add a body, contact, rod or spring; which it is shows by its attributes."""
         if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
-            self._add(shot.bodies, MAX_BODIES, self._body, thing)
+            self._append(shot.bodies, MAX_BODIES, self._body, thing)
         elif hasattr(thing, "normal"):
-            self._add(shot.touches, MAX_TOUCHES, touch, thing)
+            self._append(shot.touches, MAX_TOUCHES, touch, thing)
         elif hasattr(thing, "length") and hasattr(thing, "a"):
-            self._add(shot.rods, MAX_RODS, lesson_rod, thing)
+            self._append(shot.rods, MAX_RODS, lesson_rod, thing)
 
-    def _add(self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any) -> None:
+    def _append(
+        self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any
+    ) -> None:
+        """Add a row unless there are `most` of them, it is there already, or it fails."""
         with suppress(Exception):
             row = describe(thing)
             if len(rows) < most and row not in rows:
                 rows.append(row)
 
     def _body(self, body: Any) -> BodyRow:
+        """Where a body is now. A new one gets a number, and what never changes is noted once."""
         number = self.numbers.get(id(body))
         if number is None:
-            number = len(self.cast) + 1
+            number = len(self.bodies) + 1
             look = self._look_of(body)
-            self.numbers[id(body)], self.cast[number] = number, body
+            self.numbers[id(body)], self.bodies[number] = number, body
             self.looks[number] = look
         if isinstance(body, pymunk.Body):
             state = [*body.position, *body.velocity, body.angle, body.angular_velocity]
@@ -149,6 +180,7 @@ class Camera:
         return BodyRow(number, *state)
 
     def _look_of(self, body: Any) -> BodyLook:
+        """What does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
         ref = self.subject.refs.get(id(body), 0)
         if isinstance(body, pymunk.Body):
             shapes = sorted(body.shapes, key=shape_order)[:MAX_SHAPES]
@@ -162,6 +194,7 @@ class Camera:
 
 
 def lesson_shape(shape: Any) -> ShapeLook:
+    """A circle or box of the lesson's engine."""
     if hasattr(shape, "radius"):
         return ShapeLook([(0.0, 0.0)], field_number(shape, "radius"))
     x, y = field_pair(shape, "half")
@@ -169,6 +202,7 @@ def lesson_shape(shape: Any) -> ShapeLook:
 
 
 def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
+    """A shape of pymunk's, in the coordinates of its body; no points for an unknown kind."""
     match shape:
         case pymunk.Circle():
             points = [shape.offset]
@@ -182,15 +216,18 @@ def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
 
 
 def touch(contact: Any) -> TouchRow:
+    """A contact of the lesson's engine."""
     point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
     rest = (field_number(contact, name) for name in ("depth", "jn", "jt"))
     return TouchRow(point.x, point.y, normal.x, normal.y, *rest)
 
 
 def lesson_rod(joint: Any) -> Ends:
+    """The two ends of a joint or spring of the lesson's engine, px."""
     a, b = (field_pair(field(joint, end), "pos") for end in ("a", "b"))
     return a.x, a.y, b.x, b.y
 
 
 def pymunk_rod(joint: Any) -> Ends:
+    """The two ends of a pymunk constraint with anchors, px."""
     return *joint.a.local_to_world(joint.anchor_a), *joint.b.local_to_world(joint.anchor_b)

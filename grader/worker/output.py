@@ -1,4 +1,7 @@
-"""What a submission prints: the latest of it kept up to a bound, the rest counted and let go."""
+"""What a submission prints: the end of it is kept up to a bound, the rest is counted and dropped.
+
+An endless loop of print() must fill neither the memory nor the report.
+"""
 
 import io
 import sys
@@ -7,13 +10,18 @@ KEEP = 64 * 1024  # bytes between two answers
 
 
 class Output(io.RawIOBase):
-    """Takes the place of standard output and standard error alike."""
+    """Takes the place of standard output and standard error alike.
+
+    The real ones lead to /dev/null here. What is kept is text from an untrusted source: the judge
+    escapes it wherever it is shown.
+    """
 
     def __init__(self) -> None:
         self.kept = bytearray()
         self.dropped = 0
 
     def install(self) -> None:
+        """Replace sys.stdout and sys.stderr; what cannot be encoded becomes a question mark."""
         self.text = io.TextIOWrapper(
             self,  # type: ignore[type-var]
             encoding="utf-8",
@@ -24,9 +32,11 @@ class Output(io.RawIOBase):
         sys.stdout = sys.stderr = self.text
 
     def writable(self) -> bool:
+        """As io.TextIOWrapper demands."""
         return True
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
+        """Keep the last KEEP bytes of all that has come since the last answer."""
         self.kept += bytes(data[-KEEP:])
         excess = max(0, len(self.kept) - KEEP)
         del self.kept[:excess]
@@ -34,9 +44,11 @@ class Output(io.RawIOBase):
         return len(data)
 
     def so_far(self) -> str:
+        """The text that is kept, and stays so."""
         return self.kept.decode("utf-8", "replace")
 
     def take(self) -> str:
+        """The text for an answer, with a note on what was dropped; begins anew."""
         text = self.so_far()
         if self.dropped:
             text = f"{self.dropped} bytes and then …\n{text}"

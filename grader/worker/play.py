@@ -1,4 +1,7 @@
-"""Running a program's real main() for a number of frames, and stepping a world by hand."""
+"""Running a program's real main() for a number of frames, and stepping a world without a program.
+
+A run is the same on every machine: it is counted in frames and steps, and its clock is scripted.
+"""
 
 import math
 import os
@@ -15,7 +18,7 @@ from grader.worker.film import Camera, lesson_state
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
-from grader.worker.subject import NotThere, Subject, as_pair, field, field_number, field_pair
+from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
 
 MAX_LINES = 200
 MAX_STEP_SIZES = 16
@@ -29,7 +32,8 @@ class StepCounter:
     """Counts the steps of a program's worlds, and runs them if asked to.
 
     It takes the place of `step` for all who hold it: a program may have kept it under a name of its
-    own, or step a world of a class derived from World.
+    own, or step a world of a class derived from World. The checks of the game loop need the number
+    and length of steps only; without the physics, their result does not depend on the other TODOs.
     """
 
     def __init__(self, owner: type, physics: bool, trail_every: int):
@@ -51,6 +55,7 @@ class StepCounter:
         real = put_in_place(function, step)
 
     def count(self, world: Any, dt: float, run: Callable[[], Any]) -> Any:
+        """Record one step of `dt` seconds; raises Runaway when a frame has had too many."""
         self.last = world
         self.in_frame += 1
         self.total += 1
@@ -81,6 +86,12 @@ def steps_of(owner: type) -> list[FunctionType]:
 def play(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
 ) -> Played:
+    """Run main() on a scripted clock, and tell what it did in each frame.
+
+    It should end as a person would end it: by the frame budget in LAB_FRAMES, which lab_runtime
+    reads, or by the QUIT event after the last frame. What still runs some frames later is stopped.
+    The last entry of each list is for what came after the last frame.
+    """
     main = subject.find(f"{request.module}:main")
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
@@ -92,14 +103,14 @@ def play(
         steps.append(counter.in_frame)
         times.append(clock.elapsed)
         counter.in_frame = 0
-        window.look()
-        camera.look(clock.elapsed / 1000, counter.total)
+        window.record_checksum()
+        camera.record(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
     window = Window(request.pictures)
-    camera.follow(owner, len(request.frames) + 1)
+    camera.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
         main()
@@ -112,7 +123,7 @@ def play(
     finally:
         window.restore()
     frame_over()
-    camera.unfollow()
+    camera.stop_watching()
     return Played(
         steps=steps,
         clock=times,
@@ -120,14 +131,17 @@ def play(
         ended=ended,
         lines=output.so_far().splitlines()[-MAX_LINES:],
         bodies=all_bodies(subject, counter.last),
-        rods=rods(counter.last),
+        rods=rod_lengths(counter.last),
         trail=counter.trail,
         pictures=window.pictures,
     )
 
 
 class Window:
-    """The program's window. Where its pictures are not wanted, only one pixel of it is drawn."""
+    """The program's window. Where its pictures are not wanted, only one pixel of it is drawn.
+
+    pygame.quit() takes long and the process ends soon, so meanwhile it closes the window only.
+    """
 
     def __init__(self, pictures: bool) -> None:
         self.wanted = pictures
@@ -136,6 +150,7 @@ class Window:
         pygame.quit, pygame.display.set_mode = self._quit, self._set_mode
 
     def _set_mode(self, *args: Any, **kwargs: Any) -> pygame.Surface:
+        """Open the window, clipped to one pixel unless pictures are wanted: drawing is slow."""
         surface = self.real_mode(*args, **kwargs)
         if not self.wanted:
             surface.set_clip((0, 0, 1, 1))
@@ -144,18 +159,21 @@ class Window:
     def _quit(self) -> None:
         pygame.display.quit()  # the rest ends with this process, which is much quicker
 
-    def look(self) -> None:
+    def record_checksum(self) -> None:
+        """Note a checksum of the picture at the end of a frame."""
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
         if self.wanted and surface is not None:
             self.pictures.append(zlib.crc32(surface.get_buffer().raw))
 
     def restore(self) -> None:
+        """Give pygame its own functions back, and close the window if it is still open."""
         pygame.quit, pygame.display.set_mode = self.real_quit, self.real_mode
         if pygame.display.get_init():
             self._quit()
 
 
 def all_bodies(subject: Subject, world: Any) -> list[Any]:
+    """Every body of a world or space; none where the program never stepped one."""
     if isinstance(world, pymunk.Space):
         value = subject.space(world)
         return list(value.bodies)
@@ -173,8 +191,8 @@ def moving_state(world: Any) -> list[float]:
     return row
 
 
-def rods(world: Any) -> list[tuple[float, float]]:
-    """Distance now and length meant of every distance joint, px."""
+def rod_lengths(world: Any) -> list[tuple[float, float]]:
+    """The distance now and the length meant of every distance joint, px."""
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
@@ -192,6 +210,10 @@ def rods(world: Any) -> list[tuple[float, float]]:
 
 
 def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
+    """Step a world, and record the watched bodies (and contacts) after every so many steps.
+
+    The watched bodies are read one by one, not through the world, whose own list may be wrong.
+    """
     world = subject.objects[request.ref]
     watched = [subject.objects[ref] for ref in request.watch]
     frames: list[list[float]] = []
@@ -199,7 +221,7 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
     camera.expect(request.steps)
     for number in range(1, request.steps + 1):
         world.step(request.dt)
-        camera.look(number * request.dt, number)
+        camera.record(number * request.dt, number)
         if number % request.every:
             continue
         row: list[float] = []
@@ -216,11 +238,12 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
 
 
 def contact_row(subject: Subject, contact: Any) -> ContactRow:
+    """One contact, with the limit of its friction as the friction of both bodies gives it."""
     a, b = field(contact, "a"), field(contact, "b")
     friction = field_number(a, "friction") * field_number(b, "friction")
     normal = as_pair(field(contact, "normal"))
     if normal is None:
-        raise NotThere("Contact.normal is not a pair of numbers")
+        raise ContractError("Contact.normal is not a pair of numbers")
     jn = field_number(contact, "jn")
     return ContactRow(
         subject.ref(a),

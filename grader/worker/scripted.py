@@ -1,8 +1,11 @@
-"""A clock and a pair of hands for a program that runs without a person.
+"""A clock, a keyboard and a mouse for a program that runs without a person.
 
 Every way of reading time agrees: `Clock.tick`, `get_ticks`, `time.*`. Time stands still unless the
 program ends a frame (`Clock.tick`, or showing the picture where no Clock ticks), sleeps, or reads
 the time over and over, as a busy wait does. A frame takes whole milliseconds, as pygame's do.
+
+So a slow machine gives the same marks as a fast one, a check of seconds takes milliseconds, and
+every way of writing a game loop is measured alike.
 """
 
 import datetime
@@ -15,8 +18,8 @@ import pygame
 
 from grader.protocol import Event
 
-BEGIN = 1000.0  # ms: no program starts at time 0
-PATIENCE = 5  # frames a program may run on after it was told to quit
+START_MS = 1000.0  # time at the start: a program may not count on 0
+GRACE_FRAMES = 5  # frames a program may run on after it was told to quit
 BUSY_READS = 500  # readings of the time without a frame in between, before time moves by itself
 MODIFIERS = {
     "left shift": pygame.KMOD_LSHIFT,
@@ -30,25 +33,30 @@ class PlayOver(BaseException):
 
 
 class ScriptedClock:
-    """Stands in for pygame's and Python's clocks; installed before the submission is imported."""
+    """Stands in for pygame's and Python's clocks; installed before the submission is imported.
+
+    Later would be too late: `from time import perf_counter` keeps the function it finds. All times
+    inside are ms.
+    """
 
     def __init__(self) -> None:
-        self.now = BEGIN  # ms
+        self.now = START_MS  # ms
         self.reads = 0  # of the time, since the last frame or sleep
         self.clocks = 0  # that the program made, when it was imported or later
         self.held = ""  # the key that is down
         self.start([], [], lambda: None)
 
     def start(
-        self, frames: Sequence[int], events: Sequence[Event], over: Callable[[], None]
+        self, frames: Sequence[int], events: Sequence[Event], frame_over: Callable[[], None]
     ) -> None:
-        """Script a run: `frames` in ms each; `over` is called once all is done in a frame."""
-        self.frames, self.events, self.over = frames, events, over
+        """Script a run: `frames` in ms each; `frame_over` is called once all is done in a frame."""
+        self.frames, self.events, self.frame_over = frames, events, frame_over
         self.frame = 0
         self.frame_began = self.began = self.now
-        self.ticks = self.shows = 0
+        self.ticks = self.flips = 0
 
     def install(self) -> None:
+        """Replace every function and class that reads time, waits or shows the picture."""
         replacements: dict[Any, dict[str, Any]] = {
             pygame: {"Clock": self._clock_type()},
             pygame.time: {
@@ -57,10 +65,10 @@ class ScriptedClock:
                 "wait": self._wait,
                 "delay": self._wait,
             },
-            pygame.key: {"get_pressed": self._pressing(pygame.key.get_pressed)},
+            pygame.key: {"get_pressed": self._pressed_keys(pygame.key.get_pressed)},
             pygame.display: {
-                "flip": self._showing(pygame.display.flip),
-                "update": self._showing(pygame.display.update),
+                "flip": self._ending_frames(pygame.display.flip),
+                "update": self._ending_frames(pygame.display.update),
             },
             datetime: {"datetime": self._datetime_type()},
             time: {"sleep": lambda seconds: self.sleep(seconds * 1000)},
@@ -69,10 +77,11 @@ class ScriptedClock:
             replacements[time][name] = lambda: self.read() / 1000
             replacements[time][name + "_ns"] = lambda: int(self.read() * 1_000_000)
         for module, names in replacements.items():
-            for name, stand_in in names.items():
-                setattr(module, name, stand_in)
+            for name, replacement in names.items():
+                setattr(module, name, replacement)
 
     def _datetime_type(self) -> type[datetime.datetime]:
+        """A datetime whose now() is the scripted time."""
         clock = self
 
         class ScriptedDatetime(datetime.datetime):
@@ -94,38 +103,51 @@ class ScriptedClock:
         return self.now - self.began
 
     def read(self) -> float:
+        """The time now, in ms.
+
+        After BUSY_READS readings in a row it moves by 0.1 ms with each: otherwise a busy wait would
+        never end.
+        """
         self.reads += 1
         if self.reads > BUSY_READS:
             self.now += 0.1
         return self.now
 
     def sleep(self, milliseconds: float) -> None:
+        """Let time pass; a negative length counts as 0."""
         self.now += max(0.0, float(milliseconds))
         self.reads = 0
 
     def end_frame(self) -> None:
-        """Let the frame take its time, or longer where the program slept longer."""
-        self.over()
+        """Let the frame take its time, or longer where the program slept longer.
+
+        Raises PlayOver once the program has run on for GRACE_FRAMES after QUIT. One that catches
+        that as well is ended with its process, which loses it the answer.
+        """
+        self.frame_over()
         if self.frame < len(self.frames):
             self.now = max(self.now, self.frame_began + self.frames[self.frame])
         self.frame_began = self.now
         self.reads = 0
         self.frame += 1
-        if self.frame >= len(self.frames) + PATIENCE:
-            if self.frame >= len(self.frames) + 4 * PATIENCE:
+        if self.frame >= len(self.frames) + GRACE_FRAMES:
+            if self.frame >= len(self.frames) + 4 * GRACE_FRAMES:
                 os._exit(1)  # it swallowed the exception as well
             raise PlayOver("the program runs on after its window was closed")
-        self._post(self.frame)
+        self._post_input(self.frame)
 
     def tick(self) -> None:
+        """End a frame because a Clock ticks."""
         self.ticks += 1
         self.end_frame()
 
     def _wait(self, milliseconds: float) -> int:
+        """pygame.time.wait and delay."""
         self.sleep(milliseconds)
         return int(milliseconds)
 
     def _clock_type(self) -> type:
+        """pygame's Clock, tied to this script. A class, for programs may inherit from it."""
         script = self
 
         class Clock(FrameClock):
@@ -134,28 +156,32 @@ class ScriptedClock:
 
         return Clock
 
-    def _showing(self, show: Callable[..., Any]) -> Callable[..., Any]:
-        """Showing the picture ends a frame, unless a Clock does or may be about to."""
+    def _ending_frames(self, show: Callable[..., Any]) -> Callable[..., Any]:
+        """Let showing the picture end a frame, unless a Clock does or may be about to.
 
-        def shown(*args: Any) -> Any:
+        Which of the two ends frames shows only in the second frame of a program that has made a
+        Clock: it may tick after the first picture, or never.
+        """
+
+        def show_and_count(*args: Any) -> Any:
             result = show(*args)
-            self.shows += 1
-            if not self.ticks and (not self.clocks or self.shows > 1):
+            self.flips += 1
+            if not self.ticks and (not self.clocks or self.flips > 1):
                 self.end_frame()
             return result
 
-        return shown
+        return show_and_count
 
-    # ------------------------------------------------------------ hands
+    # ------------------------------------------------------------ keyboard and mouse
 
-    def _post(self, frame: int) -> None:
-        """What the person does at the end of a frame."""
+    def _post_input(self, frame: int) -> None:
+        """What the person does at the end of a frame: QUIT after the last, clicks, keys."""
         if not pygame.display.get_init():
             return
         if frame >= len(self.frames):
             pygame.event.post(pygame.event.Event(pygame.QUIT))
         events = [event for event in self.events if event.frame == frame]
-        self._hold(next((event.held for event in events), ""))
+        self._hold_key(next((event.held for event in events), ""))
         for event in events:
             if event.kind == "click":
                 pygame.mouse.set_pos(event.pos)
@@ -165,7 +191,7 @@ class ScriptedClock:
                 for kind in (pygame.KEYDOWN, pygame.KEYUP):
                     self._post_key(kind, event.key, event.key)
 
-    def _hold(self, key: str) -> None:
+    def _hold_key(self, key: str) -> None:
         """Hold this key down from now on, and no other; an empty name for none."""
         if key == self.held:
             return
@@ -177,15 +203,17 @@ class ScriptedClock:
             self._post_key(pygame.KEYDOWN, key)
 
     def _post_key(self, kind: int, name: str, unicode: str = "") -> None:
+        """Post one event of a key, with the modifiers held now."""
         key, mod = pygame.key.key_code(name), pygame.key.get_mods()
         pygame.event.post(pygame.event.Event(kind, key=key, mod=mod, unicode=unicode, scancode=0))
 
-    def _pressing(self, real: Callable[[], Any]) -> Callable[[], Any]:
+    def _pressed_keys(self, real: Callable[[], Any]) -> Callable[[], Any]:
+        """get_pressed(), with the key that the script holds down."""
         return lambda: Pressed(real(), self.held)
 
 
 class Pressed:
-    """What `pygame.key.get_pressed()` gives a program here."""
+    """What `pygame.key.get_pressed()` gives a program here: no keyboard holds a key down."""
 
     def __init__(self, real: Any, held: str) -> None:
         self.real, self.held = real, held
@@ -195,7 +223,7 @@ class Pressed:
 
 
 class FrameClock:
-    """What `pygame.time.Clock()` gives a program here."""
+    """What `pygame.time.Clock()` gives a program here; the frame rate asked for does not matter."""
 
     def __init__(self, script: ScriptedClock) -> None:
         self.script = script
@@ -204,6 +232,7 @@ class FrameClock:
         script.clocks += 1
 
     def tick(self, framerate: float = 0) -> int:
+        """End the frame; returns its length in whole ms."""
         self.script.tick()
         self.length = int(self.script.now) - int(self.last)
         self.last = self.script.now
@@ -212,10 +241,13 @@ class FrameClock:
     tick_busy_loop = tick
 
     def get_time(self) -> int:
+        """ms between the last two ticks."""
         return self.length
 
     def get_rawtime(self) -> int:
+        """The same: here no frame waits."""
         return self.length
 
     def get_fps(self) -> float:
+        """Frames per second, going by the last frame; 0 before there was one."""
         return 1000 / self.length if self.length else 0.0

@@ -1,4 +1,7 @@
-"""A child started as a process of its own, where there is no fork: the same, only slower."""
+"""A child started as a process of its own, where there is no fork: the same, only slower.
+
+The first message on its channel is the ChildSetup that a forked child gets from the warm process.
+"""
 
 import socket
 import sys

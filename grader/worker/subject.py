@@ -1,4 +1,10 @@
-"""The submission inside a child: its modules, its objects, and how both look as plain values."""
+"""The submission inside a child: its modules, its objects, and both as plain values.
+
+Coming in, values are trusted: the judge sent them. Going out, nothing is: a submission may return
+a subclass of float that lies when compared, a list without end, or a world with a field missing. So
+every value is rebuilt here from the built-in types, in px, px/s, rad, rad/s, kg and kg px², and
+the judge decodes it strictly once more.
+"""
 
 import importlib
 import math
@@ -42,33 +48,42 @@ MAX_ITEMS = 1000  # entries of a returned list
 LARGEST_INT = 2**53
 
 
-class NotThere(Exception):
-    """The submission lacks something that the contract asks for, or has it in another type."""
+class ContractError(Exception):
+    """The submission lacks something that the lab sheet asks for, or has it in another type.
+
+    The message is for the student.
+    """
 
 
 class Subject:
-    """Imports the submission and hands out numbered references to its objects."""
+    """Imports the submission and hands out numbered references to its objects.
+
+    Objects stay in this process; the judge sees numbers only. They are kept as long as the child
+    lives, so that an id() belongs to one object.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.objects: dict[int, Any] = {}
-        self.refs: dict[int, int] = {}
-        self.pair: Callable[[float, float], Any] = pygame.Vector2  # what the program's pairs are
+        self.objects: dict[int, Any] = {}  # by reference number
+        self.refs: dict[int, int] = {}  # reference numbers by id() of the object
+        # What the submission's functions take for a pair of numbers.
+        self.pair_type: Callable[[float, float], Any] = pygame.Vector2
         sys.path.insert(0, str(folder))
         sys.argv[:] = [""]
 
     # ------------------------------------------------------------ names
 
     def load(self, module: str, pieces: list[Piece]) -> list[str]:
-        """Import `module`; returns the targets of the pieces that could be swapped in."""
+        """Import `module`; returns the targets of the pieces that were swapped in."""
         package = (self.folder / module).is_dir()
         sys.argv[0] = str(self.folder / (f"{module}/__main__.py" if package else f"{module}.py"))
         importlib.import_module(module)
         if module == "pymunk_scene":
-            self.pair = pymunk.Vec2d
+            self.pair_type = pymunk.Vec2d
         return [piece.target for piece in pieces if self.swap(piece)]
 
     def find(self, target: str) -> Any:
+        """What a target names: module:path, or #ref.path for an object. Raises ContractError."""
         if target.startswith("#"):
             ref, _, path = target[1:].partition(".")
             thing, label = self.objects[int(ref)], f"{type(self.objects[int(ref)]).__name__}.{path}"
@@ -79,26 +94,30 @@ class Subject:
             try:
                 thing = getattr(thing, name)
             except AttributeError:
-                raise NotThere(f"there is no {label}") from None
+                raise ContractError(f"there is no {label}") from None
         return thing
 
     def module_with(self, name: str, module: str) -> types.ModuleType:
-        """The module; of a package that does not pass the name on, the part that has it."""
+        """The module; of a package that does not export the name, the submodule that has it.
+
+        The lab sheet fixes names, and leaves students free to move them between files.
+        """
         whole = importlib.import_module(module)
         parts = [part for key, part in sys.modules.items() if key.startswith(f"{module}.")]
         return next((each for each in [whole, *parts] if name in vars(each)), whole)
 
     def swap(self, piece: Piece) -> bool:
-        """Put the reference's function in the place of the submission's, whoever holds it.
+        """Put the reference's function in the place of the submission's, for all who hold it.
 
-        Left alone when the submission has no such function, or one that is called otherwise.
+        So an unfinished TODO costs no points in another one. Left alone when the submission has no
+        such function, or one that is called otherwise.
         """
         try:
             original = plain_function(self.find(piece.target))
             if original is None:
                 return False
             wanted = fitted(self._build(piece, original), piece.parameters, original)
-        except (NotThere, KeyError, ImportError):
+        except (ContractError, KeyError, ImportError):
             return False
         if wanted is None:
             return False
@@ -106,7 +125,7 @@ class Subject:
         return True
 
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
-        """The reference's function, among the submission's own classes and functions."""
+        """The reference's function, compiled to use the submission's classes and functions."""
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, "<reference>", "exec"), namespace)
         exec(compile(piece.source, "<reference>", "exec"), namespace)
@@ -118,15 +137,16 @@ class Subject:
         for place in (vars(package), original.__globals__):
             namespace |= {name: place[name] for name in names if name in place}
         if not names <= set(namespace):
-            raise NotThere(f"there is no {', '.join(names - set(namespace))}")
+            raise ContractError(f"there is no {', '.join(names - set(namespace))}")
         return wanted  # type: ignore[no-any-return]
 
     # ------------------------------------------------------------ values in
 
     def decode(self, argument: Argument) -> Any:
+        """An argument from the judge, as the submission's functions take it."""
         match argument:
             case Vec(x, y):
-                return self.pair(x, y)
+                return self.pair_type(x, y)
             case Ref(id=ref):
                 return self.objects[ref]
             case Rng(seed):
@@ -147,6 +167,7 @@ class Subject:
         return Items(answers)
 
     def make_body(self, request: MakeBody) -> Any:
+        """A body of the lesson's engine in one request: most checks make many."""
         module = request.module
         shape = self.find(f"{module}:{request.shape}")(self.decode(request.size))
         body = self.find(f"{module}:Body")(
@@ -157,7 +178,9 @@ class Subject:
         return body
 
     def make_world(self, request: MakeWorld) -> Any:
-        world = self.find(f"{request.module}:World")(
+        known = vars(self.module_with("BonusWorld", request.module))
+        kind = "BonusWorld" if request.bonus and "BonusWorld" in known else "World"
+        world = self.find(f"{request.module}:{kind}")(
             gravity=self.decode(request.gravity),
             linear_damping=request.linear_damping,
             angular_damping=request.angular_damping,
@@ -171,6 +194,7 @@ class Subject:
     # ------------------------------------------------------------ values out
 
     def ref(self, thing: Any) -> int:
+        """The number of an object, a new one at first sight."""
         number = self.refs.get(id(thing))
         if number is None:
             number = self.refs[id(thing)] = len(self.objects) + 1
@@ -178,6 +202,10 @@ class Subject:
         return number
 
     def encode(self, thing: Any) -> Value:
+        """What the submission returned, as a plain value; what is none of these becomes a Ref.
+
+        Raises ContractError where a body or contact lacks a field or has it in another type.
+        """
         if thing is None or isinstance(thing, bool):
             return thing
         if isinstance(thing, str):
@@ -200,6 +228,7 @@ class Subject:
         return Ref(self.ref(thing), type(thing).__name__)
 
     def body(self, body: Any) -> BodyValue:
+        """A body of the lesson's engine, as numbers."""
         radius = getattr(getattr(body, "shape", None), "radius", 0.0)
         return BodyValue(
             self.ref(body),
@@ -213,6 +242,7 @@ class Subject:
         )
 
     def contact(self, contact: Any) -> ContactValue:
+        """A contact of the lesson's engine, as numbers and the refs of its bodies."""
         return ContactValue(
             self.ref(contact),
             self.ref(field(contact, "a")),
@@ -225,6 +255,7 @@ class Subject:
         )
 
     def space(self, space: pymunk.Space) -> SpaceValue:
+        """All that stands in a pymunk space, the static body first."""
         return SpaceValue(
             self.ref(space),
             Vec(*space.gravity),
@@ -234,6 +265,7 @@ class Subject:
         )
 
     def space_body(self, body: pymunk.Body) -> SpaceBody:
+        """A pymunk body with its shapes, from left to right: pymunk's own order varies."""
         kinds = {pymunk.Body.DYNAMIC: "dynamic", pymunk.Body.KINEMATIC: "kinematic"}
         kind: Any = kinds.get(body.body_type, "static")
         return SpaceBody(
@@ -259,6 +291,7 @@ class Subject:
         )
 
     def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
+        """A pymunk constraint; anchors in world coordinates, where it has any."""
         anchor_a, anchor_b = (
             Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
             for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))
@@ -275,7 +308,10 @@ class Subject:
     # ------------------------------------------------------------ what went wrong
 
     def raised(self, error: BaseException) -> Raised:
-        """The exception with the submission's own frames only; the reference's stay hidden."""
+        """An exception as data, with the submission's own frames only; the reference's stay hidden.
+
+        The text is untrusted: its __str__ may fail or be long, and it may quote anything.
+        """
         root = str(self.folder)
         frames = [
             CodeLine(
@@ -299,6 +335,8 @@ class Subject:
 
 
 def polynomial(coefficients: list[float]) -> Callable[..., float]:
+    """accel(x) for an integrator, from its coefficients, lowest power first."""
+
     def accel(x: float, *_: Any) -> float:
         total = 0.0
         for coefficient in reversed(coefficients):
@@ -309,35 +347,43 @@ def polynomial(coefficients: list[float]) -> Callable[..., float]:
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
+    """From left to right, then upwards."""
     box = shape.cache_bb()
     return box.left, box.bottom
 
 
 def field(thing: Any, name: str) -> Any:
+    """An attribute. Raises ContractError, so that a missing one is told in words."""
     try:
         return getattr(thing, name)
     except AttributeError:
-        raise NotThere(f"{type(thing).__name__} has no {name}") from None
+        raise ContractError(f"{type(thing).__name__} has no {name}") from None
 
 
 def field_number(thing: Any, name: str) -> float:
+    """An attribute as a number."""
     return as_number(field(thing, name), f"{type(thing).__name__}.{name}")
 
 
 def field_pair(thing: Any, name: str) -> Vec:
+    """An attribute as a pair of numbers."""
     value = field(thing, name)
     pair = as_pair(value)
     if pair is None:
-        raise NotThere(
+        raise ContractError(
             f"{type(thing).__name__}.{name} is {describe(value)}; expected a Vector2 or a pair"
         )
     return pair
 
 
 def as_number(value: Any, what: str) -> float:
-    """A true int or float, whatever number-like thing the submission made of it."""
+    """A true int or float, rebuilt from whatever number-like thing the submission made of it.
+
+    `int.__int__` and `float.__float__` read the value itself: a subclass may override both.
+    Raises ContractError for anything but a number; a bool is none.
+    """
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise NotThere(f"{what} is {describe(value)}; expected a number")
+        raise ContractError(f"{what} is {describe(value)}; expected a number")
     if isinstance(value, int) and abs(value) <= LARGEST_INT:
         return int.__int__(value)
     try:
@@ -347,6 +393,7 @@ def as_number(value: Any, what: str) -> float:
 
 
 def as_pair(value: Any) -> Vec | None:
+    """A pair of numbers from any sequence of two; None if it is not one."""
     try:
         if isinstance(value, str | bytes) or len(value) != 2:
             return None
@@ -357,4 +404,5 @@ def as_pair(value: Any) -> Vec | None:
 
 
 def describe(value: Any) -> str:
+    """What a value is, for a message; its repr() would be the submission's own code."""
     return "None" if value is None else f"of type {type(value).__name__}"

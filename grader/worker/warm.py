@@ -1,6 +1,8 @@
-"""The warm process: has the libraries loaded, and forks one child for each check.
+"""The warm process: a fork server, which has the libraries loaded and forks a child for each check.
 
-It never imports the submission, and it ends whatever a child left behind.
+It never imports the submission, so that one check cannot leave anything behind for the next. It
+is the parent of all children and ends whatever they leave running. The judge drives it through
+`control`, with Open and End; requests go to the children over sockets of their own.
 """
 
 import gc
@@ -19,13 +21,17 @@ import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve, tidy_environment
-from grader.worker.confinement import prepare_server, readable
+from grader.worker.confinement import isolate_server, readable_paths
 
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
 def main(control_fd: int) -> None:
-    layers = prepare_server(keep=control_fd)
+    """Serve the judge until it closes the control channel.
+
+    The first message says which layers of isolation all children are in already.
+    """
+    layers = isolate_server(keep=control_fd)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
@@ -54,8 +60,12 @@ def warm_up() -> None:
 
 
 def fork(control: Channel, setup: ChildSetup) -> None:
+    """Fork the child that `setup` describes; its end of the channel comes as a file descriptor.
+
+    The child never returns from here: whatever happens to it, it must not run the server's loop.
+    """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    readable(tuple(setup.hidden))  # listed once here, known in every child
+    readable_paths(tuple(setup.hidden))  # listed once here, known in every child
     for library in setup.loads:
         importlib.import_module(library)
     pid = os.fork()
@@ -64,22 +74,32 @@ def fork(control: Channel, setup: ChildSetup) -> None:
         return
     try:
         control.close()
-        keep_only(descriptor)
+        close_other_descriptors(descriptor)
         serve(Channel(socket.socket(fileno=descriptor)), setup)
     finally:
         os._exit(0)
 
 
-def keep_only(descriptor: int) -> None:
-    """Standard input, output and error lead nowhere; everything else but the channel is shut."""
-    nowhere = os.open(os.devnull, os.O_RDWR)
+def close_other_descriptors(descriptor: int) -> None:
+    """Close what the child has inherited but its own channel.
+
+    The control socket would let a submission command the server. Standard input, output and error
+    lead to /dev/null, so that the C library cannot write to the judge's terminal either.
+    """
+    null = os.open(os.devnull, os.O_RDWR)
     for standard in (0, 1, 2):
-        os.dup2(nowhere, standard)
+        os.dup2(null, standard)
     os.closerange(3, descriptor)
     os.closerange(descriptor + 1, 256)
 
 
 def end(pid: int, gone: bool) -> Ended:
+    """End a child and all that it started; tells how it ended.
+
+    Its process group is killed first, with what it started there; end_strays finds the others.
+    With `gone` the child is ending by itself, and gets a moment to do so, because the report tells
+    students the exit status or the signal.
+    """
     if gone:
         wait_for_exit(pid)
     with suppress(ProcessLookupError, PermissionError):
@@ -97,6 +117,7 @@ def end(pid: int, gone: bool) -> Ended:
 
 
 def wait_for_exit(pid: int) -> None:
+    """Wait until a process has ended, for about 0.2 s at most, and leave its status to be read."""
     for _ in range(100):
         with suppress(ChildProcessError):
             if os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
@@ -109,7 +130,7 @@ def end_strays() -> int:
     """Kill every process that a child started and left behind; returns how many there were."""
     ended = set()
     while has_children():
-        for stray in strays():
+        for stray in stray_pids():
             with suppress(ProcessLookupError):
                 os.kill(stray, signal.SIGKILL)
         with suppress(ChildProcessError):
@@ -117,15 +138,15 @@ def end_strays() -> int:
     return len(ended)
 
 
-def strays() -> list[int]:
-    """Whom to kill: all, where a namespace holds nobody else, or else all descendants."""
+def stray_pids() -> list[int]:
+    """Which processes to kill: all (-1) where the namespace holds no others, or all descendants."""
     if os.getpid() == 1:
         return [-1]
     return [process.pid for process in psutil.Process().children(recursive=True)]
 
 
 def has_children() -> bool:
-    """Whether anything is left: orphans come back to this process, which adopts them."""
+    """Whether any process is left: orphans become children of this one (see isolate_server)."""
     try:
         os.waitpid(-1, os.WNOHANG)
     except ChildProcessError:

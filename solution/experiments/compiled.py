@@ -46,8 +46,8 @@ def all_bits(seconds):
     return lines
 
 
-def answer():
-    """Serve the other process: where the engine is, all bits, or the time (s) for some steps."""
+def serve():
+    """Answer the other process: where the engine is, all bits, or the time (s) for some steps."""
     engine = Stable(pile(60, 300))
     run(engine, 2)
     for line in sys.stdin:
@@ -62,12 +62,12 @@ def answer():
             print(time.process_time() - start, flush=True)
 
 
-class Twin:
-    """A Python of its own that has one of the two builds."""
+class BuildProcess:
+    """A Python process with one of the two builds."""
 
     def __init__(self, folder):
         path = os.pathsep.join([str(folder), str(TREE)])
-        program = "from experiments.compiled import answer; answer()"
+        program = "from experiments.compiled import serve; serve()"
         self.process = subprocess.Popen(
             [sys.executable, "-c", program],
             stdin=subprocess.PIPE,
@@ -94,7 +94,7 @@ class Twin:
 
 def compare(folder, seconds=2.0, rounds=ROUNDS):
     """(whether all bits are the same, how many times faster the compiled build is)."""
-    plain, compiled = Twin(TREE), Twin(folder)
+    plain, compiled = BuildProcess(TREE), BuildProcess(folder)
     try:
         question = f"bits {seconds}"
         same = plain.ask(question) == compiled.ask(question) != ""

@@ -138,7 +138,7 @@ class Question:
     quick_scene: object = None
 
 
-def through(engine, errors):
+def or_fell_through(engine, errors):
     """The errors, or that they mean nothing because a ball is below the floor at y = 0."""
     if any(engine.read(i).y > 0 for i in engine.scene.moving()):
         return dict.fromkeys(errors, "falls through")
@@ -149,7 +149,7 @@ def sink(engine, seconds, dt):
     """How far the top of a stack comes down, and how restless it is in the end."""
     sunk, risen, fastest = sinking(engine, seconds, dt)
     sunk = "launched" if risen > LAUNCHED else sunk
-    return through(engine, {"sink": sunk, "late speed": fastest})
+    return or_fell_through(engine, {"sink": sunk, "late speed": fastest})
 
 
 def swing(engine, seconds, dt):
@@ -173,14 +173,14 @@ def worst_link(engine, seconds, dt):
 
 def settle(engine, seconds, dt):
     run(engine, seconds, dt)
-    return through(engine, {"overlap": deepest_overlap(engine)})
+    return or_fell_through(engine, {"overlap": deepest_overlap(engine)})
 
 
 def keep_bouncing(engine, seconds, dt):
     """How far the apex of a ball that loses nothing is off in the end."""
     start = energy_height(engine, 1, dt) - 10
     run(engine, seconds, dt)
-    return through(engine, {"apex": abs((energy_height(engine, 1, dt) - 10) / start - 1)})
+    return or_fell_through(engine, {"apex": abs((energy_height(engine, 1, dt) - 10) / start - 1)})
 
 
 def rebounds(engine, seconds, dt):
@@ -212,7 +212,7 @@ def roll(engine, seconds, dt):
     run(engine, seconds - first * dt, dt)
     last = engine.read(1).vx
     errors = {"time": abs(when / (300 / (3 * 0.6 * G)) - 1), "speed": abs(last / 200 - 1)}
-    return through(engine, errors)
+    return or_fell_through(engine, errors)
 
 
 def accelerate(engine, seconds, dt):
@@ -220,7 +220,9 @@ def accelerate(engine, seconds, dt):
     before = engine.read(1).vx
     run(engine, seconds / 2, dt)
     found = (engine.read(1).vx - before) / (round(seconds / 2 / dt) * dt)
-    return through(engine, {"acceleration": abs(found / engine.scene.exact["acceleration"] - 1)})
+    return or_fell_through(
+        engine, {"acceleration": abs(found / engine.scene.exact["acceleration"] - 1)}
+    )
 
 
 def pass_on(engine, seconds, dt):

@@ -67,8 +67,8 @@ def room(scene):
     boxes = [(*(Vector2(b.pos) - half(b)), *(Vector2(b.pos) + half(b))) for b in balls]
     boxes += [swing(scene)] if scene.rods else []
     x0, y0, x1, y1 = union(boxes)
-    spare = max(40.0, (0.1 if any(scene.gravity) else 0.5) * max(x1 - x0, y1 - y0))
-    x0, y0, x1, y1 = x0 - spare, y0 - spare, x1 + spare, y1 + spare
+    margin = max(40.0, (0.1 if any(scene.gravity) else 0.5) * max(x1 - x0, y1 - y0))
+    x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin
     near = []
     for block in scene.bodies:
         if not isinstance(block, Ball):

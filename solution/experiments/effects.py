@@ -18,6 +18,7 @@ from pathlib import Path
 
 from mini_engine import contacts as lesson_contacts
 from mini_engine import joints, solver, world
+from mini_engine.bonus.world import with_bonus
 from stable_engine import bullets, contact, contacts, friction, rods, springs
 
 from . import effects_report
@@ -135,7 +136,7 @@ def packed(count):
     return Scene([*slot(2 * half * wide, 1000.0), *map(Ball, places[:count])])
 
 
-class Held:
+class RepeatedStep:
     """An engine that starts every step from the scene's places: each step costs the same.
 
     kind "still": the engine may know that nobody has moved since the last step. "asleep": it runs
@@ -148,11 +149,11 @@ class Held:
         if kind == "asleep":
             run(engine, LULL)
         for _ in range(WARM_UP):
-            self.hold()
+            self.reset()
             engine.step(DT)
 
-    def hold(self):
-        """Put every body back, and do not let it grow tired."""
+    def reset(self):
+        """Put every body back where the scene has it, and set back the time it has lain still."""
         if self.kind == "asleep":
             return
         for body, data in zip(self.engine.bodies, self.engine.scene.bodies, strict=True):
@@ -160,7 +161,7 @@ class Held:
                 put_back(body, data)
         stable = getattr(self.engine.world, "effects", {})
         if "Contacts" in stable and self.kind != "still":
-            stable["Contacts"].places = []  # it looks for contacts anew
+            stable["Contacts"].last_positions = []  # it looks for contacts anew
 
 
 def put_back(body, data):
@@ -183,7 +184,12 @@ def one(_):
 
 def rows_of(effect):
     """How many contacts one pass of contacts or friction goes over."""
-    return len(effect.ball_rows) + len(effect.wall_rows)
+    return len(effect.ball_rows) + len(effect.static_rows)
+
+
+def has_work(world):
+    """Whether there is anything to solve in a lesson's world."""
+    return bool(world.contacts or world.joints)
 
 
 def awake(effect):
@@ -203,7 +209,7 @@ STABLE_WORK = [
 ]
 LESSON_WORK = [
     ("pairs", lesson_contacts.collide, one),
-    ("solver runs", world.World.solve, one),
+    ("solver runs", world.World.solve, has_work),
     ("contact solves", solver.solve_normal, one),
     ("friction solves", solver.solve_friction, one),
     ("rod solves", joints.DistanceJoint.solve, one),
@@ -211,27 +217,27 @@ LESSON_WORK = [
 ]
 
 
-def count(held, work):
+def count(repeated, work):
     """What one step takes: opcodes, in which files, and what was done."""
-    engine = held.engine
-    held.hold()
+    engine = repeated.engine
+    repeated.reset()
     by_file = count_opcodes(lambda: engine.world.step(DT))
-    held.hold()
+    repeated.reset()
     done = count_calls(lambda: engine.world.step(DT), work)
     done = {"contacts": engine.contacts() if done["contact solves"] else 0, **done}
     return {"opcodes": sum(by_file.values()), "by_file": dict(by_file), "done": done}
 
 
 def clock(cases, rounds):
-    """The least milliseconds per step of each case; they take turns, so that all meet the noise."""
+    """The least milliseconds per step of each case; they take turns, so that noise falls on all."""
     least = dict.fromkeys(cases, math.inf)
     gc.disable()
     for _ in range(rounds):
-        for name, held in cases.items():
+        for name, repeated in cases.items():
             for _ in range(TIMED):
-                held.hold()
+                repeated.reset()
                 start = seconds_now()
-                held.engine.world.step(DT)
+                repeated.engine.world.step(DT)
                 least[name] = min(least[name], (seconds_now() - start) * 1000)
     gc.enable()
     return least
@@ -249,8 +255,8 @@ def price_list(balls, rounds):
         for effects in (row.effects, row.base):
             if effects is not None and (row.scene, effects) not in cases:
                 scene = replace(scenes[row.scene], effects=effects)
-                cases[row.scene, effects] = Held(Stable(scene), row.scene)
-    counted = {key: count(held, STABLE_WORK) for key, held in cases.items()}
+                cases[row.scene, effects] = RepeatedStep(Stable(scene), row.scene)
+    counted = {key: count(repeated, STABLE_WORK) for key, repeated in cases.items()}
     times = clock(cases, max(1, rounds * 40 // max(balls, 40)))
     listed = []
     for row in ROWS:
@@ -268,7 +274,8 @@ def undeclared_list(balls):
     for effect in EFFECTS:
         spent = []
         for effects in (EFFECTS, all_but(effect)):
-            by_file = count(Held(Stable(replace(heap, effects=effects))), STABLE_WORK)["by_file"]
+            step = RepeatedStep(Stable(replace(heap, effects=effects)))
+            by_file = count(step, STABLE_WORK)["by_file"]
             spent.append(sum(by_file.get(name, 0) for name in FILES[effect]))
         found = {"effect": effect, "files": FILES[effect]}
         listed.append({**found, "declared": spent[0], "undeclared": spent[1]})
@@ -285,8 +292,8 @@ def lesson_list(balls, rounds):
         "with friction and 10 rods": replace(heap, effects=(*TOUCH, "Rods")),
         "with friction and damping": replace(heap, effects=(*TOUCH, "Damping")),
     }
-    cases = {title: Held(Lesson(scene)) for title, scene in scenes.items()}
-    counted = {title: count(held, LESSON_WORK) for title, held in cases.items()}
+    cases = {title: RepeatedStep(Lesson(scene)) for title, scene in scenes.items()}
+    counted = {title: count(repeated, LESSON_WORK) for title, repeated in cases.items()}
     times = clock(cases, rounds)
     return [{"title": title, **counted[title], "ms": times[title]} for title in cases]
 
@@ -295,29 +302,31 @@ def bonus_list(balls, rounds):
     """The lesson's engine on a pile at rest, before and after bonus tasks B3 and B1."""
     scene = packed(balls)
     cases = {
-        "before": Held(Lesson(scene)),
-        "B3: a grid": Held(with_bonus(Lesson(scene), grid=True)),
-        "B1: sleep, all awake": Held(with_bonus(Lesson(scene), sleeping=True)),
+        "before": RepeatedStep(Lesson(scene)),
+        "B3: a grid": RepeatedStep(bonus_engine(scene, grid=True)),
+        "B1: sleep, all awake": RepeatedStep(bonus_engine(scene, sleeping=True)),
         # Between sleepers no pair is looked at: here the grid only shortens the wait.
-        "B1: asleep": Held(with_bonus(Lesson(scene), sleeping=True, grid=True), "asleep"),
+        "B1: asleep": RepeatedStep(bonus_engine(scene, sleeping=True, grid=True), "asleep"),
     }
-    counted = {title: count(held, LESSON_WORK) for title, held in cases.items()}
+    counted = {title: count(repeated, LESSON_WORK) for title, repeated in cases.items()}
     times = clock(cases, max(1, rounds // 20, rounds * 40**2 // balls**2))
     return [
-        {"title": title, "asleep": sleepers(held.engine), **counted[title], "ms": times[title]}
-        for title, held in cases.items()
+        {"title": title, "asleep": sleepers(repeated.engine), **counted[title], "ms": times[title]}
+        for title, repeated in cases.items()
     ]
 
 
-def with_bonus(engine, sleeping=False, grid=False):
-    """Switch bonus tasks on in a lesson's engine, and return it."""
+def bonus_engine(scene, sleeping=False, grid=False):
+    """A lesson's engine in whose world these bonus tasks are switched on."""
+    engine = Lesson(scene)
+    engine.world = with_bonus(engine.world)
     engine.world.sleeping, engine.world.grid = sleeping, grid
     return engine
 
 
 def sleepers(engine):
     """How many bodies of a lesson's engine are asleep."""
-    return sum(body.asleep for body in engine.bodies)
+    return sum(getattr(body, "asleep", False) for body in engine.bodies)
 
 
 def measure(sizes=SIZES, rounds=ROUNDS, heaps=HEAPS):

@@ -82,14 +82,14 @@ BAD_STARTS = [
     Case(
         "two balls that overlap by 30 px, 1:1 and 1:100",
         each(scenes.overlapping, "mass", (1, 100)),
-        trials.part,
+        trials.separate,
         [at_most("speed", "speed gained, px/s", 1)],
         seconds=2,
     ),
     Case(
         "10 balls with the same centre",
         [scenes.coincident],
-        trials.part,
+        trials.separate,
         [
             at_most("speed", "top speed, px/s", 300),
             nothing("overlap", "overlap left, px"),
@@ -101,7 +101,7 @@ BAD_STARTS = [
         Case(
             f"two balls squeezed by 8 px, 1:{mass}",
             [partial(scenes.squeezed, 8, mass)],
-            trials.part,
+            trials.separate,
             [at_most("speed", "top speed, px/s", 1)],
             seconds=2,
         )
@@ -110,7 +110,7 @@ BAD_STARTS = [
     Case(
         "centre on corner, face, centre of a box",
         each(scenes.inside_ledge, "pos", INSIDE),
-        trials.part,
+        trials.separate,
         [at_most("speed", "top speed, px/s", 300), at_most("overlap", "overlap left, px", 0.001)],
         seconds=2,
     ),
@@ -179,7 +179,7 @@ FAST = [
         Case(
             f"Newton's cradle with gaps of {gap} px",
             [partial(scenes.cradle, gap)],
-            trials.knock,
+            trials.cradle_transfer,
             [at_most("error", "worst speed, px/s off", 1e-9)],
             seconds=1,
         )
@@ -207,7 +207,7 @@ ROLLING = [
     Case(
         "rolling over seams, 9 to 3000 px/s",
         each(scenes.seams, "speed", SEAM_SPEEDS),
-        trials.ride,
+        trials.roll_over_seams,
         [at_most("hop", "highest hop, px", 0.01)],
         seconds=3,
     ),
@@ -253,19 +253,19 @@ RODS = [
     Case(
         "hanging chain of 20",
         [scenes.chain],
-        trials.dangle,
+        trials.hang_chain,
         [at_most("whole", "stretch, px", 1)],
     ),
     Case(
         "hanging chain of 10, last ball 100:1",
         [partial(scenes.chain, 10, bob=100.0)],
-        trials.dangle,
+        trials.hang_chain,
         [at_most("whole", "stretch, px", 5)],
     ),
     Case(
         "swinging chain of 20 for 10 s",
         [partial(scenes.chain, 20, (20.0, 0.0))],
-        trials.dangle,
+        trials.hang_chain,
         [at_most("worst", "worst link, px", 1)],
         longer={
             "full": {"title": "swinging chain of 20 for 1200 steps"},
@@ -288,7 +288,7 @@ RODS = [
     Case(
         "spring of 1 Hz for 60 s",
         [scenes.oscillator],
-        trials.ring,
+        trials.ring_down,
         [Figure("energy", "mean energy, share", 1.0, "share", 1e-3)],
         seconds=60,
         engines=("stable", "pymunk"),
@@ -301,7 +301,7 @@ AGAIN = [
     Case(
         "pile of 40 for 1 s, done twice",
         [partial(scenes.pile, 40, 150)],
-        trials.twice,
+        trials.run_twice,
         [nothing("bits", "numbers that differ")],
         seconds=1,
         longer={"full": {"title": "pile of 40 for 2 s, done twice", "seconds": 2}},

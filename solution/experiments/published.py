@@ -71,7 +71,7 @@ CONSTRAINTS = [
     Case(
         f"constraints: {words} chain of {links}",
         [partial(scenes.chain, links, step)],
-        trials.dangle,
+        trials.hang_chain,
         [Figure(key, figure, 0.0, "<" if links <= 20 else "", 1)],
         seconds=5,
         longer={"full": {"seconds": 10}},

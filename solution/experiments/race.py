@@ -102,7 +102,7 @@ def described(row, unit):
 
 SETTLE = 6.0  # s
 STABLE_RATE, STABLE_SUBSTEPS = 60, 8
-CALM = 20.0  # s: after that a pile that is not asleep will not be
+SLEEP_LIMIT = 20.0  # s: after that a pile that is not asleep will not be
 
 
 def settled(count):
@@ -190,9 +190,9 @@ def after(engine, dt, seconds):
 
 
 def fall_asleep(scene):
-    """The pile in the stable engine, run until all balls sleep or CALM has passed."""
+    """The pile in the stable engine, run until all balls sleep or SLEEP_LIMIT has passed."""
     engine = Stable(scene, STABLE_SUBSTEPS)
-    for _ in range(round(CALM * STABLE_RATE)):
+    for _ in range(round(SLEEP_LIMIT * STABLE_RATE)):
         if engine.asleep() == len(scene.moving()):
             break
         engine.step(1 / STABLE_RATE)

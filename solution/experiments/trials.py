@@ -43,7 +43,7 @@ def overlaps(bench, scene):
     return {"overlap": deepest_overlap(engine)}
 
 
-def part(bench, scene):
+def separate(bench, scene):
     """The top speed on the way, the overlap that is left, and how wide the balls are spread.
 
     spread is the narrower side of the box around all centres.
@@ -155,7 +155,7 @@ def bounce_once(bench, scene):
     return {"share": share, "rebound": share / (scene.exact["rebound"] or 1)}
 
 
-def knock(bench, scene):
+def cradle_transfer(bench, scene):
     """How far any ball of a cradle is from the speed it should have: the last has all of it."""
     engine = bench.build(scene)
     run(engine, bench.seconds, bench.dt)
@@ -205,7 +205,7 @@ def fall(bench, scene):
     return {"error": error, "beyond": error - known}
 
 
-def ride(bench, scene):
+def roll_over_seams(bench, scene):
     """How high a ball ever hops above the floor it rolls on."""
     engine, ball = bench.build(scene), scene.bodies[-1]
     i, seconds = len(scene.bodies) - 1, min(bench.seconds, 3000 / ball.vel[0])
@@ -230,7 +230,7 @@ def swing(bench, scene):
     return {"stretch": stretch, "period": error, "energy": change / length}
 
 
-def dangle(bench, scene):
+def hang_chain(bench, scene):
     """A chain's largest stretch of one link on the way, and of the whole chain in the end."""
     engine = bench.build(scene)
     worst = watch(engine, bench.seconds, lambda: worst_stretch(engine), bench.dt)
@@ -246,7 +246,7 @@ def oscillate(bench, scene):
     return {"swing": max(swings) / scene.exact["swing"]}
 
 
-def ring(bench, scene):
+def ring_down(bench, scene):
     """The mean energy of a spring during the last second, as a share of the energy at first."""
     engine = bench.build(scene)
     start = energy(engine, bench.dt)
@@ -258,7 +258,7 @@ def ring(bench, scene):
 # ---------------------------------------------------------------- once more
 
 
-def twice(bench, scene):
+def run_twice(bench, scene):
     """How many numbers differ, be it in their last bit, when the same run is done again."""
     first, second = bench.build(scene), bench.build(scene)
     for engine in (first, second):

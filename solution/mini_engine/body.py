@@ -7,8 +7,6 @@ from pygame import Vector2
 from .shapes import Box
 from .validate import require
 
-STATE = ("pos.x", "pos.y", "vel.x", "vel.y", "angle", "omega")
-
 
 class Body:
     """One rigid body.
@@ -36,10 +34,6 @@ class Body:
         self.restitution = restitution
         self.friction = friction
         self.color = color
-        self.before = Vector2(pos), 0.0  # place and angle before the latest step
-        self.asleep = False
-        self.still_for = 0.0  # s at rest
-        self.support = []  # what a sleeper lies on
         self.check()
 
     @property
@@ -51,5 +45,6 @@ class Body:
         """Raise ValueError naming the first number that is NaN or infinite."""
         state = (*self.pos, *self.vel, self.angle, self.omega)
         if not all(map(math.isfinite, state)):
-            for name, number in zip(STATE, state, strict=True):
+            names = ("pos.x", "pos.y", "vel.x", "vel.y", "angle", "omega")
+            for name, number in zip(names, state, strict=True):
                 require(math.isfinite(number), f"Body.{name}", number, "finite")

@@ -9,8 +9,7 @@ class Contact:
     """Two overlapping bodies, and what the solver has done to part them."""
 
     def __init__(self, a, b, normal, depth, point):
-        self.a = a
-        self.b = b
+        self.a, self.b = a, b
         self.normal = normal  # unit vector from A to B
         self.depth = depth  # px of overlap
         self.point = point  # px

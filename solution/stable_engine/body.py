@@ -59,8 +59,8 @@ class Body:
         self.bullet = bullet
         self.idle = mass == 0  # static or asleep
         self.asleep = False
-        self.still = 0.0  # s, how long it has hardly moved
-        self.island: Island | None = None  # whom it sleeps with
+        self.still = 0.0  # s, how long it has been below STILL_SPEED
+        self.island: Island | None = None  # the bodies it sleeps with
 
     @property
     def is_static(self) -> bool:

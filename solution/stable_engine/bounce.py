@@ -1,4 +1,4 @@
-"""Bounce: bodies that hit each other spring back."""
+"""Restitution: bodies that hit each other bounce off."""
 
 from math import sqrt
 
@@ -7,23 +7,25 @@ from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
 from .world import World
 
-PASSES = 20  # how often a blow is handed on within one step
+PASSES = 20  # within one step, in which an impact travels from ball to ball
 
 
 class Bounce(Effect):
-    """Bodies that meet faster than RESTING_SPEED part at e times that speed, e the smaller of two.
+    """Newton's law: bodies that collide faster than RESTING_SPEED separate at e times that speed.
 
-    Blows come before any force of the step, one after the other, and are handed on from ball to
-    ball until none closes in fast any more.
+    e is the smaller restitution of the two. Impacts are resolved one contact at a time, before any
+    force of the step acts, again and again until no pair closes in fast any more: this is how an
+    impact travels through a row of balls. Slower contacts stay with the solver, or a resting
+    ball would hop.
     """
 
     rank = 6
 
-    def join(self, world: World) -> None:
-        super().join(world)
+    def attach(self, world: World) -> None:
+        super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
-    def meet(self, c: Contact) -> None:
+    def begin_contact(self, c: Contact) -> None:
         c.e = min(c.a.restitution, c.b.restitution)
 
     def impact(self, h: float) -> None:
@@ -31,38 +33,39 @@ class Bounce(Effect):
         if max([abs(c.closing_speed()) for c in bouncing], default=0) <= RESTING_SPEED:
             return
         for _ in range(PASSES):
-            if not any([self.answer(c, h) for c in bouncing]):
+            if not any([self.resolve(c, h) for c in bouncing]):
                 break
-        self.contacts.fresh = True
-        self.contacts.touching = [c for c in self.contacts.touching if not leaving(c)]
+        self.contacts.changed = True
+        self.contacts.touching = [c for c in self.contacts.touching if not separating(c)]
 
-    def answer(self, c: Contact, h: float) -> bool:
-        """Let a pair bounce if it closes in fast. Whether it did."""
+    def resolve(self, c: Contact, h: float) -> bool:
+        """Bounce a pair that closes in fast. Returns whether it did."""
         closing = c.closing_speed()
         if closing <= RESTING_SPEED:
             return False
         if c.b.is_static:
-            self.contacts.blow(c, closing + self.rebound(c, closing, h))
+            self.contacts.apply_impact(c, closing + self.rebound_speed(c, closing, h))
         else:
-            self.contacts.blow(c, closing + c.e * closing)
+            self.contacts.apply_impact(c, closing + c.e * closing)
         return True
 
-    def rebound(self, c: Contact, closing: float, h: float) -> float:
-        """The speed (px/s) at which a ball leaves a static body, exact whatever the step.
+    def rebound_speed(self, c: Contact, closing: float, h: float) -> float:
+        """The speed (px/s) at which a ball leaves a static body, exact for any step size.
 
-        The ball crossed the surface a moment ago, slower, and will cross it again on its way out;
-        energy tells how fast. With semi-implicit Euler speeds lag half a substep behind places.
+        A contact is found after the ball has crossed the surface and has gained speed below it. So
+        e is applied to the speed at the surface, which follows from conservation of energy.
+        With semi-implicit Euler velocities lag half a substep behind positions.
         """
         gx, gy = self.world.gravity
         g = gx * c.nx + gy * c.ny  # px/s², into the surface
         if g <= 0:
             return c.e * closing
         lag = g * h / 2
-        fallen = -2 * g * c.gap  # px²/s², what falling from the surface to here adds to speed²
+        fallen = -2 * g * c.gap  # px²/s², what the fall from the surface to here adds to speed²
         crossing = max((closing + lag) ** 2 - fallen, 0)
         return sqrt(max(c.e**2 * crossing + fallen, 0)) + lag
 
 
-def leaving(c: Contact) -> bool:
-    """Whether a pair bounces off: pushing it out as well would lift it higher."""
+def separating(c: Contact) -> bool:
+    """Whether a pair has bounced off: if the solver pushed it out as well, it would rise higher."""
     return c.e > 0 and c.closing_speed() < -RESTING_SPEED

@@ -1,4 +1,4 @@
-"""Which bodies are near each other: sort and sweep."""
+"""The broad phase: which bodies are near each other, by sort and sweep."""
 
 from collections.abc import Iterator
 from operator import itemgetter
@@ -25,7 +25,7 @@ def near_pairs(bodies: list[Body], awake: list[Body], margin: float) -> Iterator
 
 
 def intervals(bodies: list[Body], awake: list[Body], m: float) -> list[Interval]:
-    """Bounding boxes where somebody is awake, longer axis first, low ends moved out by m px."""
+    """The bounding boxes near awake bodies, longer axis first, low ends moved out by m px."""
     left, right = min([b.x - b.hx for b in awake]) - m, max([b.x + b.hx for b in awake]) + m
     top, bottom = min([b.y - b.hy for b in awake]) - m, max([b.y + b.hy for b in awake]) + m
     boxes = [

@@ -1,4 +1,4 @@
-"""Where two bodies touch."""
+"""Contact points, and the geometry that finds them (the narrow phase)."""
 
 from dataclasses import dataclass
 from math import copysign, cos, sin, sqrt
@@ -12,7 +12,7 @@ GOLDEN_ANGLE = 2.399963  # rad
 
 @dataclass(slots=True, eq=False)
 class Contact:
-    """Two bodies that touch. It lives as long as they do so, step after step."""
+    """Two bodies that touch. It persists while they do, so that its impulses can warm start."""
 
     a: Body  # always a ball with mass
     b: Body
@@ -43,7 +43,10 @@ def collide(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
-    """Two circles with the same centre part, each pair in a direction of its own."""
+    """Two circles. With the same centre they have no normal, so each pair gets one of its own.
+
+    Were it the same for all, a heap of balls in one place would spread along one line only.
+    """
     dx, dy = b.x - a.x, b.y - a.y
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
@@ -53,7 +56,7 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
-    """A circle with its centre inside the box leaves through the nearest face."""
+    """A circle and a box. A centre inside the box leaves through the nearest face."""
     x, y = a.x - b.x, a.y - b.y
     dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
     distance = sqrt(dx * dx + dy * dy)

@@ -6,107 +6,112 @@ from .body import Body
 from .broad_phase import near_pairs
 from .contact import Contact, collide
 from .effect import Effect
-from .soft import SAME_WAY, softness
+from .soft import SAME_DIRECTION, softness
 from .world import World
 
-STIFFNESS = 0.24  # frequency of a contact of two balls, per substep; a static body doubles it
-ZETA = 10.0  # damping ratio of a contact
-PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
-RESTING_SPEED = 30.0  # px/s, a slower blow does not bounce
-SLOW = 10.0  # px/s, bodies that move slower past each other touch ahead of time
-STAY = 1e-4  # px, contacts are good until a body has moved further
+FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
+DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
+MAX_PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
+RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
+SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
+REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
 BallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
-WallRow = tuple[Contact, Body, Body, float, float, float, float, float, float]
+StaticRow = tuple[Contact, Body, Body, float, float, float, float, float, float]
 
 
 class Contacts(Effect):
-    """Contacts found once per step and solved in every substep as stiff, damped springs.
+    """Contacts found once per step and solved in every substep as soft constraints.
 
-    In the rows, ax and ay are what a unit of impulse takes from A's velocity, bx and by what it
-    gives to B's; centres that are reach px apart along the normal just touch. Ball rows and wall
-    rows differ in that no impulse moves B.
+    What the substeps need of each contact is laid out in rows once per step: looking it up in each
+    substep would take longer. In a row, ax and ay are what a unit of impulse takes from A's
+    velocity, bx and by what it gives to B's; centres that are reach px apart along the normal just
+    touch. In a ball row both bodies can move; in a static row B is static.
     """
 
     rank = 3
 
     def __init__(self) -> None:
         self.touching: list[Contact] = []
-        self.fresh = False  # whether this step looked for contacts
-        self.places: list[tuple[Body, float, float]] = []  # of all bodies when last looked
-        self.known: dict[tuple[int, int], Contact] = {}
-        self.known_asleep: dict[tuple[int, int], Contact] = {}
-        self.spared: set[tuple[int, int]] = set()
+        self.changed = False  # whether contacts are new in this step, so that rows must be too
+        self.last_positions: list[tuple[Body, float, float]] = []  # at the last detection
+        self.cache: dict[tuple[int, int], Contact] = {}
+        self.sleeping_cache: dict[tuple[int, int], Contact] = {}
+        self.ignored: set[tuple[int, int]] = set()
 
-    def join(self, world: World) -> None:
-        super().join(world)
-        self.meet_hooks = world.hooks("meet")
-        self.strike_hooks = world.hooks("strike")
+    def attach(self, world: World) -> None:
+        super().attach(world)
+        self.begin_contact_hooks = world.hooks("begin_contact")
+        self.after_impact_hooks = world.hooks("after_impact")
 
     def detect(self, h: float) -> None:
         bodies = self.world.bodies
-        moved = [abs(body.x - x) + abs(body.y - y) > STAY for body, x, y in self.places]
-        self.fresh = len(moved) < len(bodies) or any(moved)
-        if self.fresh:
-            self.places = [(body, body.x, body.y) for body in bodies]
+        moved = [
+            abs(body.x - x) + abs(body.y - y) > REDETECT_DISTANCE
+            for body, x, y in self.last_positions
+        ]
+        self.changed = len(moved) < len(bodies) or any(moved)
+        if self.changed:
+            self.last_positions = [(body, body.x, body.y) for body in bodies]
             self.touching = self.find_contacts(h * self.world.substeps)
 
     def find_contacts(self, dt: float) -> list[Contact]:
         """The contacts of all bodies where they are now, with the impulses they had before.
 
-        Bodies that overlap touch. So do slow ones that may meet within dt seconds; of fast ones
-        nobody knows yet whether they will miss each other.
+        Bodies that overlap are in contact. So are slow ones that may touch within dt seconds: such
+        a speculative contact lets them close the gap and no more. Fast ones may still miss each
+        other, so they get none.
         """
-        margin = SLOW * dt
-        known, found = self.known, {}
+        margin = SPECULATIVE_SPEED * dt
+        cache, found = self.cache, {}
         for a, b in near_pairs(self.world.bodies, self.world.awake, margin):
             nx, ny, gap = collide(a, b)
-            if gap > 0 and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SLOW):
+            if gap > 0 and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED):
                 continue
             pair = a.id, b.id
-            c = known.get(pair)
+            c = cache.get(pair)
             if c is None:
-                if pair in self.spared:
+                if pair in self.ignored:
                     continue
                 c = self.new_contact(a, b)
-            elif nx * c.nx + ny * c.ny < SAME_WAY:
+            elif nx * c.nx + ny * c.ny < SAME_DIRECTION:
                 c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap = nx, ny, gap
             found[pair] = c
-        self.known = found
+        self.cache = found
         return list(found.values())
 
     def new_contact(self, a: Body, b: Body) -> Contact:
-        """A contact that other effects have filled in."""
+        """A contact, with what other effects need of it filled in."""
         c = Contact(a, b, mn=1 / (a.inv_mass + b.inv_mass))
-        for meet in self.meet_hooks:
-            meet(c)
+        for begin_contact in self.begin_contact_hooks:
+            begin_contact(c)
         return c
 
-    def spare(self, a: Body, b: Body) -> None:
-        """Never let A and B touch: something else holds them overlapping."""
-        self.spared |= {(a.id, b.id), (b.id, a.id)}
-        self.known = {pair: c for pair, c in self.known.items() if pair not in self.spared}
-        self.places = []
+    def ignore_pair(self, a: Body, b: Body) -> None:
+        """Let A and B pass through each other: a joint may hold them overlapping."""
+        self.ignored |= {(a.id, b.id), (b.id, a.id)}
+        self.cache = {pair: c for pair, c in self.cache.items() if pair not in self.ignored}
+        self.last_positions = []
 
-    def blow(self, c: Contact, change: float) -> None:
-        """Raise the speed at which A and B part by change (px/s), at once."""
+    def apply_impact(self, c: Contact, change: float) -> None:
+        """Raise the speed at which A and B separate by change (px/s), with one impulse at once."""
         a, b = c.a, c.b
         jn = c.mn * change
         a.vx -= c.nx * jn * a.inv_mass
         a.vy -= c.ny * jn * a.inv_mass
         b.vx += c.nx * jn * b.inv_mass
         b.vy += c.ny * jn * b.inv_mass
-        for strike in self.strike_hooks:
-            strike(c, jn)
+        for after_impact in self.after_impact_hooks:
+            after_impact(c, jn)
 
     def prepare(self, h: float) -> None:
-        self.ball_spring = softness(STIFFNESS / h, ZETA, h)
-        self.wall_spring = softness(2 * STIFFNESS / h, ZETA, h)
-        if not self.fresh:
+        self.ball_spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
+        self.static_spring = softness(2 * FREQUENCY / h, DAMPING_RATIO, h)
+        if not self.changed:
             return
         self.ball_rows: list[BallRow] = []
-        self.wall_rows: list[WallRow] = []
+        self.static_rows: list[StaticRow] = []
         for c in self.touching:
             a, b, nx, ny, mn = c.a, c.b, c.nx, c.ny, c.mn
             ax, ay = nx * a.inv_mass, ny * a.inv_mass
@@ -115,7 +120,7 @@ class Contacts(Effect):
                 bx, by = nx * b.inv_mass, ny * b.inv_mass
                 self.ball_rows.append((c, a, b, nx, ny, mn, reach, ax, ay, bx, by))
             else:
-                self.wall_rows.append((c, a, b, nx, ny, mn, reach, ax, ay))
+                self.static_rows.append((c, a, b, nx, ny, mn, reach, ax, ay))
 
     def warm_start(self, h: float) -> None:
         for c, a, b, _, _, _, _, ax, ay, bx, by in self.ball_rows:
@@ -124,13 +129,13 @@ class Contacts(Effect):
             a.vy -= ay * jn
             b.vx += bx * jn
             b.vy += by * jn
-        for c, a, _, _, _, _, _, ax, ay in self.wall_rows:
+        for c, a, _, _, _, _, _, ax, ay in self.static_rows:
             jn = c.jn
             a.vx -= ax * jn
             a.vy -= ay * jn
 
     def solve(self, h: float) -> None:
-        rate, keep = self.ball_spring
+        bias_rate, mass_scale = self.ball_spring
         for c, a, b, nx, ny, mn, reach, ax, ay, bx, by in self.ball_rows:
             gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
@@ -138,10 +143,10 @@ class Contacts(Effect):
             if gap > 0:
                 jn = before - mn * (speed + gap / h)
             else:
-                push = rate * gap
-                if push < -PUSH_SPEED:
-                    push = -PUSH_SPEED
-                jn = keep * (before - mn * speed) - mn * push
+                push = bias_rate * gap
+                if push < -MAX_PUSH_SPEED:
+                    push = -MAX_PUSH_SPEED
+                jn = mass_scale * (before - mn * speed) - mn * push
             if jn < 0:
                 jn = 0.0
             c.jn = jn
@@ -150,18 +155,18 @@ class Contacts(Effect):
             a.vy -= ay * jn
             b.vx += bx * jn
             b.vy += by * jn
-        rate, keep = self.wall_spring
-        for c, a, b, nx, ny, mn, reach, ax, ay in self.wall_rows:
+        bias_rate, mass_scale = self.static_spring
+        for c, a, b, nx, ny, mn, reach, ax, ay in self.static_rows:
             gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
             before = c.jn
             if gap > 0:
                 jn = before - mn * (speed + gap / h)
             else:
-                push = rate * gap
-                if push < -PUSH_SPEED:
-                    push = -PUSH_SPEED
-                jn = keep * (before - mn * speed) - mn * push
+                push = bias_rate * gap
+                if push < -MAX_PUSH_SPEED:
+                    push = -MAX_PUSH_SPEED
+                jn = mass_scale * (before - mn * speed) - mn * push
             if jn < 0:
                 jn = 0.0
             c.jn = jn
@@ -186,7 +191,7 @@ class Contacts(Effect):
             a.vy -= ay * jn
             b.vx += bx * jn
             b.vy += by * jn
-        for c, a, b, nx, ny, mn, reach, ax, ay in self.wall_rows:
+        for c, a, b, nx, ny, mn, reach, ax, ay in self.static_rows:
             speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
             before = c.jn
             if not before:
@@ -204,8 +209,8 @@ class Contacts(Effect):
     def links(self) -> list[tuple[Body, Body]]:
         return [(c.a, c.b) for c in self.touching]
 
-    def rouse(self) -> None:
-        """Keep what sleepers know of their contacts: they wake as calm as they fell asleep."""
-        self.places = []
-        self.known = self.known_asleep | self.known
-        self.known_asleep = {pair: c for pair, c in self.known.items() if c.a.asleep}
+    def awake_changed(self) -> None:
+        """Keep the impulses between sleeping bodies: with a warm start a pile wakes calmly."""
+        self.last_positions = []
+        self.cache = self.sleeping_cache | self.cache
+        self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.asleep}

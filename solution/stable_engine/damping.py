@@ -1,4 +1,4 @@
-"""Damping: whatever moves slows down."""
+"""Damping: whatever moves slows down, as if in air or water."""
 
 from math import exp
 

@@ -1,4 +1,4 @@
-"""What an effect is: something a scene declares, called at fixed moments of a step."""
+"""What an effect is: a part of the physics that a scene declares, called at stages of a step."""
 
 from __future__ import annotations
 
@@ -15,34 +15,35 @@ if TYPE_CHECKING:
 class Effect:
     """Base of all effects. The world calls the hooks an effect overrides, and no others.
 
-    h is the length of a substep in seconds. At each moment effects of lower rank come first.
+    So an effect that is not declared costs nothing, and one that is costs no empty calls. h is the
+    length of a substep in seconds. At each stage effects of lower rank come first.
     """
 
     rank: ClassVar[int]
     world: World
 
-    def join(self, world: World) -> None:
-        """Become part of a world, once. Look up here which other effects are needed."""
+    def attach(self, world: World) -> None:
+        """Become part of a world, once. Look up here the other effects that this one needs."""
         name = f"{type(self).__name__}.world"
         require(not hasattr(self, "world"), name, "another one already", "new: make a new effect")
         self.world = world
 
-    def take(self, thing: Any) -> None:
-        """Add something to this effect's own list."""
+    def add(self, thing: Any) -> None:
+        """Add a body or joint to this effect's own list."""
 
     # once per step
 
     def detect(self, h: float) -> None:
-        """Find out who touches whom."""
+        """Collision detection: find out which bodies touch."""
 
     def impact(self, h: float) -> None:
-        """Change velocities at a blow, before any force acts."""
+        """Resolve impacts: change velocities at once, before any force of the step acts."""
 
     def prepare(self, h: float) -> None:
         """Work out what the substeps of this step share."""
 
     def finish(self, h: float) -> None:
-        """Look at the step once it is over."""
+        """Look at the result of the step."""
 
     # once per substep
 
@@ -50,25 +51,25 @@ class Effect:
         """Change velocities as forces do."""
 
     def warm_start(self, h: float) -> None:
-        """Apply the impulses of the substep before once more: most will be right."""
+        """Apply the impulses of the substep before once more: most are nearly right already."""
 
     def solve(self, h: float) -> None:
-        """Correct velocities, and errors of position by velocities, before bodies move."""
+        """Correct velocities with impulses, and errors of position by velocities (the bias)."""
 
     def relax(self, h: float) -> None:
-        """After bodies have moved, take back the speed that correcting positions gave them."""
+        """After bodies have moved, take back the speed that the bias gave them."""
 
     # between effects
 
-    def meet(self, c: Contact) -> None:
-        """Fill in what this effect needs of a new contact."""
+    def begin_contact(self, c: Contact) -> None:
+        """Fill in what this effect needs of a new contact, such as its friction."""
 
-    def strike(self, c: Contact, jn: float) -> None:
-        """Answer a blow of jn (kg px/s) along the normal of a contact."""
+    def after_impact(self, c: Contact, jn: float) -> None:
+        """Respond to an impact of jn (kg px/s) along the normal: friction acts at that instant."""
 
     def links(self) -> list[tuple[Body, Body]]:
-        """Pairs of bodies that must sleep and wake together."""
+        """The pairs of bodies it connects, the edges of islands: they sleep and wake together."""
         return []
 
-    def rouse(self) -> None:
-        """Take note that bodies fell asleep or woke."""
+    def awake_changed(self) -> None:
+        """Called after bodies fell asleep or woke: bring lists of the awake up to date."""

@@ -1,4 +1,4 @@
-"""Friction: bodies that touch do not slide freely."""
+"""Friction: bodies that touch do not slide freely, and balls roll."""
 
 from math import sqrt
 
@@ -11,7 +11,7 @@ from .world import World
 BallRow = tuple[
     Contact, Body, Body, float, float, float, float, float, float, float, float, float, float, float
 ]
-WallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
+StaticRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
 
 
 class Friction(Effect):
@@ -23,17 +23,17 @@ class Friction(Effect):
 
     rank = 5
 
-    def join(self, world: World) -> None:
-        super().join(world)
+    def attach(self, world: World) -> None:
+        super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
-    def meet(self, c: Contact) -> None:
+    def begin_contact(self, c: Contact) -> None:
         a, b = c.a, c.b
         spin = a.radius**2 * a.inv_inertia + b.radius**2 * b.inv_inertia
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
         c.mu = sqrt(a.friction * b.friction)
 
-    def strike(self, c: Contact, jn: float) -> None:
+    def after_impact(self, c: Contact, jn: float) -> None:
         a, b, tx, ty = c.a, c.b, -c.ny, c.nx
         slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * b.radius + a.w * a.radius)
         limit = c.mu * jn
@@ -46,10 +46,10 @@ class Friction(Effect):
         b.w -= b.radius * jt * b.inv_inertia
 
     def prepare(self, h: float) -> None:
-        if not self.contacts.fresh:
+        if not self.contacts.changed:
             return
         self.ball_rows: list[BallRow] = []
-        self.wall_rows: list[WallRow] = []
+        self.static_rows: list[StaticRow] = []
         for c in self.contacts.touching:
             if c.mu > 0:
                 a, b, tx, ty, ra, rb = c.a, c.b, -c.ny, c.nx, c.a.radius, c.b.radius
@@ -59,7 +59,7 @@ class Friction(Effect):
                     row = (c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw, bx, by, bw)
                     self.ball_rows.append(row)
                 else:
-                    self.wall_rows.append((c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw))
+                    self.static_rows.append((c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw))
 
     def warm_start(self, h: float) -> None:
         for c, a, b, _, _, _, _, _, ax, ay, aw, bx, by, bw in self.ball_rows:
@@ -71,7 +71,7 @@ class Friction(Effect):
                 b.vx += bx * jt
                 b.vy += by * jt
                 b.w -= bw * jt
-        for c, a, _, _, _, _, _, _, ax, ay, aw in self.wall_rows:
+        for c, a, _, _, _, _, _, _, ax, ay, aw in self.static_rows:
             jt = c.jt
             if jt:
                 a.vx -= ax * jt
@@ -97,7 +97,7 @@ class Friction(Effect):
                 b.vx += bx * jt
                 b.vy += by * jt
                 b.w -= bw * jt
-        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw in self.wall_rows:
+        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw in self.static_rows:
             limit = c.mu * c.jn
             before = c.jt
             if limit or before:

@@ -9,13 +9,13 @@ from .validate import require
 
 
 class Joint:
-    """Something along the line between the centres of a and b. It turns neither.
+    """A constraint along the line between the centres of a and b, so it turns neither.
 
     Raises ValueError when a and b are the same body or both static.
     """
 
     __slots__ = ("a", "b", "distance", "dx", "dy", "length", "m", "nx", "ny")
-    effect: ClassVar[str]  # whose list it belongs to
+    effect: ClassVar[str]  # the name of the effect that owns it
 
     def __init__(self, a: Body, b: Body) -> None:
         name = f"{type(self).__name__}.b"
@@ -26,10 +26,10 @@ class Joint:
         self.b = b
         self.m = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass
         self.measure()
-        self.length = self.distance  # px, the one it wants
+        self.length = self.distance  # px, at rest
 
     def measure(self) -> None:
-        """See where B is, from A."""
+        """Update distance and direction from A to B."""
         self.dx, self.dy = self.b.x - self.a.x, self.b.y - self.a.y  # px
         self.distance = hypot(self.dx, self.dy)  # px
         if self.distance > 0:
@@ -41,7 +41,7 @@ class Joint:
         """How fast B moves away from A, in px/s."""
         return (self.b.vx - self.a.vx) * self.nx + (self.b.vy - self.a.vy) * self.ny
 
-    def push(self, j: float) -> None:
+    def apply_impulse(self, j: float) -> None:
         """Push B away from A by impulse j (kg px/s), and A by the opposite."""
         a, b = self.a, self.b
         px, py = self.nx * j, self.ny * j
@@ -55,18 +55,18 @@ AnyJoint = TypeVar("AnyJoint", bound=Joint)
 
 
 class Joints(Effect, Generic[AnyJoint]):
-    """An effect with a list of joints. Those of sleepers rest as well."""
+    """An effect with a list of joints. Those between sleeping bodies are skipped."""
 
     def __init__(self) -> None:
         self.joints: list[AnyJoint] = []
         self.awake: list[AnyJoint] = []
 
-    def take(self, joint: AnyJoint) -> None:
+    def add(self, joint: AnyJoint) -> None:
         self.joints.append(joint)
         self.awake.append(joint)
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(joint.a, joint.b) for joint in self.awake]
 
-    def rouse(self) -> None:
+    def awake_changed(self) -> None:
         self.awake = [joint for joint in self.joints if not (joint.a.idle and joint.b.idle)]

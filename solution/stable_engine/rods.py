@@ -5,11 +5,11 @@ from math import hypot
 from .body import Body
 from .contacts import Contacts
 from .joint import Joint, Joints
-from .soft import SAME_WAY, softness
+from .soft import SAME_DIRECTION, softness
 from .validate import require
 
-STIFFNESS = 0.25  # frequency of a rod, per substep
-ZETA = 5.0  # damping ratio of a rod
+FREQUENCY = 0.25  # of a rod, per substep
+DAMPING_RATIO = 5.0
 
 
 class Rod(Joint):
@@ -25,44 +25,45 @@ class Rod(Joint):
 
 
 class Rods(Joints[Rod]):
-    """Soft rods that aim at the length they will have after the move.
+    """Rods as soft constraints on the length they will have after the move.
 
-    Relaxing works along the axis after the move: along the old one a pendulum loses energy.
+    With the speed along the axis alone, a swinging rod would stretch in every move. relax works
+    along the axis after the move: along the one before, a pendulum would lose energy.
     """
 
     rank = 2
 
-    def take(self, rod: Rod) -> None:
-        super().take(rod)
+    def add(self, rod: Rod) -> None:
+        super().add(rod)
         contacts = self.world.effects.get("Contacts")
         if isinstance(contacts, Contacts) and rod.length < rod.a.radius + rod.b.radius:
-            contacts.spare(rod.a, rod.b)
+            contacts.ignore_pair(rod.a, rod.b)
 
     def prepare(self, h: float) -> None:
-        self.spring = softness(STIFFNESS / h, ZETA, h)
+        self.spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
             rod.measure()
-            rod.push(rod.j)
+            rod.apply_impulse(rod.j)
 
     def solve(self, h: float) -> None:
-        rate, keep = self.spring
+        bias_rate, mass_scale = self.spring
         for rod in self.awake:
             a, b = rod.a, rod.b
             ahead = hypot(rod.dx + (b.vx - a.vx) * h, rod.dy + (b.vy - a.vy) * h)
             speed = (ahead - rod.distance) / h
             error = rod.distance - rod.length
-            j = keep * (rod.j - rod.m * speed) - rod.m * rate * error
-            rod.push(j - rod.j)
+            j = mass_scale * (rod.j - rod.m * speed) - rod.m * bias_rate * error
+            rod.apply_impulse(j - rod.j)
             rod.j = j
 
     def relax(self, h: float) -> None:
         for rod in self.awake:
             nx, ny = rod.nx, rod.ny
             rod.measure()
-            if nx * rod.nx + ny * rod.ny < SAME_WAY:
+            if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
             j = rod.j - rod.m * rod.speed()
-            rod.push(j - rod.j)
+            rod.apply_impulse(j - rod.j)
             rod.j = j

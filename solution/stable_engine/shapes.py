@@ -1,4 +1,4 @@
-"""Shapes. Lengths are in px."""
+"""The shapes of bodies. Lengths are in px."""
 
 import math
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Sleep: bodies that lie still cost nothing."""
+"""Sleep: bodies at rest are left out of the step, so they cost nothing."""
 
 from __future__ import annotations
 
@@ -23,30 +23,31 @@ class Island:
             body.vx = body.vy = body.w = 0.0
 
     def wake(self) -> None:
-        """Wake them all."""
+        """Wake all its bodies."""
         for body in self.bodies:
             body.island = None
             body.asleep = body.idle = False
             body.still = 0.0
-        self.sleep.rouse_all()
+        self.sleep.update_awake()
 
 
 class Sleep(Effect):
-    """Balls that touch or share a joint are an island, which sleeps once all of it lies still.
+    """Balls that touch or share a joint are an island, which sleeps once all of it has lain still.
 
-    It wakes when a ball that is awake touches it, or when place, velocity or spin of one of its
-    balls is set. Moving a static body from under it does not wake it.
+    Only whole islands may sleep: a ball alone would hang in the air when its neighbours moved on.
+    An island wakes when an awake ball touches it, or when the position, velocity or spin of one of
+    its balls is set. Moving a static body from under it does not wake it.
     """
 
     rank = 4
 
-    def join(self, world: World) -> None:
-        super().join(world)
+    def attach(self, world: World) -> None:
+        super().attach(world)
         self.link_hooks = world.hooks("links")
-        self.rouse_hooks = world.hooks("rouse")
+        self.awake_changed_hooks = world.hooks("awake_changed")
 
     def detect(self, h: float) -> None:
-        """Wake whoever is touched by somebody awake, and whoever that touches in turn."""
+        """Wake islands that an awake ball touches, and those that these touch in turn."""
         contacts = self.world.effects.get("Contacts")
         while isinstance(contacts, Contacts) and (touched := sleepers(contacts)):
             for body in touched:
@@ -55,51 +56,51 @@ class Sleep(Effect):
 
     def finish(self, h: float) -> None:
         dt = h * self.world.substeps
-        tired = False
+        ready = False
         for body in self.world.awake:
             rim = abs(body.w) * body.radius
             if body.vx**2 + body.vy**2 < STILL_SPEED**2 and rim < STILL_SPEED:
                 body.still += dt
-                tired = tired or body.still > STILL_TIME
+                ready = ready or body.still > STILL_TIME
             else:
                 body.still = 0.0
-        if tired:
-            self.tuck_in()
+        if ready:
+            self.put_to_sleep()
 
-    def tuck_in(self) -> None:
-        """Let every island sleep that has lain still long enough."""
+    def put_to_sleep(self) -> None:
+        """Put every island to sleep that has lain still for STILL_TIME."""
         still = [i for i in self.find_islands() if min(b.still for b in i) > STILL_TIME]
         for island in still:
             Island(island, self)
         if still:
-            self.rouse_all()
+            self.update_awake()
 
     def find_islands(self) -> list[list[Body]]:
-        """The awake balls in groups, by union-find: linked ones get the same leader."""
-        leader = {body: body for body in self.world.awake}
+        """The awake balls in groups, by union-find: connected ones get the same root."""
+        parent = {body: body for body in self.world.awake}
 
-        def lead(body: Body) -> Body:
-            while leader[body] is not body:
-                leader[body] = leader[leader[body]]
-                body = leader[body]
+        def root(body: Body) -> Body:
+            while parent[body] is not body:
+                parent[body] = parent[parent[body]]  # halves the path for the next search
+                body = parent[body]
             return body
 
         for links in self.link_hooks:
             for a, b in links():
                 if not (a.idle or b.idle):
-                    leader[lead(a)] = lead(b)
+                    parent[root(a)] = root(b)
         islands: dict[Body, list[Body]] = {}
         for body in self.world.awake:
-            islands.setdefault(lead(body), []).append(body)
+            islands.setdefault(root(body), []).append(body)
         return list(islands.values())
 
-    def rouse_all(self) -> None:
-        """Tell the world and its effects who is awake now."""
+    def update_awake(self) -> None:
+        """Update the world's list of awake bodies, and tell the effects."""
         self.world.awake = [body for body in self.world.bodies if not body.idle]
-        for rouse in self.rouse_hooks:
-            rouse()
+        for awake_changed in self.awake_changed_hooks:
+            awake_changed()
 
 
 def sleepers(contacts: Contacts) -> list[Body]:
-    """The sleeping balls that somebody awake touches."""
+    """The sleeping balls in a contact: one is only found where the other body is awake."""
     return [body for c in contacts.touching for body in (c.a, c.b) if body.asleep]

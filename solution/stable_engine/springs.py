@@ -6,7 +6,7 @@ from .validate import not_negative
 
 
 class Spring(Joint):
-    """Draws a and b to a distance of length px: the one they start with, unless given.
+    """Pulls or pushes a and b to a distance of length px: the one they start with, unless given.
 
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
@@ -30,9 +30,10 @@ class Spring(Joint):
 
 
 class Springs(Joints[Spring]):
-    """Forces that no stiffness can blow up, and a gentle spring keeps its energy.
+    """Spring forces that stay stable at any stiffness, while a soft spring keeps its energy.
 
-    The divisor caps what a spring does at what one substep can carry.
+    The divisor is that of an implicit step: it limits a stiff spring to what one substep can
+    follow, and is nearly 1 for a soft one.
     """
 
     rank = 1
@@ -42,4 +43,4 @@ class Springs(Joints[Spring]):
             spring.measure()
             k, c = spring.stiffness, spring.damping
             force = -k * (spring.distance - spring.length) - c * spring.speed()
-            spring.push(h * force / (1 + h * (c + h * k) / spring.m))
+            spring.apply_impulse(h * force / (1 + h * (c + h * k) / spring.m))

@@ -1,4 +1,4 @@
-"""The guard against bad input."""
+"""Checks of what a caller passes in: bad input is an error that names the value."""
 
 import math
 from collections.abc import Iterable

@@ -41,7 +41,7 @@ class World:
             require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
             self.effects[name] = effect
         for effect in self.effects.values():
-            effect.join(self)
+            effect.attach(self)
 
         self.detect_hooks = self.hooks("detect")
         self.impact_hooks = self.hooks("impact")
@@ -83,7 +83,7 @@ class World:
         found = f"in a world already, at {body.pos}"
         require(body.id == 0, "World.add's body", found, "a new one")
         if body.bullet:
-            self.need("Bullets", body).take(body)
+            self.need("Bullets", body).add(body)
         self.bodies.append(body)
         body.id = -len(self.bodies) if body.is_static else len(self.bodies)
         (self.statics if body.is_static else self.awake).append(body)
@@ -96,7 +96,7 @@ class World:
             found = f"tied to a body at {body.pos} that is not in this world"
             require(body in self.bodies, name, found, "tied to bodies added before")
             body.wake()
-        effect.take(joint)
+        effect.add(joint)
 
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
@@ -138,14 +138,14 @@ class World:
             finish(h)
 
     def apply_gravity(self, h: float) -> None:
-        """Let balls fall faster."""
+        """Accelerate every awake ball for h seconds."""
         gx, gy = self.gravity[0] * h, self.gravity[1] * h
         for body in self.awake:
             body.vx += gx
             body.vy += gy
 
     def move(self, h: float) -> None:
-        """Move and turn balls with their new velocities (semi-implicit Euler)."""
+        """Move and turn awake balls with their new velocities (semi-implicit Euler)."""
         for body in self.awake:
             body.x += body.vx * h
             body.y += body.vy * h

@@ -1,60 +1,20 @@
 """A small 2D physics engine of rolling balls. Every public name can be imported from here.
 
-Read in this order: shapes, body, contacts, solver, joints, world, scenes, game_loop. The rest is
-for bonus tasks: sleeping, springs, broad_phase. A world that does not ask for it leaves it out.
+Read in this order: shapes, body, contacts, solver, joints, world, scenes, game_loop. None of them
+knows bonus/, which holds the bonus tasks: a world and a window that can do more.
 """
 
 from .body import Body
-from .broad_phase import near_pairs
-from .constants import (
-    BETA,
-    HEIGHT,
-    ITERATIONS,
-    MAX_BALLS,
-    MAX_STEPS,
-    RESTING_SPEED,
-    SLOP,
-    STEP,
-    WIDTH,
-)
+from .bonus.broad_phase import near_pairs
+from .bonus.sleeping import update_sleep, wake
+from .bonus.springs import SpringJoint
+from .bonus.window import BonusWindow, between, heaviness, main
+from .bonus.world import BonusWorld
+from .constants import *
 from .contacts import Contact, circle_box, circle_circle, collide
-from .game_loop import advance, main
+from .game_loop import Window, advance
 from .joints import DistanceJoint
 from .scenes import ball, make_world
 from .shapes import Box, Circle, cross, spin_velocity
-from .sleeping import update_sleep
 from .solver import apply_impulse, effective_mass
-from .springs import SpringJoint
 from .world import World
-
-__all__ = [
-    "BETA",
-    "HEIGHT",
-    "ITERATIONS",
-    "MAX_BALLS",
-    "MAX_STEPS",
-    "RESTING_SPEED",
-    "SLOP",
-    "STEP",
-    "WIDTH",
-    "Body",
-    "Box",
-    "Circle",
-    "Contact",
-    "DistanceJoint",
-    "SpringJoint",
-    "World",
-    "advance",
-    "apply_impulse",
-    "ball",
-    "circle_box",
-    "circle_circle",
-    "collide",
-    "cross",
-    "effective_mass",
-    "main",
-    "make_world",
-    "near_pairs",
-    "spin_velocity",
-    "update_sleep",
-]

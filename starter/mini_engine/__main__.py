@@ -1,5 +1,5 @@
 """Start the window, for python -m mini_engine."""
 
-from .game_loop import main
+from mini_engine import main
 
 main()

@@ -17,8 +17,7 @@ class DistanceJoint:
         require(a is not b, "DistanceJoint.b", f"the same body as a, at {a.pos}", "another body")
         static = a.is_static and b.is_static
         require(not static, "DistanceJoint.b", f"static like a, at {b.pos}", "a body with mass")
-        self.a = a
-        self.b = b
+        self.a, self.b = a, b
         self.length = (b.pos - a.pos).length()  # px
         self.axis = Vector2(0, 1)  # unit vector from A to B
         self.bias = 0.0  # px/s, wanted speed of B away from A

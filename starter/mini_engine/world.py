@@ -5,10 +5,8 @@ from itertools import combinations
 
 from pygame import Vector2
 
-from .broad_phase import near_pairs
 from .constants import ITERATIONS
 from .contacts import collide
-from .sleeping import update_sleep
 from .solver import solve_friction, solve_normal, target_speed
 from .validate import require
 
@@ -25,11 +23,7 @@ class World:
         self.angular_damping = angular_damping  # 1/s
         self.bodies = []
         self.joints = []
-        self.springs = []
         self.contacts = []
-        self.sleeping = False  # whether bodies at rest may sleep
-        self.grid = False  # whether a grid finds the pairs to look at
-        self.drawn = 1.0  # how much of the latest step the window shows: 0 its begin, 1 its end
         self.iterations = ITERATIONS  # passes of the solver per step
         require(self.gravity.length() < math.inf, "World.gravity", self.gravity, "finite")
         for field in ("linear_damping", "angular_damping"):
@@ -44,7 +38,7 @@ class World:
         return body
 
     def moving_bodies(self):
-        """The bodies that are neither static nor asleep."""
+        """The bodies that forces act on."""
         return [body for body in self.bodies if not body.is_static]
 
     def step(self, dt):
@@ -54,28 +48,20 @@ class World:
             body.check()
 
         # 1 forces
-        self.apply_gravity(dt)
-        for spring in self.springs:
-            spring.apply(dt)
-        if self.linear_damping or self.angular_damping:
-            self.apply_damping(dt)
-
+        self.apply_forces(dt)
         # 2 detect
         self.contacts = self.find_contacts()
-        if self.sleeping and update_sleep(self, dt):
-            self.contacts = self.find_contacts()
-
         # 3 solve
-        if self.contacts or self.joints:
-            self.solve(dt)
-
+        self.solve(dt)
         # 4 move
         self.move(dt)
 
-    def apply_gravity(self, dt):
-        """Let moving bodies fall faster."""
+    def apply_forces(self, dt):
+        """Let moving bodies fall faster, and damp them."""
         for body in self.moving_bodies():
             body.vel += self.gravity * dt
+        if self.linear_damping or self.angular_damping:
+            self.apply_damping(dt)
 
     def apply_damping(self, dt):
         """Slow moving bodies down: each second keeps the share exp(-rate), whatever the step."""
@@ -89,18 +75,14 @@ class World:
             body.omega *= keep_omega
 
     def find_contacts(self):
-        """The contacts of all bodies where they are now."""
-        contacts = []
-        if not self.moving_bodies():
-            return contacts
-        pairs = near_pairs(self.bodies) if self.grid else combinations(self.bodies, 2)
-        for a, b in pairs:
-            if a.is_static and b.is_static:
-                continue
-            contact = collide(a, b)
-            if contact is not None:
-                contacts.append(contact)
-        return contacts
+        """The contacts of all bodies where they are now. Two that do not move need none."""
+        moving = set(self.moving_bodies())
+        found = [collide(a, b) for a, b in self.pairs() if a in moving or b in moving]
+        return [contact for contact in found if contact is not None]
+
+    def pairs(self):
+        """The pairs of bodies to look at: every body with every other one."""
+        return combinations(self.bodies, 2)
 
     def solve(self, dt):
         """Find velocities that suit every contact and joint, pass by pass."""
@@ -115,10 +97,7 @@ class World:
                 joint.solve()
 
     def solve_contact(self, c, dt):
-        """One pass over contact c: the normal impulse, then friction, which it limits.
-
-        The step of dt seconds is in c.target already.
-        """
+        """One pass over c: the normal impulse, then friction. c.target has dt in it already."""
         solve_normal(c)
         if c.a.friction > 0 and c.b.friction > 0:
             solve_friction(c)
@@ -126,6 +105,5 @@ class World:
     def move(self, dt):
         """Move and turn bodies with their new velocities (semi-implicit Euler)."""
         for body in self.moving_bodies():
-            body.before = Vector2(body.pos), body.angle
             body.pos += body.vel * dt
             body.angle += body.omega * dt

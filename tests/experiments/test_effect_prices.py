@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from experiments import effects, effects_report
-from experiments.effects import EFFECTS, LESSON_WORK, ROWS, STABLE_WORK, Held, count
+from experiments.effects import EFFECTS, LESSON_WORK, ROWS, STABLE_WORK, RepeatedStep, count
 from experiments.engines import Lesson, Stable
 from experiments.measures import deepest_overlap, top_speed
 from experiments.opcodes import count_calls, count_opcodes, files_run
@@ -59,7 +59,9 @@ def test_opcodes_are_counted_by_file_and_grow_with_the_work():
 
 
 def test_the_count_is_the_same_from_run_to_run(heap):
-    counts = [count(Held(Stable(replace(heap, effects=EFFECTS))), STABLE_WORK) for _ in range(2)]
+    counts = [
+        count(RepeatedStep(Stable(replace(heap, effects=EFFECTS))), STABLE_WORK) for _ in range(2)
+    ]
     assert counts[0] == counts[1]
 
 
@@ -182,7 +184,7 @@ def test_the_lessons_engine_leaves_out_what_a_scene_has_no_use_for(results):
 def test_the_lessons_engine_looks_at_every_pair_that_can_move(heap):
     pairs = list(combinations(heap.bodies, 2))
     static = [a for a, b in pairs if not (isinstance(a, Ball) or isinstance(b, Ball))]
-    done = count(Held(Lesson(heap)), LESSON_WORK)["done"]
+    done = count(RepeatedStep(Lesson(heap)), LESSON_WORK)["done"]
     assert done["pairs"] == len(pairs) - len(static)
 
 

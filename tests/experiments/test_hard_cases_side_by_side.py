@@ -173,7 +173,7 @@ def test_a_missed_figure_is_marked_and_ends_the_program_with_1(capsys):
 
 
 def test_a_stable_engine_with_softer_contacts_misses(monkeypatch):
-    monkeypatch.setattr(stable_engine.contacts, "STIFFNESS", 0.06)
+    monkeypatch.setattr(stable_engine.contacts, "FREQUENCY", 0.06)
     title = "heavy ball on a light one, 1:1000"
     assert not holds(CASES[title].figures[0], run_case(CASES[title], "stable")[0])
 

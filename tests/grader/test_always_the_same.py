@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grader.judge.drawing import EXAMPLES, judge_settings, seeded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.plugin import EXAMPLES, seeded, settled_environment
 from grader.maintain.bank import Member, members
 from grader.report.files import as_json
 
@@ -52,7 +52,7 @@ def test_twenty_grades_are_one(tree: str):
 def drawn(seed: int | None = None) -> list[tuple[float, int]]:
     """What a property of the judge's would be tried on."""
     examples = []
-    with settled_environment(), seeded(a_property, seed):
+    with judge_settings(), seeded(a_property, seed):
         a_property(note=lambda *example: examples.append(example))
     return examples
 

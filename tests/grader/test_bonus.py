@@ -25,7 +25,8 @@ from grader.report.sinks.github import annotations, outputs
 from grader.report.sinks.gradescope import gradescope
 from grader.report.sinks.junit import junit
 from grader.report.sinks.markdown import markdown
-from grader.report.terminal import Teller, show_next, total
+from grader.report.terminal import Teller, show_next
+from grader.words import total
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}

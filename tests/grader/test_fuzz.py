@@ -12,7 +12,8 @@ import msgspec
 import pytest
 
 from grader.judge.children import Child
-from grader.judge.lab import Broke, Lab, NotYet
+from grader.judge.failures import Broke, NotYet
+from grader.judge.lab import Lab
 from grader.protocol import (
     Answered,
     BodyValue,

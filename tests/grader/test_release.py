@@ -20,7 +20,7 @@ from rich.console import Console
 
 from grader.checks import exact
 from grader.judge import recorded
-from grader.judge.children import SpawnWorker, WarmWorker, start_worker
+from grader.judge.children import Worker, start_worker
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
@@ -109,7 +109,7 @@ def secrets() -> list[Secret]:
 
 
 @pytest.fixture(scope="module")
-def worker() -> Iterator[WarmWorker | SpawnWorker]:
+def worker() -> Iterator[Worker]:
     """One for all grades of the instructor's grader."""
     started = start_worker()
     yield started

@@ -18,9 +18,10 @@ from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
 import grader.judge.replay as replays
 from grader.checks import todo_3, todo_4, todo_7, todo_8, whole
 from grader.judge.children import ChildEnded, start_worker
+from grader.judge.filming import MOST_SHOTS, FilmingLab, filmed
 from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
 from grader.judge.plugin import Failing
-from grader.judge.replay import MOST_SHOTS, FilmingLab, Replays, Runs, filmed, record_expected
+from grader.judge.replay import Replays, Runs, record_expected
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Member, members, patch
@@ -190,7 +191,7 @@ def test_the_right_run_parts_nowhere_from_itself():
         for todo, function in chosen:
             check = next(c for c in rubric[todo].checks if c.id == function.__name__)
             failing = Failing(rubric[todo], check, function, [])
-            runs = [filmed(failing, children, []).scenes[-1] for _ in range(2)]
+            runs = [filmed(failing, children, []).recorder.scenes[-1] for _ in range(2)]
             both = replay(*runs)
             assert both.parting is None and both.compared
             assert len(both.scenes[0].yours) == len(both.scenes[0].expected) > 20
@@ -339,7 +340,8 @@ def test_a_force_is_worked_out_as_the_judge_does():
 
 @pytest.fixture(scope="module")
 def recorded_runs() -> bytes:
-    return record_expected(KIT / "solution")
+    with opened(KIT / "solution") as children:
+        return record_expected(children)
 
 
 def test_without_a_reference_the_run_stands_alone(mistaken: Path, tmp_path: Path):
@@ -417,16 +419,16 @@ def test_a_flood_of_shots_is_cut():
     shot = Shot(0.0, 0, [row] * 5000, [], [(0.0, 0.0, 0.0, 0.0)] * 5000)
     looks = dict.fromkeys(range(5000), DISC)
     lab = filmed_by(Filmed(Returned(None), looks, [shot] * 1000), 50)
-    shots = [shot for line in lab.scenes[0][0].lines for shot in line.shots]
+    shots = [shot for line in lab.recorder.scenes[0][0].lines for shot in line.shots]
     assert len(shots) <= MOST_SHOTS
     assert all(len(each.bodies) <= 80 and len(each.rods) <= 20 for each in shots)
-    assert len(lab.scenes[0][0].looks) <= 80
+    assert len(lab.recorder.scenes[0][0].looks) <= 80
 
 
 def test_numbers_that_are_none_stay_data():
     row = BodyRow(1, math.nan, math.inf, 0.0, 0.0, -math.inf, 0.0)
     lab = filmed_by(Filmed(Returned(None), {1: DISC}, [Shot(0.0, 0, [row], [], [])]), 1)
-    text = page("title", [], replay(lab.scenes[0], []), "")
+    text = page("title", [], replay(lab.recorder.scenes[0], []), "")
     data = re.search(r'id="film">(.*?)</script>', text)
     assert data and json.loads(data[1])["scenes"][0]["yours"][0][2] == [
         [1, None, None, 0.0, 0.0, None, 0.0]
@@ -435,7 +437,7 @@ def test_numbers_that_are_none_stay_data():
 
 def test_an_empty_film_or_a_film_of_nothing_known_breaks_nothing():
     lab = filmed_by(Filmed(Returned(Vec(1.0, 2.0)), {}, []), 3)
-    both = replay(lab.scenes[0], [])
+    both = replay(lab.recorder.scenes[0], [])
     assert both.scenes[0].yours == [] and page("title", [], both, "")
 
 

@@ -15,9 +15,9 @@ from typer.testing import CliRunner
 from grader.judge.definitions import statements
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
-from grader.report.terminal import command
 from grader.student import app
 from grader.todo_regions import replaced, shape_of
+from grader.words import command
 
 WORLD, INTEGRATORS = "mini_engine/world.py", "integrators.py"
 
@@ -272,7 +272,7 @@ import sys
 sys.path[:0] = {folders!r}
 if {others!r}:
     import constants
-import grader.judge.plugin
+import grader.judge.drawing
 from hypothesis import given, settings, strategies
 settings.load_profile("judge")
 drawn = []

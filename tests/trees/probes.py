@@ -76,7 +76,8 @@ def play(module, frames, events=()):
     Returns the lines it printed, and for each frame the lines of text and (x, y) of what moves.
     """
     program = importlib.import_module(module)
-    seen, texts, real_draw = [], [], program.draw
+    owner = getattr(program, "Window", program)  # of draw
+    seen, texts, real_draw = [], [], owner.draw
 
     class Clock:
         def __init__(self):
@@ -94,12 +95,13 @@ def play(module, frames, events=()):
             texts.append(text)
             return super().render(text, *style)
 
-    def draw(screen, font, world):
+    def draw(*shown):
         texts.clear()
-        real_draw(screen, font, world)
+        real_draw(*shown)
+        world = getattr(shown[-1], "world", shown[-1])  # of a window, or of draw(…, world)
         seen.append({"text": texts[:], "moving": positions(world)})
 
-    program.draw, pygame.time.Clock, pygame.font.Font = draw, Clock, Font
+    owner.draw, pygame.time.Clock, pygame.font.Font = draw, Clock, Font
     os.environ["LAB_FRAMES"] = str(len(frames))
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):

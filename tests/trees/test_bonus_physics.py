@@ -9,7 +9,7 @@ import pytest
 from pygame import Vector2
 
 import mini_engine
-from mini_engine import STEP, Body, Box, Circle, SpringJoint, World
+from mini_engine import STEP, Body, BonusWorld, Box, Circle, SpringJoint
 
 LONG = 1e5  # px
 
@@ -19,7 +19,7 @@ def swing(stiffness: float, damping: float, mass: float, steps: int) -> list[flo
 
     The spring is so long that it always points the same way.
     """
-    world = World(gravity=(0, 0), linear_damping=0, angular_damping=0)
+    world = BonusWorld(gravity=(0, 0), linear_damping=0, angular_damping=0)
     hook = world.add(Body(Circle(5), (0, 0)))
     bob = world.add(Body(Circle(10), (LONG + 30, 0), mass))
     world.springs.append(SpringJoint(hook, bob, stiffness, damping, LONG))
@@ -65,7 +65,7 @@ def test_an_undamped_spring_explodes_where_its_rate_times_the_step_passes_2(rate
 
 
 def test_a_sleeper_keeps_its_place_to_the_last_bit_and_wakes_for_a_ball_that_rolls_in():
-    world = World(linear_damping=0, angular_damping=0)
+    world = BonusWorld(linear_damping=0, angular_damping=0)
     world.sleeping = world.grid = True
     world.add(Body(Box((1000, 50)), (0, 50)))
     first, *others = (world.add(Body(Circle(10), (40 * n, -9.75), 1, 0)) for n in range(3))

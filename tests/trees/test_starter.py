@@ -12,7 +12,7 @@ from programs import INTEGRATORS, MINI, PYMUNK, SOLUTION, STARTER, TODOS, mixed,
 from test_integrators import TABLE
 
 FLOOR, LEDGE = 0, 3  # places in the list of bodies
-LOOPS = {"mini": "mini_engine.game_loop", "pymunk": "pymunk_scene"}
+LOOPS = {"mini": "mini_engine", "pymunk": "pymunk_scene"}
 CLICKS = [[8 * i, "MOUSEBUTTONDOWN", {"pos": [30 * i + 15, 50], "button": 1}] for i in range(25)]
 
 

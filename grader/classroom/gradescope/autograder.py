@@ -18,7 +18,8 @@ from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import gradescope
-from grader.report.terminal import clean, show, show_isolation
+from grader.report.terminal import show, show_isolation
+from grader.words import clean
 
 
 class Settings(Struct, frozen=True):

@@ -9,6 +9,7 @@ from grader.judge.isolation import unconfined
 from grader.judge.result import Result
 from grader.player.page import allowed, environment, hashes, one_line, theme
 from grader.report.files import write_whole
+from grader.words import named_reasons
 
 TEMPLATES = Path(__file__).with_name("templates")
 MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are linked to
@@ -32,6 +33,7 @@ def report(result: Result, replays: Mapping[str, str]) -> str:
             replays=replays,
             unconfined=unconfined(result.isolation),
             clean=one_line,
+            reasons=named_reasons,
             style=Markup(style),
             style_hashes=f"'{allowed(style)}' '{player_style}'",
             script_hash=f"'{player_script}'",

@@ -6,10 +6,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from grader.judge.result import Result, TodoResult
-from grader.report.sinks import named
-from grader.report.sinks.markdown import failed
 from grader.report.sinks.reporter import reporter
-from grader.report.terminal import clean, reasons
+from grader.words import clean, named, reasons
 
 SHOWN = 10  # errors, and as many warnings: GitHub shows no more of one step
 
@@ -20,7 +18,7 @@ def annotations(result: Result, inside: str = "") -> str:
     A bonus task is no error: nothing is missing without it.
     `inside` is the folder of the submission in the repository, empty for its root.
     """
-    todos = [todo for todo in result.shown if failed(todo)]
+    todos = [todo for todo in result.shown if todo.failed]
     lines = [
         annotation("error" if number < SHOWN and not todo.bonus else "warning", todo, inside)
         for number, todo in enumerate(todos)
@@ -30,7 +28,7 @@ def annotations(result: Result, inside: str = "") -> str:
 
 def annotation(kind: str, todo: TodoResult, inside: str) -> str:
     """The command for the first failed check of a TODO; the others are counted."""
-    check, *others = failed(todo)
+    check, *others = todo.failed
     place = ""
     if check.where:
         file = "/".join(filter(None, (inside, clean(check.where.file))))

@@ -3,8 +3,7 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.report.sinks import named
-from grader.report.terminal import clean, reasons
+from grader.words import clean, named, points_in_words, reasons
 
 
 def gradescope(result: Result) -> bytes:
@@ -12,7 +11,6 @@ def gradescope(result: Result) -> bytes:
 
     The score is without bonus; what was earned there is said beside it.
     """
-    bonus = f", and {result.bonus} bonus" if result.bonus else ""
     tests = [
         test(todo, check, number)
         for todo in result.shown
@@ -22,7 +20,7 @@ def gradescope(result: Result) -> bytes:
         msgspec.json.encode(
             {
                 "score": result.points,
-                "output": f"{result.points} of {result.max_points} points{bonus}",
+                "output": points_in_words(result),
                 "output_format": "text",
                 "test_output_format": "text",
                 "visibility": "visible",

@@ -3,8 +3,7 @@
 from xml.etree import ElementTree as ET
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.report.sinks import named
-from grader.report.terminal import clean, reasons
+from grader.words import clean, named, plural, reasons
 
 TAGS: dict[State, str] = {
     "not yet": "failure",
@@ -41,9 +40,8 @@ def count(todos: list[TodoResult], tag: str) -> int:
 
 def add_case(suite: ET.Element, check: CheckResult) -> None:
     """A case is named alike in every run, so that runs can be compared; GitLab shows classnames."""
-    points = "1 point" if check.max_points == 1 else f"{check.max_points} points"
     case = ET.SubElement(suite, "testcase", classname=suite.attrib["name"])
-    case.set("name", f"{check.title} ({points})")
+    case.set("name", f"{check.title} ({plural(check.max_points, 'point')})")
     if tag := TAGS.get(check.state):
         told = ET.SubElement(case, tag, message=clean(check.got) or check.state)
         if tag != "skipped":

@@ -5,9 +5,7 @@ from itertools import accumulate
 
 from grader.judge.isolation import unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import load_rubric
-from grader.report.sinks import named
-from grader.report.terminal import FAILED, clean, reasons
+from grader.words import clean, hidden_points_note, named, points_in_words, reasons, task_of
 
 ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 KiB
 
@@ -18,15 +16,15 @@ def markdown(result: Result) -> str:
     A submission's words stand in fenced lines that begin with a word of ours, so that none of them
     can end the fence.
     """
-    bonus = f", and {result.bonus} bonus" if result.bonus else ""
+    elsewhere = hidden_points_note(result)
     lines = [
-        f"## {literal(result.submission)}: {result.points} of {result.max_points} points{bonus}",
+        f"## {literal(result.submission)}: {points_in_words(result)}",
         "",
         "| TODO | | state | points |",
         "|---|---|---|--:|",
         *map(row, result.shown),
-        *hidden(result),
-        *bounded([why(todo, check) for todo in result.shown for check in failed(todo)]),
+        *(["", elsewhere] if elsewhere else []),
+        *bounded([why(todo, check) for todo in result.shown for check in todo.failed]),
         "",
         f"Isolation: {', '.join(result.isolation)}.",
     ]
@@ -40,18 +38,10 @@ def row(todo: TodoResult) -> str:
     return f"| {todo.id} | {literal(todo.title)} | {todo.state} | {points} |"
 
 
-def hidden(result: Result) -> list[str]:
-    """In a student's copy of the grader: what it has no checks for."""
-    here = {todo.id for todo in result.todos}
-    points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
-    words = f"{points} more points come from checks that only your instructor runs."
-    return ["", words] if points else []
-
-
 def why(todo: TodoResult, check: CheckResult) -> str:
     """A heading and a fenced text, set apart by empty lines."""
     heading = f"#### {named(todo, literal(check.title))}"
-    text = "\n".join(reasons(check, f", TODO {todo.id}" * (todo.id != "whole")))
+    text = "\n".join(reasons(check, task_of(todo)))
     return f"\n{heading}\n\n```text\n{text}\n```"
 
 
@@ -61,11 +51,6 @@ def bounded(parts: list[str]) -> list[str]:
     kept = [part for part, end in zip(parts, ends, strict=True) if end <= ROOM]
     left = len(parts) - len(kept)
     return [*kept, f"\nAnd {left} failed checks more."] if left else kept
-
-
-def failed(todo: TodoResult) -> list[CheckResult]:
-    """The checks that there is something to say about."""
-    return [check for check in todo.checks if check.state in FAILED]
 
 
 def literal(words: str) -> str:

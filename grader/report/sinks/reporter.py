@@ -3,8 +3,7 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.report.sinks import named
-from grader.report.terminal import clean
+from grader.words import clean, named
 
 STATUS: dict[State, str] = {"passed": "pass", "error": "error"}  # everything else: fail
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from grader.judge.result import Result
-from grader.report.terminal import clean
+from grader.words import clean, place_of
 
 COLUMNS = (
     "submission",
@@ -46,7 +46,6 @@ def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
     for result in results:
         for todo in result.todos:
             for check in todo.checks:
-                place = f"{check.where.file}:{check.where.line}" if check.where else ""
                 values = (
                     clean(result.submission),
                     todo.id,
@@ -58,7 +57,7 @@ def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
                     clean(todo.misconception or ""),
                     clean(check.expected),
                     clean(check.got),
-                    clean(place),
+                    clean(place_of(check)),
                 )
                 yield dict(zip(COLUMNS, values, strict=True))
 

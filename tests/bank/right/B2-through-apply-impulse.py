@@ -1,7 +1,7 @@
 """Hands the impulse to the solver's function."""
 
 # TODO B2: pull the ends together
-from .solver import apply_impulse
+from ..solver import apply_impulse
 
 if dt > 0:
     stretch = distance - self.length

@@ -8,8 +8,7 @@ from pathlib import Path
 import msgspec
 
 from grader.judge.result import Result, TodoResult
-from grader.report.sinks import named
-from grader.report.terminal import clean
+from grader.words import clean, named
 
 BUNDLE = Path(__file__).parent
 NEEDED = {

@@ -7,7 +7,6 @@ from pygame import Color, Vector2
 from .body import Body
 from .joints import DistanceJoint
 from .shapes import Box, Circle
-from .springs import SpringJoint
 from .world import World
 
 print("please wait ...")
@@ -23,13 +22,14 @@ def mixed(number):
 
 
 COLORS = [mixed(number) for number in range(100)]  # about 0.1 s
+GREY = COLORS[0]
 print("... ready")
 
 
-def ball(rng, pos, heaviness=1):
+def ball(rng, pos):
     radius = rng.randint(10, 22)
     color = COLORS[rng.randrange(len(COLORS))]
-    mass = heaviness * radius**2 / 100
+    mass = radius**2 / 100
     return Body(Circle(radius), pos, mass, restitution=0.4, friction=0.6, color=color)
 
 
@@ -50,9 +50,3 @@ def make_world(rng):
     for i in range(8):
         world.add(ball(rng, (120 + 70 * i, 60 + 40 * (i % 3))))
     return world
-
-
-def add_spring(world):
-    hook = world.add(Body(Circle(6), (600, 60), color=COLORS[4]))
-    bob = world.add(Body(Circle(16), (640, 180), mass=2, color=COLORS[5]))
-    world.springs.append(SpringJoint(hook, bob, stiffness=80, damping=0.4, length=80))

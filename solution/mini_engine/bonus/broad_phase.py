@@ -4,7 +4,7 @@ from itertools import combinations
 
 from pygame import Vector2
 
-from .shapes import Circle
+from ..shapes import Circle
 
 CELL = 48  # px, the side of a cell: a little more than the largest ball
 
@@ -23,6 +23,12 @@ def near_pairs(bodies):
     with x and y whole numbers; a large body lies in many. Only bodies that share a cell may touch.
     """
     # TODO B3: look only at bodies that share a cell
-    # Every pair, however far apart.
-    return list(combinations(bodies, 2))
+    cells = {}
+    for number, body in enumerate(bodies):
+        low, high = extent(body)
+        for x in range(int(low.x // CELL), int(high.x // CELL) + 1):
+            for y in range(int(low.y // CELL), int(high.y // CELL) + 1):
+                cells.setdefault((x, y), []).append(number)
+    pairs = {pair for numbers in cells.values() for pair in combinations(numbers, 2)}
+    return [(bodies[i], bodies[j]) for i, j in sorted(pairs)]
     # END TODO B3

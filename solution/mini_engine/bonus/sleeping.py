@@ -1,6 +1,7 @@
 """Bodies at rest sleep, and cost next to nothing. TODO B1 lives in update_sleep.
 
-A sleeper is static for a while: no force moves it, and no contact between sleepers is looked for.
+A sleeper keeps its mass. While body.asleep is true, BonusWorld lets no force and no contact move
+it, and looks for no contact between sleepers.
 """
 
 from pygame import Vector2
@@ -11,11 +12,11 @@ WAKING = 30.0  # px/s, a touch by a faster body wakes
 
 
 def speed(body, fall):
-    """How fast the centre or the rim moves (px/s), whichever is faster; 0 for static bodies.
+    """How fast the centre or the rim moves (px/s), whichever is faster; 0 for what cannot move.
 
     fall is the velocity (px/s) that gravity has just added in this step. It does not count.
     """
-    if body.is_static:
+    if body.is_static or body.asleep:
         return 0.0
     return max((body.vel - fall).length(), abs(body.omega) * body.shape.radius)
 
@@ -30,17 +31,13 @@ def neighbours(world):
 
 
 def fall_asleep(body, support):
-    """Make a body static for a while. support: the bodies it touches, whose leaving wakes it."""
-    body.awake_masses = body.inv_mass, body.inv_inertia
-    body.inv_mass = body.inv_inertia = 0.0
+    """Put a body to rest. support: the bodies it touches, whose leaving wakes it."""
     body.vel, body.omega = Vector2(0, 0), 0.0
-    body.before = Vector2(body.pos), body.angle
     body.asleep, body.support = True, support
 
 
 def wake(body):
     """Let a sleeper move again."""
-    body.inv_mass, body.inv_inertia = body.awake_masses
     body.asleep, body.support = False, []
     body.still_for = 0.0
 
@@ -59,11 +56,22 @@ def update_sleep(world, dt):
     fall = world.gravity * dt
     before = [body.asleep for body in world.bodies]
     # TODO B1: let bodies sleep, and wake them
-    # Nobody falls asleep yet.
+    for body in world.bodies:
+        near = touching.get(body, [])
+        if body.asleep:
+            hit = any(speed(other, fall) > WAKING for other in near)
+            if hit or any(has_left(other, near, present) for other in body.support):
+                wake(body)
+        elif not body.is_static:
+            at_rest = near and speed(body, fall) < SLOW and body not in held
+            body.still_for = body.still_for + dt if at_rest else 0.0
+            if body.still_for > SLEEP_AFTER:
+                fall_asleep(body, near)
     # END TODO B1
     return before != [body.asleep for body in world.bodies]
 
 
 def has_left(body, near, present):
     """Whether a sleeper's support is gone: out of the world, or awake and not near any more."""
-    return body not in present or not (body.is_static or body in near)
+    still = body.is_static or body.asleep
+    return body not in present or not (still or body in near)

@@ -4,7 +4,7 @@ import math
 
 from pygame import Vector2
 
-from .validate import require
+from ..validate import require
 
 
 class SpringJoint:
@@ -37,5 +37,8 @@ class SpringJoint:
         distance = offset.length()
         axis = offset / distance if distance > 0 else Vector2(0, 1)  # from A to B
         # TODO B2: pull the ends together
-        # Nothing pulls yet.
+        speed = (self.b.vel - self.a.vel).dot(axis)
+        force = self.stiffness * (distance - self.length) + self.damping * speed
+        self.a.vel += axis * (force * dt * self.a.inv_mass)
+        self.b.vel -= axis * (force * dt * self.b.inv_mass)
         # END TODO B2

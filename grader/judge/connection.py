@@ -1,0 +1,101 @@
+"""The connection of a check to its child: opening it, asking, and what is left when it is gone."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NoReturn
+
+from grader.judge.children import Child, ChildEnded
+from grader.judge.failures import Broke, NotYet
+from grader.protocol import (
+    Answered,
+    Filmed,
+    Import,
+    Missing,
+    Piece,
+    Played,
+    Raised,
+    Request,
+    Returned,
+    Simulated,
+)
+
+MAX_OUTPUT = 65536  # characters kept of what a submission prints during one check
+
+Answer = Returned | Simulated | Played | Filmed
+Send = Callable[[Child, Request], Answered]
+
+
+def ask_child(child: Child, request: Request) -> Answered:
+    """The usual `send` of a connection: nothing is recorded."""
+    return child.ask(request)
+
+
+@dataclass
+class Connection:
+    """Asks a child that it opens when first needed, and that has imported the submission then.
+
+    All requests and answers pass through `send`; filming puts a recorder there. `ran` describes the
+    experiment that a request belongs to, and becomes the line *We ran* of a failure.
+    """
+
+    module: str  # what is imported
+    open_child: Callable[[], Child]
+    pieces: list[Piece]  # of the reference, to stand in for functions of the submission
+    send: Send = ask_child
+    swapped: list[str] = field(default_factory=list)  # the functions they stand in for
+    output: str = ""
+    child: Child | None = None
+    over: NotYet | Broke | None = None  # why nothing more can be asked
+
+    def ask(self, request: Request, ran: str) -> Answer:
+        """The answer; raises NotYet or Broke where the submission gave none."""
+        child = self.child or self.begin(ran)
+        return self._ask(child, request, ran)
+
+    def begin(self, ran: str) -> Child:
+        """Open a child and import the submission in it."""
+        try:
+            self.child = self.open_child()
+        except ChildEnded as error:
+            self._stop(ran, str(error))
+        try:
+            reply = self._ask(self.child, Import(self.module, self.pieces), ran)
+        except (Broke, NotYet) as failure:
+            self.over = failure
+            raise
+        if isinstance(reply, Returned) and isinstance(reply.value, str):
+            self.swapped = reply.value.split(",") if reply.value else []
+        return self.child
+
+    def restart(self) -> None:
+        """End a child that still answers, so that the next request opens another one."""
+        if self.child is not None and self.over is None:
+            self.child.end()
+            self.child = None
+
+    def end(self) -> None:
+        if self.child is not None:
+            self.child.end()
+
+    def _ask(self, child: Child, request: Request, ran: str) -> Answer:
+        if self.over is not None:
+            raise self.over
+        try:
+            answered = self.send(child, request)
+        except ChildEnded as error:
+            self._stop(ran, str(error))
+        self.output += answered.output[: MAX_OUTPUT - len(self.output)]
+        match answered.reply:
+            case Raised() as raised:
+                raise Broke(ran, f"{raised.error}: {raised.message}", raised)
+            case Missing(what):
+                missing = NotYet(ran, "the names and types of the lesson", what)
+                missing.quotes = True
+                raise missing
+            case reply:
+                return reply
+
+    def _stop(self, ran: str, why: str) -> NoReturn:
+        """The child is gone: this check has its outcome, whatever else it would have asked."""
+        self.over = Broke(ran, why)
+        raise self.over

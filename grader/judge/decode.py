@@ -1,0 +1,131 @@
+"""Decoding answers: what a check gets is of the right type and finite, or the check fails."""
+
+import math
+from dataclasses import dataclass
+from typing import NoReturn
+
+from grader.judge.failures import Broke, NotYet
+from grader.protocol import (
+    BodyValue,
+    ContactValue,
+    Items,
+    Ref,
+    SpaceBody,
+    SpaceValue,
+    Value,
+    Vec,
+)
+
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """An object that lives in the child: a body, a contact, a joint, a world or a space."""
+
+    ref: int
+
+
+class Decoder:
+    """Turns answers into numbers and objects, and fails the check where they are none.
+
+    `what` names an answer to the student.
+    """
+
+    def __init__(self, mixed: bool) -> None:
+        self.mixed = mixed  # functions of the reference run too: what they return is not shown
+        self.running = ""  # the experiment, as the line *We ran* has it
+        self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
+
+    def ran(self, text: str) -> None:
+        """Name the experiment, for the line *We ran*."""
+        self.running = text
+
+    def want(self, holds: bool, expected: str, got: str, meaning: str = "") -> None:
+        """Fail the check unless `holds`, with what was expected and what came out."""
+        if not holds:
+            self.fail(expected, got, meaning)
+
+    def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
+        raise self.remember(NotYet(self.running, expected, got, meaning))
+
+    def remember(self, failure: NotYet | Broke) -> NotYet | Broke:
+        """Keep the first failure: hypothesis may run a check again and see others."""
+        self.failure = self.failure or failure
+        return failure
+
+    # ------------------------------------------------------------ numbers
+
+    def number(self, value: Value, what: str) -> float:
+        """The value as a finite number."""
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            self.fail(f"a number as {what}", self.describe(value))
+        if not math.isfinite(value):
+            self.fail(f"a finite number as {what}", f"{value}")
+        return float(value)
+
+    def pair(self, value: Value, what: str) -> Pair:
+        """The value as two finite numbers."""
+        if not isinstance(value, Vec):
+            self.fail(f"a pair of numbers as {what}", self.describe(value))
+        return self.number(value.x, what), self.number(value.y, what)
+
+    def items(self, value: Value, what: str) -> list[Value]:
+        """The value as a list; a pair of numbers counts as one of two."""
+        if isinstance(value, Vec):
+            return [value.x, value.y]
+        if not isinstance(value, Items):
+            self.fail(f"a list or tuple as {what}", self.describe(value))
+        return value.items
+
+    # ------------------------------------------------------------ objects
+
+    def thing(self, value: Value, what: str = "an object") -> Thing:
+        """The value as an object that lives in the child."""
+        if isinstance(value, Ref):
+            return Thing(value.id)
+        if isinstance(value, BodyValue | ContactValue | SpaceValue | SpaceBody):
+            return Thing(value.ref)
+        self.fail(what, self.describe(value))
+
+    def body(self, value: Value) -> BodyValue:
+        """The value as a body with finite numbers."""
+        if not isinstance(value, BodyValue):
+            self.fail("a Body", self.describe(value))
+        numbers = (*value.pos, *value.vel, value.angle, value.omega)
+        if not all(map(math.isfinite, numbers)):
+            self.fail("finite numbers in every body", f"{numbers}")
+        return value
+
+    def contact_or_none(self, value: Value) -> ContactValue | None:
+        """The value as a Contact or None, with finite numbers."""
+        if value is None or isinstance(value, ContactValue):
+            if value is not None:
+                self.pair(value.normal, "the normal")
+                self.pair(value.point, "the point")
+                self.number(value.depth, "the depth")
+            return value
+        self.fail("a Contact or None", self.describe(value))
+
+    def space(self, value: Value) -> SpaceValue:
+        """The value as a pymunk Space, described."""
+        if not isinstance(value, SpaceValue):
+            self.fail("a pymunk Space", self.describe(value))
+        return value
+
+    def describe(self, value: Value) -> str:
+        """What came instead, in words for the line *Got*."""
+        match value:
+            case None:
+                return "None (is there a return missing?)"
+            case Ref(kind=kind):
+                return "an object" if self.mixed else f"an object of type {kind}"
+            case Items():
+                return f"a list or tuple of {len(value.items)}"
+            case str() if self.mixed:
+                return "a text"
+            case bool() | int() | float() | str():
+                return f"{value!r}"[:200]
+            case Vec(x, y):
+                return f"the pair ({x:.6g}, {y:.6g})"
+        return f"a {type(value).__name__.removesuffix('Value').lower()}"

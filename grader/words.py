@@ -1,0 +1,122 @@
+"""The wording of reports: states, reasons, points, numbers, and a submission's own words made safe.
+
+The terminal, pages, tables, exports and replays all take it from here, so that they say the same.
+"""
+
+import math
+import os
+import sys
+
+from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.rubric import load_rubric
+
+MEANINGS: dict[State, str] = {
+    "not yet": "a check got another answer than the right one",
+    "not started": "only what was handed out is there",
+    "waiting": "something else must pass first; the line below it says what",
+    "error": "the code raised an error, or gave no answer",
+}
+MAX_WORDS = 400  # characters of a submission in one line
+NAMES = 10  # columns up to the words of *Got* and the like
+
+
+# ---------------------------------------------------------------- a submission's own words
+
+
+def printable(words: str) -> str:
+    """Words without line breaks, control and direction characters."""
+    return "".join(c if c.isprintable() else " " for c in words)
+
+
+def clean(words: str) -> str:
+    """A submission's words on one line, with nothing that a terminal would obey."""
+    return printable(words)[:MAX_WORDS]
+
+
+# ---------------------------------------------------------------- why a check failed
+
+
+def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
+    """Why a check is not passed, in named lines; `task` stands behind the place to look at."""
+    place = place_of(check) + task if check.where else ""
+    words = (
+        ("We ran", check.ran),
+        ("Expected", check.expected),
+        ("Got", check.got),
+        ("Meaning", check.meaning),
+        ("Look at", place),
+    )
+    return [(name, text) for name, text in words if text]
+
+
+def reasons(check: CheckResult, task: str = "") -> list[str]:
+    """The same, a line of text each."""
+    return [f"{name:<{NAMES}}{clean(words)}" for name, words in named_reasons(check, task)]
+
+
+def place_of(check: CheckResult) -> str:
+    """The student's file and line; empty where none is known."""
+    return f"{check.where.file}:{check.where.line}" if check.where else ""
+
+
+def named(todo: TodoResult, title: str) -> str:
+    """A title with the number of its TODO; the whole program has none."""
+    return title if todo.id == "whole" else f"TODO {todo.id}: {title}"
+
+
+def task_of(todo: TodoResult) -> str:
+    """What stands behind a place to look at; the whole program is no TODO."""
+    return "" if todo.id == "whole" else f", TODO {todo.id}"
+
+
+# ---------------------------------------------------------------- points and numbers
+
+
+def total(result: Result) -> str:
+    """The points, and the bonus apart from them; the bonus alone where nothing else was asked."""
+    if not result.counted:
+        return f"{result.bonus} bonus"
+    bonus = f"  and {result.bonus} bonus" if result.bonus else ""
+    return f"{result.points} / {result.max_points}{bonus}"
+
+
+def points_in_words(result: Result) -> str:
+    bonus = f", and {result.bonus} bonus" if result.bonus else ""
+    return f"{result.points} of {result.max_points} points{bonus}"
+
+
+def hidden_points_note(result: Result) -> str:
+    """In a student's copy of the grader: what it has no checks for. Empty where it has them all."""
+    here = {todo.id for todo in result.todos}
+    points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
+    words = f"{points} more points come from checks that only your instructor runs."
+    return words if points else ""
+
+
+def plural(number: int, noun: str) -> str:
+    """`1 point`, `2 points`."""
+    return f"{number} {noun}" + "s" * (number != 1)
+
+
+def digits(value: float) -> str:
+    """Six digits, without the noise that rounding leaves around 0."""
+    return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
+
+
+def about(value: float) -> str:
+    """Three digits, or all before the point."""
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
+# ---------------------------------------------------------------- what to type
+
+
+def command(name: str, todo: str, level: int = 1) -> str:
+    """One of the student's commands, as this person would type it here."""
+    if "MAKELEVEL" in os.environ:
+        return f"make {name} TODO={todo}" + f" LEVEL={level}" * (level > 1)
+    python = sys.orig_argv[0]
+    start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
+    if os.path.basename(sys.argv[0]) == "grader":
+        start = "grader"
+    return f"{start} {name} --todo {todo}" + f" --level {level}" * (level > 1)

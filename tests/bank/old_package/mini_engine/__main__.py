@@ -1,0 +1,5 @@
+"""Start the window, for python -m mini_engine."""
+
+from .game_loop import main
+
+main()
