@@ -36,6 +36,7 @@ class Decoder:
         self.mixed = mixed  # functions of the reference run too: what they return is not shown
         self.running = ""  # the experiment, as the line *We ran* has it
         self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
+        self.names: dict[int, str] = {}  # what things are called to the student
 
     def ran(self, text: str) -> None:
         """Name the experiment, for the line *We ran*."""
@@ -82,11 +83,15 @@ class Decoder:
 
     def thing(self, value: Value, what: str = "an object") -> Thing:
         """The value as an object that lives in the child."""
-        if isinstance(value, Ref):
-            return Thing(value.id)
-        if isinstance(value, BodyValue | ContactValue | SpaceValue | SpaceBody):
-            return Thing(value.ref)
-        self.fail(what, self.describe(value))
+        match value:
+            case Ref(id=ref) | BodyValue(ref=ref) | ContactValue(ref=ref):
+                pass
+            case SpaceValue(ref=ref) | SpaceBody(ref=ref):
+                pass
+            case _:
+                self.fail(what, self.describe(value))
+        self.names[ref] = f"the {what.partition(' ')[2]}"
+        return Thing(ref)
 
     def body(self, value: Value) -> BodyValue:
         """The value as a body with finite numbers."""

@@ -5,10 +5,12 @@ strictly typed and finite, or the check fails with a sentence that says what was
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
+
+import msgspec
 
 from grader.judge.children import Child
 from grader.judge.connection import Answer, Connection, Send, ask_child
@@ -18,6 +20,8 @@ from grader.protocol import (
     Argument,
     BodyValue,
     Call,
+    Change,
+    ContactValue,
     Event,
     Get,
     Integrate,
@@ -37,6 +41,8 @@ from grader.protocol import (
 )
 
 STEP = 1 / 120  # s
+Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
+NOTHING: Frame = {}
 MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
 
 
@@ -63,6 +69,9 @@ class Lab(Decoder):
         self.module = module
         self.connection = Connection(module, open_child, pieces, send)
         self.observations: list[Observation] = []
+        # The first time that something was changed which a call may not change. It fails a check
+        # that would else pass: what an answer should have been is said first.
+        self.overstepped: NotYet | None = None
         self.played = False  # whether the child has run a program
 
     @property
@@ -89,16 +98,69 @@ class Lab(Decoder):
         """Import the submission and nothing more."""
         self.connection.begin(self.running)
 
-    def call(self, name: str, *args: Any, **kwargs: Any) -> Value:
-        """Call `name` of the TODO's module, or `module:name`."""
+    def call(
+        self,
+        name: str,
+        *args: Any,
+        changes: Frame | None = None,
+        twice: bool = False,
+        **kwargs: Any,
+    ) -> Value:
+        """Call `name` of the TODO's module, or `module:name`.
+
+        `changes` says all that the call may change: the fields of each thing, as in {a: "vel"}, and
+        NOTHING for a function that only answers. Without it nobody looks. A function that is asked
+        `twice` must give the same answer to the same question. See `overstepped`.
+        """
         target = name if ":" in name else f"{self.module}:{name}"
-        return self._value(
-            Call(target, [plain(each) for each in args], {k: plain(v) for k, v in kwargs.items()})
+        named = {key: plain(value) for key, value in kwargs.items()}
+        request = Call(target, [plain(each) for each in args], named, twice=twice)
+        return self._framed(name, request, changes)
+
+    def tell(self, thing: Thing, method: str, *args: Any, changes: Frame | None = None) -> Value:
+        """Call a method of an object that lives in the child; `changes` as in `call`."""
+        request = Call(f"#{thing.ref}.{method}", [plain(each) for each in args])
+        return self._framed(method, request, changes)
+
+    def _framed(self, name: str, request: Call, changes: Frame | None) -> Value:
+        returned = self._returned(request)
+        if changes is not None and self.overstepped is None:
+            beyond = [
+                each
+                for each in returned.changed
+                if each.name not in changes.get(Thing(each.ref), "").split()
+            ]
+            self.overstepped = self._trespass(name, changes, beyond)
+        if request.twice and self.overstepped is None and not same(returned.value, returned.again):
+            self.overstepped = NotYet(
+                self.running,
+                "the same answer when the same question is asked again",
+                f"first {self.describe(returned.value)}, then {self.describe(returned.again)}",
+                f"{name} may go by nothing but what it is given.",
+            )
+        return returned.value
+
+    def _trespass(self, name: str, changes: Frame, beyond: list[Change]) -> NotYet | None:
+        """What a function changed that is none of its business, or None."""
+        if not beyond:
+            return None
+        allowed = ", ".join(
+            f"{in_words(fields)} of {self.names.get(thing.ref, 'an object')}"
+            for thing, fields in changes.items()
+        )
+        return NotYet(
+            self.running,
+            f"nothing changed but the {allowed}" if allowed else "nothing changed",
+            f"{name} changed {', '.join(dict.fromkeys(map(self._place, beyond)))}",
+            f"{name} must leave everything as it is but what its docstring names.",
         )
 
-    def tell(self, thing: Thing, method: str, *args: Any) -> Value:
-        """Call a method of an object that lives in the child."""
-        return self._value(Call(f"#{thing.ref}.{method}", [plain(each) for each in args]))
+    def _place(self, change: Change) -> str:
+        if change.ref < 0:
+            return f"its argument number {-change.ref}"
+        if change.ref == 0:
+            return f"the constant {change.name}"
+        return f"the {in_words(change.name)} of {self.names.get(change.ref, 'another object')}"
 
     def count(self, functions: Sequence[str], thing: Thing, method: str, *args: Any) -> int:
         """How many calls of these functions of the TODO's module a method of an object makes."""
@@ -135,7 +197,9 @@ class Lab(Decoder):
         }
         rest = {name: plain(value) for name, value in fields.items()}
         request = MakeBody(self.module, shape, size, Vec(*pos), float(mass), surface, rest)
-        return self.thing(self._value(request), "a Body")
+        body = self.thing(self._value(request), "a Body")
+        self.names[body.ref] = f"the {shape.lower()} at ({pos[0]:g}, {pos[1]:g})"
+        return body
 
     def state(self, body: Thing) -> BodyValue:
         """A body's numbers, all finite."""
@@ -271,6 +335,23 @@ class Moment:
         return math.hypot(self.vx, self.vy)
 
 
+def same(first: Value, second: Value) -> bool:
+    """Whether two answers are the same but for who they are: each call makes its own contact."""
+    if isinstance(first, ContactValue) and isinstance(second, ContactValue):
+        return msgspec.structs.replace(first, ref=second.ref) == second
+    if isinstance(first, Ref) and isinstance(second, Ref):
+        return first.kind == second.kind
+    return first == second
+
+
+FIELDS = {"pos": "place", "vel": "velocity", "omega": "spin", "inv_mass": "mass"}
+
+
+def in_words(fields: str) -> str:
+    """The names of fields as the lesson says them."""
+    return ", ".join(FIELDS.get(each, each) for each in fields.split())
+
+
 def plain(value: Any) -> Argument:
     """An argument in the form that crosses the pipe."""
     if isinstance(value, Thing):
@@ -280,4 +361,4 @@ def plain(value: Any) -> Argument:
     return value  # type: ignore[no-any-return]
 
 
-__all__ = ["Broke", "Lab", "Moment", "NotYet", "Observation", "Pair", "Run", "Thing"]
+__all__ = ["NOTHING", "Broke", "Lab", "Moment", "NotYet", "Observation", "Pair", "Run", "Thing"]

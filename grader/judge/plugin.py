@@ -164,6 +164,7 @@ class GradingPlugin:
         with lab.opened():
             try:
                 example(lab=lab)
+                lab.failure = lab.overstepped
             except (NotYet, Broke) as failure:
                 lab.failure = failure
             except Flaky:  # the lab kept the first failure, if it saw one
