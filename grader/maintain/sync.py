@@ -12,7 +12,7 @@ from grader.judge.submission import function_named, source_of, statements
 from grader.todo_regions import python_files, regions_in, replaced
 
 SKIPPED = {
-    "notebooks",  # the starter's are made by nbgrader: see classroom/notebooks.py
+    "notebooks",  # the starter's are made by nbgrader: see classroom/nbgrader/notebooks.py
     "build",
     "__pycache__",
     ".ipynb_checkpoints",

@@ -18,19 +18,14 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from grader.classroom import batch, commands, progress
+from grader.classroom import commands, grading, progress
 from grader.classroom.adjustments import Adjust, Adjustments
-from grader.classroom.batch import (
-    Graded,
-    Pool,
-    Run,
-    Wanted,
-    grade_class,
-    key_of,
-    page_of,
-    run_class,
-)
-from grader.classroom.intake import Package, opened_class
+from grader.classroom.batch import Run, grade_class
+from grader.classroom.executor import Graded, Pool
+from grader.classroom.fingerprint import key_of
+from grader.classroom.grading import Wanted, page_of, run_class
+from grader.classroom.intake.found import Package
+from grader.classroom.intake.listing import opened_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result, TodoResult
 from grader.judge.submission import CannotGrade
@@ -67,7 +62,7 @@ class Inline:
     def __init__(self) -> None:
         self.names: list[str] = []
 
-    def room(self) -> int:
+    def capacity(self) -> int:
         return 1
 
     def submit(self, package: Package) -> "Future[Graded]":
@@ -86,11 +81,11 @@ def classroom(tmp_path: Path) -> Path:
 
 
 def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
-    """One run; `.names` of its crew are those that were graded anew."""
-    crew = Inline()
+    """One run; `.names` of its executor are those that were graded anew."""
+    executor = Inline()
     with opened_class(classroom) as intake:
-        run = grade_class(intake, classroom.parent / "out", key, crew, QUIET, adjustments)
-    run.names = crew.names
+        run = grade_class(intake, classroom.parent / "out", key, executor, QUIET, adjustments)
+    run.names = executor.names
     return run
 
 
@@ -221,7 +216,7 @@ def test_names_and_words_are_harmless_in_the_table(classroom):
 
 
 def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
-    monkeypatch.setattr(batch, "hired", lambda wanted: FragilePool(wanted.options, 1))
+    monkeypatch.setattr(grading, "opened_executor", lambda wanted: FragilePool(wanted.options, 1))
     (classroom / "roster.csv").write_text(
         "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
     )
@@ -246,7 +241,7 @@ def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
     assert run.counts == {"graded": 8, "kept": 0, "trouble": 3}
 
 
-def test_a_crew_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
+def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
     class Leaving(Inline):
         def submit(self, package: Package) -> "Future[Graded]":
             future = super().submit(package)
@@ -276,9 +271,9 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
 
 def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
     run = graded(classroom)
-    monkeypatch.setattr(batch, "LONGEST_PAGE", 2)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 2)
     assert "more than 2, by `grader dashboard" in page_of(run)
-    monkeypatch.setattr(batch, "LONGEST_PAGE", 3)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 3)
     assert page_of(run).endswith("out.class.html")
 
 

@@ -10,17 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from grader.classroom import intake
-from grader.classroom.intake import (
-    CannotTake,
-    ClassList,
-    Found,
-    opened_class,
-    opened_submission,
-    pack,
-    portable,
-)
-from grader.classroom.roster import read_roster
+from grader.classroom.intake import zips
+from grader.classroom.intake.found import CannotTake, Found
+from grader.classroom.intake.listing import opened_class
+from grader.classroom.intake.packing import opened_submission, pack
+from grader.classroom.names import portable
+from grader.classroom.roster import ClassList, read_roster
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
@@ -310,17 +305,19 @@ def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
     write(classroom, {f"{who}_1_a.zip": zipped(PROGRAM) for who in ("doejane_1234", "roebo_77")})
     write(classroom, under("stranger"))
     with opened_class(classroom, known) as taken:
-        assert [each.name for each in taken.found] == ["bo", "jane", "stranger"]
-        assert known.absent(taken.found) == ["al"]
-        assert known.strangers(taken.found) == ["stranger"]
+        names = [each.name for each in taken.found]
+        assert names == ["bo", "jane", "stranger"]
+        assert known.absent(names) == ["al"]
+        assert known.strangers(names) == ["stranger"]
 
 
 def test_moodles_class_list_knows_full_names(classroom, tmp_path):
     known = people(tmp_path, MOODLE_LIST)
     write(classroom, under("Ann Lee_5_assignsubmission_file") | under("bo"))
     with opened_class(classroom, known) as taken:
-        assert [each.name for each in taken.found] == ["ann@school.edu", "bo"]
-        assert known.absent(taken.found) == [] and known.strangers(taken.found) == []
+        names = [each.name for each in taken.found]
+        assert names == ["ann@school.edu", "bo"]
+        assert known.absent(names) == [] and known.strangers(names) == []
 
 
 def test_of_two_with_one_name_neither_is_guessed(tmp_path):
@@ -381,12 +378,12 @@ def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
 
 
 def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch):
-    monkeypatch.setattr(intake, "MAX_DIRECTORY", 1000)
+    monkeypatch.setattr(zips, "MAX_DIRECTORY", 1000)
     assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
 
 
 def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
-    monkeypatch.setattr(intake, "MAX_ZIP", 10)
+    monkeypatch.setattr(zips, "MAX_ZIP", 10)
     assert "MB" in refused(classroom, zipped(PROGRAM))
 
 
