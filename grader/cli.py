@@ -202,7 +202,7 @@ def grade_folder(
 
 def demonstrate(options: Options) -> None:
     """The shipped trees, to show that the grader works here."""
-    needs_checkout("grade without a submission")
+    needs_checkout("grade", ", or name a submission")
     for name in ("solution", "starter"):
         console.rule(name)
         result = graded(KIT / name, options)

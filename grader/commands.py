@@ -23,13 +23,13 @@ def stop(message: str, cannot: str = "grade") -> NoReturn:
     raise typer.Exit(2)
 
 
-def needs_checkout(command: str) -> None:
+def needs_checkout(command: str, instead: str = "") -> None:
     """Stop where the grader is installed without the kit around it, and say what is missing."""
     missing = [name for name in CHECKOUT if not (KIT / name).is_dir()]
     if missing:
         stop(
-            f"`grader {command}` needs the whole kit, and there is no {', no '.join(missing)} in "
-            f"{KIT}. Go to a checkout of the kit, and run it there as python -m grader.",
+            f"`grader {command}` works on the whole kit, and {KIT} holds no {', '.join(missing)}: "
+            f"run python -m grader {command} in a checkout of the kit{instead}",
             "go on",
         )
 

@@ -188,7 +188,7 @@ def marks_command(
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
     if settings is None and course is None:
-        needs_checkout("marks without --settings")
+        needs_checkout("marks", ", or name marks.toml with --settings")
     from grader.classroom.dashboard import NoResults, read_class
     from grader.classroom.marks import ENGINE, load_marking, marks, parts_from_results, why
     from grader.classroom.nbgrader.course import INSTRUCTOR, NoCourse

@@ -1,5 +1,6 @@
 """Grading a class: what is kept, what is graded again, and what survives a kill."""
 
+import ast
 import csv
 import io
 import json
@@ -22,7 +23,7 @@ from grader.classroom import commands, grading, progress
 from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.executor import Graded, Pool
-from grader.classroom.fingerprint import key_of
+from grader.classroom.fingerprint import DECIDING, deciding_files, key_of
 from grader.classroom.grading import Wanted, page_of, run_class
 from grader.classroom.intake.found import Package
 from grader.classroom.intake.listing import opened_class
@@ -168,6 +169,29 @@ def test_the_key_depends_on_all_that_decides(tmp_path):
         )
     }
     assert len(keys) == 5 and key_of(Options(seed=1)) in keys
+
+
+def test_what_decides_no_points_does_not_count(tmp_path):
+    names = ("checks/todo_1.py", "checks/rubric.toml", "judge/grade.py", "worker/child.py")
+    others = ("player/page.py", "report/terminal.py", "cli.py", "watch.py", "classroom/book.py")
+    for name in (*names, *others, "protocol.py", "judge/notes.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    found = [path.relative_to(tmp_path).as_posix() for path in deciding_files(tmp_path)]
+    assert found == sorted([*names, "protocol.py"])
+
+
+def test_what_decides_uses_nothing_that_does_not_count():
+    top = KIT / "grader"
+    used = {}
+    for path in deciding_files(top):
+        if path.suffix == ".py":
+            for node in ast.walk(ast.parse(path.read_bytes())):
+                if isinstance(node, ast.ImportFrom) and str(node.module).startswith("grader."):
+                    used.setdefault(str(node.module).split(".")[1], path.name)
+    places = {Path(name).stem for name in DECIDING}
+    assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
+    assert used.keys() - places <= {"player"}, used  # replays, which show what was decided
 
 
 # ---------------------------------------------------------------- adjustments, table, notes
