@@ -189,10 +189,10 @@ def grade_folder(
     if not find_spec("grader.classroom"):
         stop("this is the students' grader, and --class needs the whole kit: leave it out")
     # Imported here: students have none of it, and it would add 80 ms to every start.
-    from grader.classroom.grading import Wanted, run_class
+    from grader.classroom.grading import ClassOptions, run_class
 
     try:
-        run = run_class(path, Wanted(options, out, jobs, roster, adjust, cluster), console)
+        run = run_class(path, ClassOptions(options, out, jobs, roster, adjust, cluster), console)
     except (CannotGrade, OSError) as error:
         stop(str(error))
     except KeyboardInterrupt:

@@ -15,10 +15,10 @@ from rich.console import Console
 
 from grader.classroom.adjustments import Adjustments
 from grader.classroom.book import Book, Outcome, outcome_of
-from grader.classroom.executor import LOST, Executor, GaveUp, Graded
+from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.intake.found import CannotTake, Found, Intake, Package
 from grader.classroom.intake.packing import pack
-from grader.classroom.names import some
+from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
 from grader.judge.submission import CannotGrade
 
@@ -46,7 +46,7 @@ class Run:
     same: dict[str, dict[tuple[Path, ...], str]] = field(default_factory=dict)  # names, by files
 
     def tasks(self) -> Iterator[Task]:
-        """The submissions that must be graded; all others are settled on the way."""
+        """The submissions that must be graded; all others are recorded on the way."""
         for found in self.intake.found:
             try:
                 package = pack(found)
@@ -60,18 +60,18 @@ class Run:
             if kept is None:
                 yield Task(found, package, key)
             else:
-                self.settle("kept", found, kept)
+                self.record("kept", found, kept)
 
     def graded(self, task: Task, graded: Graded) -> None:
         outcome = outcome_of(task.found.name, *graded, task.key)
         self.book.write(outcome, graded[0])
-        self.settle("graded", task.found, outcome)
+        self.record("graded", task.found, outcome)
 
     def trouble(self, found: Found, words: str) -> None:
         self.book.forget(found.name)
-        self.settle("trouble", found, Outcome(found.name, words))
+        self.record("trouble", found, Outcome(found.name, words))
 
-    def settle(self, how: str, found: Found, outcome: Outcome) -> None:
+    def record(self, how: str, found: Found, outcome: Outcome) -> None:
         final = self.adjustments.final(found, outcome.points)
         outcome = msgspec.structs.replace(
             outcome,
@@ -88,7 +88,7 @@ class Run:
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
-                yield f"the same files were handed in by {some(names)}"
+                yield f"the same files were handed in by {in_short(names)}"
 
 
 def grade_class(
@@ -118,8 +118,8 @@ def grade_class(
     names = [each.name for each in run.outcomes]
     for student in run.adjustments.unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")
-    if others := book.strangers(names):
-        run.notes.append(f"{out} also holds results of others than this class: {some(others)}")
+    if others := book.others_than(names):
+        run.notes.append(f"{out} also holds results of others than this class: {in_short(others)}")
     return run
 
 
@@ -153,7 +153,7 @@ def finished(
             graded = executor.run_alone(task.package) if again else future.result()
         except BrokenProcessPool:
             graded = "it ended the grader's own process, twice: please report it"
-        except GaveUp as error:
+        except ExecutorFailed as error:
             raise CannotGrade(str(error)) from error
         except Exception as error:  # this one submission; the others go on
             graded = f"{type(error).__name__}: {error}"

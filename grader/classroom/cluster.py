@@ -18,7 +18,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from grader.classroom.executor import AHEAD, LOST, GaveUp, Graded, grade_package
+from grader.classroom.executor import AHEAD, LOST, ExecutorFailed, Graded, grade_package
 from grader.classroom.fingerprint import fingerprint, packed_reference
 from grader.classroom.intake.found import Package
 from grader.judge.grade import Options
@@ -34,7 +34,7 @@ ONE_AT_A_TIME = threading.Lock()  # pytest runs once in a process, however many 
 def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Graded:
     """Grade one submission with a grader that must be the one whose fingerprint is `made`."""
     if fingerprint() != made:
-        raise GaveUp(other_version([socket.gethostname()]))
+        raise ExecutorFailed(other_version([socket.gethostname()]))
     if reference is not None:
         options = replace(options, reference=unpacked(reference.digest, reference))
     with ONE_AT_A_TIME:

@@ -58,7 +58,7 @@ class Executor(Protocol):
         """Grade one of those that were under way then, and nothing beside it."""
 
 
-class GaveUp(Exception):
+class ExecutorFailed(Exception):
     """The executor cannot go on; the message says why and what to do."""
 
 

@@ -15,7 +15,7 @@ from grader.classroom.dashboard import read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.listing import opened_class
-from grader.classroom.names import some
+from grader.classroom.names import in_short
 from grader.classroom.roster import CannotRead, ClassList, read_roster
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
@@ -28,7 +28,7 @@ LONGEST_PAGE = 2000  # rows of the page: its makers hold all results at once, 35
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ClassOptions:
     """How a class is to be graded, as the command line says it."""
 
     options: Options
@@ -39,7 +39,7 @@ class Wanted:
     cluster: str = ""  # the address of a Dask scheduler
 
 
-def run_class(path: Path, wanted: Wanted, console: Console) -> Run:
+def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     """Grade the class at `path`, show it, and say where the results are."""
     path = path.resolve()
     people = people_of(path, wanted.roster)
@@ -50,9 +50,9 @@ def run_class(path: Path, wanted: Wanted, console: Console) -> Run:
         run = grade_class(intake, out, key_of(wanted.options), executor, console, adjustments)
         names = [each.name for each in intake.found]
         if absent := people.absent(names):
-            run.notes.append(f"nothing was handed in by {some(absent)}")
-        if strangers := people.strangers(names):
-            run.notes.append(f"not in the class list: {some(strangers)}")
+            run.notes.append(f"nothing was handed in by {in_short(absent)}")
+        if unlisted := people.unlisted(names):
+            run.notes.append(f"not in the class list: {in_short(unlisted)}")
     show_class(run, console)
     console.print(page_of(run), soft_wrap=True)
     return run
@@ -78,7 +78,7 @@ def beside(path: Path, name: str) -> Path | None:
     return path / name if (path / name).is_file() else None
 
 
-def opened_executor(wanted: Wanted) -> AbstractContextManager[Executor]:
+def opened_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
     if wanted.cluster:
         return connected(wanted.cluster, wanted.options)
     return Pool(wanted.options, wanted.jobs)

@@ -27,7 +27,7 @@ def portable(words: str) -> str:
     return f"_{text}" if not text or text.partition(".")[0].lower() in DEVICES else text
 
 
-def some(names: list[str]) -> str:
+def in_short(names: list[str]) -> str:
     """Names for one note."""
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
     return ", ".join(names[:MENTIONED]) + more

@@ -121,7 +121,7 @@ class ClassList:
         here = {folded(name) for name in handed_in}
         return [name for name in self.names if not here & set(names_of(name))]
 
-    def strangers(self, handed_in: Iterable[str]) -> list[str]:
+    def unlisted(self, handed_in: Iterable[str]) -> list[str]:
         """Those who handed in and are not in the class list."""
         known = {each for name in self.names for each in names_of(name)}
         return [name for name in handed_in if self.names and folded(name) not in known]

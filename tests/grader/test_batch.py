@@ -24,7 +24,7 @@ from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.executor import Graded, Pool
 from grader.classroom.fingerprint import DECIDING, deciding_files, key_of
-from grader.classroom.grading import Wanted, page_of, run_class
+from grader.classroom.grading import ClassOptions, page_of, run_class
 from grader.classroom.intake.found import Package
 from grader.classroom.intake.listing import opened_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -245,7 +245,7 @@ def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypa
         "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
     )
     (classroom / "adjustments.toml").write_text("[late]\nper_day = 10\n", encoding="utf-8")
-    run = run_class(classroom, Wanted(Options()), QUIET)
+    run = run_class(classroom, ClassOptions(Options()), QUIET)
     assert run.book.folder == classroom.parent / "class-results"
     assert "nothing was handed in by dora@x" in run.notes
     assert "not in the class list: ben, cem" in run.notes
@@ -284,7 +284,7 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
     for name, tree in (("anna", "solution"), ("ben", "starter")):
         (tmp_path / "class" / name).mkdir(parents=True)
         shutil.copy(KIT / tree / "integrators.py", tmp_path / "class" / name)
-    run = run_class(tmp_path / "class", Wanted(ONLY_8A, jobs=1), QUIET)
+    run = run_class(tmp_path / "class", ClassOptions(ONLY_8A, jobs=1), QUIET)
     for name in ("anna", "ben"):
         alone = as_json(grade(tmp_path / "class" / name, ONLY_8A))
         assert run.book.result_file(name).read_bytes() == alone

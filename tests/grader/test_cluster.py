@@ -15,9 +15,9 @@ from rich.console import Console
 
 from grader.classroom import cluster, fingerprint
 from grader.classroom.cluster import grade_here
-from grader.classroom.executor import GaveUp
+from grader.classroom.executor import ExecutorFailed
 from grader.classroom.fingerprint import packed_reference
-from grader.classroom.grading import Wanted, run_class
+from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.intake.found import Package
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
@@ -52,7 +52,7 @@ def classroom(tmp_path: Path) -> Path:
 
 def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
     """Every result and the table, byte by byte."""
-    wanted = Wanted(ONLY_8A, classroom.parent / out, **how)
+    wanted = ClassOptions(ONLY_8A, classroom.parent / out, **how)
     run = run_class(classroom, wanted, QUIET)
     assert not any(each.trouble for each in run.outcomes)
     files = {path.name: path.read_bytes() for path in run.book.folder.glob("*.json")}
@@ -96,7 +96,7 @@ def test_workers_with_another_grader_are_refused(workers, classroom):
 
 
 def test_a_worker_with_another_grader_that_joins_later_stops_the_class():
-    with pytest.raises(GaveUp, match="another version"):
+    with pytest.raises(ExecutorFailed, match="another version"):
         grade_here(Package("ann", []), ONLY_8A, None, "made elsewhere")
 
 

@@ -194,7 +194,7 @@ def test_one_strange_name_in_a_download_does_not_stop_the_class(classroom):
 # ---------------------------------------------------------------- what people keep
 
 
-def test_folders_checkouts_and_droppings(classroom):
+def test_folders_checkouts_and_system_files(classroom):
     write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
     write(
         classroom, {"ann/.git/config": "", "ben/x/.DS_Store": "", ".DS_Store": "", "Thumbs.db": ""}
@@ -308,7 +308,7 @@ def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
         names = [each.name for each in taken.found]
         assert names == ["bo", "jane", "stranger"]
         assert known.absent(names) == ["al"]
-        assert known.strangers(names) == ["stranger"]
+        assert known.unlisted(names) == ["stranger"]
 
 
 def test_moodles_class_list_knows_full_names(classroom, tmp_path):
@@ -317,7 +317,7 @@ def test_moodles_class_list_knows_full_names(classroom, tmp_path):
     with opened_class(classroom, known) as taken:
         names = [each.name for each in taken.found]
         assert names == ["ann@school.edu", "bo"]
-        assert known.absent(names) == [] and known.strangers(names) == []
+        assert known.absent(names) == [] and known.unlisted(names) == []
 
 
 def test_of_two_with_one_name_neither_is_guessed(tmp_path):
@@ -416,7 +416,7 @@ def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
     assert "broken" in refused(classroom, bytes(content))
 
 
-def test_links_environments_and_droppings_in_a_zip_are_left_out(classroom):
+def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
     content = io.BytesIO(zipped(PROGRAM))
     with zipfile.ZipFile(content, "a") as archive:
         link = zipfile.ZipInfo("passwords.txt")

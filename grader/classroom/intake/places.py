@@ -8,7 +8,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import IGNORED
 
 DEEPEST = 3  # folders around a program, and zips inside zips
-DROPPINGS = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
+SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
 
 
 class ManyPrograms(CannotTake):
@@ -17,11 +17,11 @@ class ManyPrograms(CannotTake):
 
 def entries_of(folder: Path) -> list[Path]:
     """What lies in a folder, in a fixed order, without what desktops leave behind."""
-    return sorted(path for path in folder.iterdir() if not is_dropping(path.name))
+    return sorted(path for path in folder.iterdir() if not is_system_file(path.name))
 
 
-def is_dropping(name: str) -> bool:
-    return name.startswith(".") or name.lower() in DROPPINGS
+def is_system_file(name: str) -> bool:
+    return name.startswith(".") or name.lower() in SYSTEM_FILES
 
 
 def is_zip(path: Path) -> bool:
@@ -49,7 +49,7 @@ def root_of(folder: Path) -> Path:
 def unwrapped(folder: Path) -> Path:
     """Where there is no program: as far in as each folder holds but one other."""
     for _ in range(DEEPEST):
-        inside = [path for path in folder.iterdir() if not is_dropping(path.name)]
+        inside = [path for path in folder.iterdir() if not is_system_file(path.name)]
         if len(inside) != 1 or inside != folders_in(folder) or inside[0].name == "notebooks":
             break
         folder = inside[0]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from grader.classroom.intake.found import CannotTake
-from grader.classroom.intake.places import is_dropping
+from grader.classroom.intake.places import is_system_file
 from grader.classroom.names import folded, portable
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES
 
@@ -45,7 +45,7 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
         for name, member in members:
-            ignored = any(part in IGNORED or is_dropping(part) for part in name.parts)
+            ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
             if ignored or environments & set(name.parents):
                 continue
             if bounds.take(name.as_posix(), member.file_size):
@@ -57,7 +57,7 @@ def unzip_class(path: Path, folder: Path) -> None:
     with checked_zip(path) as archive:
         for member in plain_members(archive):
             parts = [part for part in text_of(member).split("/") if part]
-            if not any(is_dropping(part) for part in parts):
+            if not any(is_system_file(part) for part in parts):
                 write_member(archive, member, folder.joinpath(*map(portable, parts)))
 
 
@@ -125,9 +125,9 @@ def checked_name(name: str) -> str:
     if name.startswith("/") or ".." in parts or ":" in parts[0]:
         raise CannotTake(f"the zip reaches outside its folder, with {name[:100]!r}")
     for part in parts:
-        if portable(part) != part.strip(" .") and not is_dropping(part):
+        if portable(part) != part.strip(" .") and not is_system_file(part):
             raise CannotTake(f"the zip holds {part[:100]!r}, a name not for every system")
-    return "/".join(part if is_dropping(part) else portable(part) for part in parts)
+    return "/".join(part if is_system_file(part) else portable(part) for part in parts)
 
 
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
