@@ -76,6 +76,19 @@ def test_a_class_is_graded_into_a_folder(tmp_path: Path, hand_in):
     assert marks == {"anna": 6, "ben": 0}
 
 
+def test_the_command_line_starts_without_what_only_some_commands_need():
+    code = (
+        "import sys; sys.argv = ['grader', '--help']; import grader.cli as cli\n"
+        "try: cli.main()\n"
+        "finally: print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    loaded = {name for name in done.stderr.split() if name.startswith("grader.")}
+    assert "grader.classroom.commands" in loaded
+    heavy = {"grader.classroom.intake", "grader.classroom.grading", "grader.classroom.nbgrader"}
+    assert not loaded & {*heavy, "grader.report.html", "grader.report.ci", "grader.watch"}
+
+
 def test_check_finds_the_tree_from_a_folder_inside_it(hand_in):
     tree = hand_in("starter")
     done = grader("check", "--todo", "3", cwd=tree / "mini_engine")

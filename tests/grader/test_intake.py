@@ -3,6 +3,8 @@
 import io
 import random
 import stat
+import subprocess
+import sys
 import unicodedata
 import zipfile
 from datetime import UTC, datetime
@@ -16,6 +18,7 @@ from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import opened_submission, pack
 from grader.classroom.names import portable
 from grader.classroom.roster import ClassList, read_roster
+from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
@@ -229,6 +232,14 @@ def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
         pass
     with opened_submission(tmp_path) as folder:
         assert folder == tmp_path
+
+
+def test_taking_in_loads_the_judge_and_no_more_of_the_grader():
+    code = "import sys; from grader.classroom.intake import listing; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    loaded = {name.split(".")[1] for name in done.stdout.split() if name.startswith("grader.")}
+    assert "classroom" in loaded and loaded <= {"classroom", "judge", "protocol", "todo_regions"}
 
 
 def test_one_submission_is_not_taken_for_a_class(classroom):
