@@ -17,6 +17,7 @@ from grader.classroom import commands as classroom
 from grader.classroom.intake.listing import class_in
 from grader.judge.grade import KIT
 from grader.maintain import commands as maintain
+from grader.maintain.bank import members
 
 
 def grader(*args: object, cwd: Path = KIT) -> subprocess.CompletedProcess[str]:
@@ -166,6 +167,12 @@ def test_a_folder_of_submissions_is_no_submission(tmp_path: Path, form: str):
     assert "with --class" in done.stderr
 
 
+def test_the_students_grader_says_that_it_grades_no_class(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr(cli, "find_spec", lambda name: None)
+    done = CliRunner().invoke(whole_app(), ["grade", "--class", str(tmp_path)])
+    assert done.exit_code == 2 and "--class needs the whole kit" in unwrapped(done.stderr)
+
+
 def test_a_zip_of_submissions_is_told_of_class_too(tmp_path: Path):
     for name in ("ann", "ben"):
         (tmp_path / "class" / name).mkdir(parents=True)
@@ -194,6 +201,16 @@ def test_one_submission_stays_one_wherever_its_files_lie(tmp_path: Path, files: 
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
     assert class_in(tmp_path) == []
+
+
+@pytest.mark.soak
+def test_no_submission_of_the_bank_is_taken_for_a_class(tmp_path: Path):
+    for number, member in enumerate(members(KIT)):
+        if member.kind != "wrong":  # those are the solution with one region changed
+            folder = tmp_path / str(number)
+            member.build(KIT, folder)
+            assert class_in(folder) == [], member.name
+            shutil.rmtree(folder)
 
 
 # ---------------------------------------------------------------- without the kit around it

@@ -133,12 +133,11 @@ def class_in(folder: Path) -> list[str]:
     One submission may lie deeper in, or a folder for each of its programs. So there is a class only
     where none of the programs is in the folder itself, and one is in two or more of what it holds.
     """
-    if holds_program(folder):
-        return []
     try:
-        programs = {each.name: programs_of(each) for each in listed(folder, ClassList()).found}
-    except CannotGrade:
+        found = [] if holds_program(folder) else listed(folder, ClassList()).found
+    except (CannotGrade, OSError):
         return []
+    programs = {each.name: programs_of(each) for each in found}
     count = Counter(chain.from_iterable(programs.values()))
     return [name for name, held in programs.items() if any(count[each] > 1 for each in held)]
 
