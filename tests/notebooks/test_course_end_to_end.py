@@ -125,9 +125,10 @@ def run(course, *arguments):
     return subprocess.run(command, cwd=course, env=environment, capture_output=True, text=True)
 
 
-def bridge(course, *more):
+def bridge(course, *results):
+    how = results or ["--jobs", "1"]
     return CliRunner().invoke(
-        commands.course_app, ["bridge", "--course", str(course), "--jobs", "1", *map(str, more)]
+        commands.course_app, ["bridge", "--course", str(course), *map(str, how)]
     )
 
 
