@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from grader.commands import console, known_todos, stop
+from grader.commands import console, known_todos, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT
 
 app = typer.Typer()
@@ -16,6 +16,7 @@ def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
     """Carry the solution's given code over into the starter."""
+    needs_checkout("sync")
     from grader.maintain.sync import OutOfStep, sync
 
     try:
@@ -33,6 +34,7 @@ def verify_command(
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
 ) -> None:
     """Grade the bank of wrong, right and hostile submissions: the grader is graded."""
+    needs_checkout("verify")
     from grader.maintain.verify import verify
 
     raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
@@ -49,6 +51,7 @@ def release_command(
 
     Exit status 0: it is there, 2: it was not made, and why.
     """
+    needs_checkout("release")
     from grader.maintain.release import Refused, release
 
     try:
@@ -70,6 +73,7 @@ def mutants_command(
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     """
+    needs_checkout("mutants")
     from grader.maintain.mutants import campaign
 
     only = known_todos(todo)
@@ -78,13 +82,16 @@ def mutants_command(
 
 @app.command("bench")
 def bench_command(
+    context: typer.Context,
     rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
     class_: Annotated[
         int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
     ] = 0,
 ) -> None:
     """Measure what a grade costs and what the isolation adds to it; or what a class does."""
+    needs_checkout("bench")
     if class_:
+        refuse_ignored(context, ("rounds",), "with --class")
         from grader.maintain.bench_class import bench_class
 
         bench_class(console, class_)

@@ -23,7 +23,7 @@ from handed_in import (
     source,
 )
 
-from grader.classroom.notebooks import engine_notebook, tidied
+from grader.classroom.nbgrader.notebooks import engine_notebook, tidied
 from grader.judge.rubric import load_rubric
 
 RUNNER = Path(__file__).with_name("run_cells.py")
