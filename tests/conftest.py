@@ -10,6 +10,7 @@ import msgspec
 import pytest
 
 from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.replay import record_expected
 from grader.judge.result import Result
 from grader.maintain.verify import shared_worker
 from grader.report.files import write_json
@@ -93,6 +94,16 @@ def solution(once: Once) -> Result:
 @pytest.fixture(scope="session")
 def starter(once: Once) -> Result:
     return result_of("starter", once)
+
+
+@pytest.fixture(scope="session")
+def expected_runs(once: Once) -> bytes:
+    """The solution's runs, which students' copies of the grader carry with them."""
+
+    def fill(folder: Path) -> None:
+        (folder / "expected_runs.json").write_bytes(record_expected(KIT / "solution"))
+
+    return (once("expected-runs", fill) / "expected_runs.json").read_bytes()
 
 
 def result_of(tree: str, once: Once) -> Result:

@@ -269,6 +269,14 @@ def test_too_small_a_pile_gets_a_sentence(capsys):
     assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
 
 
+def test_it_measures_in_the_starter_with_nothing_done():
+    code = "from experiments import effects; effects.measure((10,), rounds=1, heaps=(10,))"
+    env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": ""}
+    program = [sys.executable, "-c", code]
+    subprocess.run(program, cwd=KIT / "starter", env=env, check=True, capture_output=True)
+
+
+@pytest.mark.soak
 def test_it_runs_in_the_starter_with_nothing_done(tmp_path):
     program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
     env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}

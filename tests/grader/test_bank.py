@@ -5,8 +5,10 @@ from dataclasses import replace
 from hashlib import sha256
 
 import pytest
+from msgspec.structs import replace as replace_in
 
 from grader.judge.grade import KIT
+from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Member, members
 from grader.maintain.verify import grade_member, kit_complaints
@@ -15,8 +17,9 @@ from grader.todo_regions import python_files, read_source, regions_in
 MEMBERS = [*members(KIT)]
 
 
-MOST = {"wrong": 3, "right": 15, "hostile": 18}  # in a group of this kind
+MOST = {"wrong": 3, "right": 8, "hostile": 7}  # of a group of this kind
 MOST_OF_ANOTHER = 10
+SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
 
 
 def chosen(every: list[Member]) -> list[Member]:
@@ -28,7 +31,7 @@ def chosen(every: list[Member]) -> list[Member]:
     """
     groups: dict[tuple[str, ...], list[Member]] = {}
     for member in every:
-        spoiled = sorted(member.todos) if member.kind == "wrong" else []
+        spoiled = sorted(member.todos) if member.kind == "wrong" else [str(bool(member.todos))]
         groups.setdefault((member.kind, *spoiled), []).append(member)
     drawn = []
     for (kind, *_), group in groups.items():
@@ -36,6 +39,24 @@ def chosen(every: list[Member]) -> list[Member]:
         first = sorted(third or group, key=draw)
         drawn += first[: MOST.get(kind, MOST_OF_ANOTHER) if third else 1]
     return drawn
+
+
+def briefly(member: Member) -> tuple[Member, frozenset[str]]:
+    """The TODOs to grade it on, and the member with the points that it must get there.
+
+    One that replaces regions is graded on these alone, another right one on some of each program.
+    """
+    if member.kind == "right":
+        return member, member.todos or SOME
+    points = member.entry.points
+    spoils_more = member.entry.base != "solution" or any(map(is_bonus, member.todos))
+    if member.kind != "wrong" and (spoils_more or not member.todos):
+        return member, member.judged_by
+    if points is not None:
+        rubric = load_rubric()
+        most = sum(todo.max_points for todo in rubric.counted if todo.id in member.todos)
+        points -= rubric.max_points - most
+    return replace(member, entry=replace_in(member.entry, points=points)), member.todos
 
 
 def draw(member: Member) -> float:
@@ -49,9 +70,9 @@ def named(member: Member) -> str:
 
 @pytest.mark.parametrize("member", chosen(MEMBERS), ids=named)
 def test_a_member_gets_the_marks_it_must(member: Member):
-    """Wrong ones are only graded on the TODOs that they spoil."""
-    todos = member.todos if member.kind == "wrong" else member.judged_by
-    assert not grade_member(member, todos).complaint
+    """However long that takes on this machine: `make verify` has limits."""
+    patient = replace(member, entry=replace_in(member.entry, seconds=10**9))
+    assert not grade_member(*briefly(patient)).complaint
 
 
 def test_a_new_member_changes_little_of_what_is_drawn():
