@@ -367,6 +367,7 @@ def test_without_matplotlib_one_sentence_says_how_to_get_figures(tiny, monkeypat
     assert "install matplotlib" in capsys.readouterr().out
 
 
+@pytest.mark.soak
 def test_it_runs_in_the_unfinished_starter(tmp_path):
     command = [sys.executable, "-B", "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
     done = subprocess.run(

@@ -53,6 +53,24 @@ def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded: lis
     assert again[:2] == [replace(each, earlier=True) for each in first]
 
 
+def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded, monkeypatch):
+    source = tmp_path / "5-x.py"
+    source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
+    member = Member("right", "5-x", "package", Entry(), source)
+
+    def edited(chosen: list[Member], jobs: int) -> Iterator[Verdict]:
+        source.write_text("# TODO 5: damp\nreturn\n# END TODO 5\n", encoding="utf-8")
+        yield from usual(chosen, jobs)
+
+    usual = verify.grade_all
+    with monkeypatch.context() as patched:
+        patched.setattr(verify, "grade_all", edited)
+        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=True)]) == 1
+    for _ in range(2):
+        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=False)]) == 1
+    assert graded == ["5-x", "5-x"]
+
+
 def test_what_is_wanted_fresh_is_graded_anew(tmp_path: Path, graded: list[str]):
     for fresh in (False, False, True):
         assert len([*verdicts(BANK[:1], 1, Kept(tmp_path), fresh)]) == 1
