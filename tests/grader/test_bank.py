@@ -42,11 +42,12 @@ def chosen(every: list[Member]) -> list[Member]:
 def briefly(member: Member) -> tuple[Member, frozenset[str]]:
     """The TODOs to grade it on, and the member with the points that it must get there.
 
-    One that replaces regions is graded on these alone, another right one on some of each program.
+    One that replaces regions is graded on these alone, another one that must get all points on some
+    of each program.
     """
-    if member.kind == "right":
-        return member, member.todos or SOME
     points = member.entry.points
+    if member.kind == "right" or (points is None and not member.todos):
+        return member, member.todos or SOME
     spoils_more = member.entry.base != "solution" or any(map(is_bonus, member.todos))
     if member.kind != "wrong" and (spoils_more or not member.todos):
         return member, member.judged_by

