@@ -76,7 +76,7 @@ def verdicts(chosen: list[Member], jobs: int, kept: Kept, fresh: bool) -> Iterat
     """On each member, those of an earlier run first; only sound ones are kept for the next run."""
     anew = []
     for member in chosen:
-        kept.key(member)
+        kept.key(member)  # before anything is graded
         found = None if fresh else kept.read(member)
         if found is None or complaint_of(member, *found):
             anew.append(member)
