@@ -8,6 +8,8 @@ import typer
 from grader.commands import console, known_todos, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT
 
+FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
+
 app = typer.Typer()
 
 
@@ -32,12 +34,16 @@ def sync_command(
 def verify_command(
     jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
 ) -> None:
-    """Grade the bank of wrong, right and hostile submissions: the grader is graded."""
+    """Grade the bank of wrong, right and hostile submissions: the grader is graded.
+
+    What build/verify holds of an earlier run is not graded again, unless something changed.
+    """
     needs_checkout("verify")
     from grader.maintain.verify import verify
 
-    raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+    raise typer.Exit(0 if verify(jobs, only, console, fresh).sound else 1)
 
 
 @app.command("release")
@@ -46,6 +52,7 @@ def release_command(
     / "build"
     / "release",
     jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.
 
@@ -55,7 +62,7 @@ def release_command(
     from grader.maintain.release import Refused, release
 
     try:
-        made = release(out, jobs, console)
+        made = release(out, jobs, console, fresh)
     except Refused as error:
         stop(str(error), "release")
     for path in made:
