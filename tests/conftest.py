@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import Options, grade, opened, shipped_reference
 from grader.judge.replay import record_expected
 from grader.judge.result import Result
 from grader.maintain.sync import students_files
