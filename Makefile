@@ -77,7 +77,7 @@ compiled: $(DEV) ## Compile the stable engine: the same bits, several times fast
 ##@ Handing out
 
 release: $(CORE) ## Make what students get, in build/release, once verify has no complaint
-	@$(PY) -m grader release
+	@$(PY) -m grader release $(if $(FRESH),--fresh)
 
 handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
@@ -91,8 +91,8 @@ notebooks: $(NOTEBOOKS) ## Renew the starter's notebooks with nbgrader
 
 ##@ Looking after the kit
 
-verify: $(CORE) ## Prove the marks: starter 0, solution all, each wrong submission its own
-	@$(PY) -m grader verify
+verify: $(CORE) ## Prove all marks of the bank, those already proven only with FRESH=1
+	@$(PY) -m grader verify $(if $(FRESH),--fresh)
 
 mutants: $(CORE) ## Change the solution in small ways, and see whether the checks notice
 	@$(PY) -m grader mutants
@@ -100,8 +100,8 @@ mutants: $(CORE) ## Change the solution in small ways, and see whether the check
 sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
 
-test: $(DEV) ## Run the test suite
-	@$(PY) -m pytest tests -n 2 --dist loadfile
+test: $(DEV) ## Run the test suite, with a third of the bank; verify and soak have the rest
+	@$(PY) -m pytest tests -n 2 --dist worksteal
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak

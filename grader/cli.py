@@ -11,7 +11,7 @@ from typing import Annotated, NoReturn
 import typer
 
 from grader import student
-from grader.commands import console, graded, known_todos, stop
+from grader.commands import console, graded, known_todos, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
@@ -19,6 +19,9 @@ from grader.judge.submission import CannotGrade
 from grader.report import commands as report
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
+
+FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
+FOR_CLASS = ("jobs", "roster", "adjust", "cluster")  # for a class alone
 
 app = typer.Typer(
     help="Grades submissions of the physics-engine assignment.",
@@ -30,6 +33,7 @@ app = typer.Typer(
 
 @app.command("grade")
 def grade_command(
+    context: typer.Context,
     path: Annotated[
         Path | None,
         typer.Argument(help="The submission: folder, file or zip. Left out: the shipped trees."),
@@ -44,7 +48,9 @@ def grade_command(
     reference: Annotated[
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
     ] = None,
-    jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
+    jobs: Annotated[
+        int, typer.Option(help="For a class: submissions at a time; 0 for one per core.")
+    ] = 0,
     isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
@@ -68,6 +74,7 @@ def grade_command(
 
     Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
     """
+    refuse_what_is_ignored(context, path, class_, cluster)
     options = Options(
         reference or shipped_reference(), isolation, only=known_todos(todo), seed=seed
     )
@@ -84,14 +91,39 @@ def grade_command(
         finish(result, out, json, at_least)
 
 
+def refuse_what_is_ignored(
+    context: typer.Context, path: Path | None, class_: bool, cluster: str
+) -> None:
+    """Each way of grading takes options that the others would pass over in silence."""
+    if path is None and class_:
+        stop("--class needs the submissions: name a folder or a zip of them")
+    if path is None:
+        refuse_ignored(context, (*FOR_ONE, *FOR_CLASS, "out"), "without a submission: name one")
+    elif class_:
+        refuse_ignored(context, FOR_ONE, "with --class, which is for more than one submission")
+    else:
+        refuse_ignored(context, FOR_CLASS, "without --class, which grades a folder or zip of them")
+    if cluster:
+        refuse_ignored(context, ("jobs",), "with --cluster: its workers say how many at a time")
+
+
 @contextmanager
 def submission_at(path: Path) -> Iterator[Path]:
     """The submission itself: what a zip holds is unpacked, in the instructor's grader."""
-    if path.suffix.lower() != ".zip" or not find_spec("grader.classroom"):
+    if not find_spec("grader.classroom"):  # students have no zips and no folders of submissions
         yield path
         return
-    from grader.classroom.intake import opened_submission
+    # Imported here: students have none of it, and it would add 30 ms to every start.
+    from grader.classroom.intake.listing import class_in
+    from grader.classroom.intake.packing import opened_submission
 
+    names = class_in(path) if path.is_dir() else []
+    if names:
+        more = f" and {len(names) - 2} more" if len(names) > 2 else ""
+        stop(
+            f"{path} is no submission but holds some, {', '.join(names[:2])}{more}: grade all of "
+            "them with --class, or name one"
+        )
     try:
         with opened_submission(path) as folder:
             yield folder
@@ -154,10 +186,13 @@ def grade_folder(
     adjust: Path | None,
     cluster: str,
 ) -> NoReturn:
-    from grader.classroom.batch import Wanted, run_class
+    if not find_spec("grader.classroom"):
+        stop("this is the students' grader, and --class needs the whole kit: leave it out")
+    # Imported here: students have none of it, and it would add 80 ms to every start.
+    from grader.classroom.grading import ClassOptions, run_class
 
     try:
-        run = run_class(path, Wanted(options, out, jobs, roster, adjust, cluster), console)
+        run = run_class(path, ClassOptions(options, out, jobs, roster, adjust, cluster), console)
     except (CannotGrade, OSError) as error:
         stop(str(error))
     except KeyboardInterrupt:
@@ -167,6 +202,7 @@ def grade_folder(
 
 def demonstrate(options: Options) -> None:
     """The shipped trees, to show that the grader works here."""
+    needs_checkout("grade", ", or name a submission")
     for name in ("solution", "starter"):
         console.rule(name)
         result = graded(KIT / name, options)

@@ -1,15 +1,18 @@
-"""What the commands share: where they print, how they stop, which TODOs there are."""
+"""What the commands share: where they print, what stops them, which TODOs there are."""
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import NoReturn
 
 import typer
 from rich.console import Console
 
-from grader.judge.grade import Options, grade
+from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
+
+CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
 console = Console(highlight=False, markup=False)
 
@@ -18,6 +21,33 @@ def stop(message: str, cannot: str = "grade") -> NoReturn:
     """End the command with exit status 2, and say why."""
     Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {message}")
     raise typer.Exit(2)
+
+
+def needs_checkout(command: str, instead: str = "") -> None:
+    """Stop where the grader is installed without the kit around it, and say what is missing."""
+    missing = [name for name in CHECKOUT if not (KIT / name).is_dir()]
+    if missing:
+        stop(
+            f"`grader {command}` works on the whole kit, and {KIT} holds no {', '.join(missing)}: "
+            f"run python -m grader {command} in a checkout of the kit{instead}",
+            "go on",
+        )
+
+
+def refuse_ignored(context: typer.Context, names: Collection[str], when: str) -> None:
+    """Stop if any of these options was given: nobody should believe that it counted."""
+    given = [
+        option.opts[-1]
+        for option in context.command.params
+        if option.name in names and was_given(context, option.name or "")
+    ]
+    if given:
+        stop(f"{', '.join(given)} would be ignored {when}", "go on")
+
+
+def was_given(context: typer.Context, name: str) -> bool:
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
 
 
 def known_todos(todos: list[str] | None) -> frozenset[str]:

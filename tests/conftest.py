@@ -1,13 +1,20 @@
-"""Shared by the tests: the kit, what students get of it, and changed copies of a tree handed in."""
+"""Shared by the tests: what students get, changed copies of a tree handed in, and results."""
 
 import os
 import shutil
+import time
 from collections.abc import Callable
 from pathlib import Path
 
+import msgspec
 import pytest
 
+from grader.judge.grade import Options, grade, opened, shipped_reference
+from grader.judge.replay import record_expected
+from grader.judge.result import Result
 from grader.maintain.sync import students_files
+from grader.maintain.verify import shared_worker
+from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -16,6 +23,8 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 KIT = Path(__file__).parents[1]
 
 HandIn = Callable[..., Path]
+Once = Callable[[str, Callable[[Path], object]], Path]
+LONGEST = 300  # s that a process waits for what another one makes
 
 
 @pytest.fixture(scope="session")
@@ -48,3 +57,71 @@ def hand_in(tmp_path: Path) -> HandIn:
         return folder
 
     return make
+
+
+@pytest.fixture(scope="session")
+def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
+    """Have a folder filled once by one of the processes that run the tests, and read by all."""
+    top = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        top = top.parent
+
+    def filled(name: str, fill: Callable[[Path], object]) -> Path:
+        folder, ended = top / name, top / f"{name}-ended"
+        try:
+            folder.mkdir()
+        except FileExistsError:
+            wait_for(ended)
+        else:
+            try:
+                fill(folder)
+            except BaseException as error:
+                ended.with_suffix(".part").write_text(f"{type(error).__name__}: {error}")
+                raise
+            else:
+                ended.with_suffix(".part").touch()
+            finally:
+                ended.with_suffix(".part").replace(ended)
+        assert ended.read_text() == "", f"another process could not make {name}"
+        return folder
+
+    return filled
+
+
+def wait_for(path: Path) -> None:
+    for _ in range(LONGEST * 10):
+        if path.exists():
+            return
+        time.sleep(0.1)
+    pytest.fail(f"{path} does not come")
+
+
+@pytest.fixture(scope="session")
+def solution(once: Once) -> Result:
+    """What the solution gets, graded with the reference."""
+    return result_of("solution", once)
+
+
+@pytest.fixture(scope="session")
+def starter(once: Once) -> Result:
+    return result_of("starter", once)
+
+
+@pytest.fixture(scope="session")
+def expected_runs(once: Once) -> bytes:
+    """The solution's runs, which students' copies of the grader carry with them."""
+
+    def fill(folder: Path) -> None:
+        with opened(KIT / "solution") as open_child:
+            (folder / "expected_runs.json").write_bytes(record_expected(open_child))
+
+    return (once("expected-runs", fill) / "expected_runs.json").read_bytes()
+
+
+def result_of(tree: str, once: Once) -> Result:
+    def fill(folder: Path) -> None:
+        result = grade(KIT / tree, Options(shipped_reference()), shared_worker())
+        write_json(result, folder / "result.json")
+
+    folder = once(f"graded-{tree}", fill)
+    return msgspec.json.decode((folder / "result.json").read_bytes(), type=Result)

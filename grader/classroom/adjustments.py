@@ -23,8 +23,8 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.intake import Found
-from grader.classroom.roster import folded
+from grader.classroom.intake.found import Found
+from grader.classroom.names import folded
 from grader.judge.submission import CannotGrade
 
 DAY = timedelta(days=1)

@@ -90,7 +90,7 @@ class Book:
         write_whole(lines(outcomes), self.path)
         write_whole(as_table(outcomes).encode("utf-8-sig"), self.table)
 
-    def strangers(self, names: Iterable[str]) -> list[str]:
+    def others_than(self, names: Iterable[str]) -> list[str]:
         """Results in the folder that belong to no submission of this class."""
         return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
 

@@ -18,16 +18,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from grader.classroom.batch import (
-    AHEAD,
-    LOST,
-    GaveUp,
-    Graded,
-    fingerprint,
-    grade_package,
-    packed_reference,
-)
-from grader.classroom.intake import Package
+from grader.classroom.executor import AHEAD, LOST, ExecutorFailed, Graded, grade_package
+from grader.classroom.fingerprint import fingerprint, packed_reference
+from grader.classroom.intake.found import Package
 from grader.judge.grade import Options
 from grader.judge.submission import CannotGrade
 
@@ -41,7 +34,7 @@ ONE_AT_A_TIME = threading.Lock()  # pytest runs once in a process, however many 
 def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Graded:
     """Grade one submission with a grader that must be the one whose fingerprint is `made`."""
     if fingerprint() != made:
-        raise GaveUp(other_version([socket.gethostname()]))
+        raise ExecutorFailed(other_version([socket.gethostname()]))
     if reference is not None:
         options = replace(options, reference=unpacked(reference.digest, reference))
     with ONE_AT_A_TIME:
@@ -74,26 +67,26 @@ class Cluster:
 
     def __init__(self, client: Any, options: Options) -> None:
         self.client = client
-        self.executor = client.get_executor(pure=False)
+        self.dask = client.get_executor(pure=False)
         self.reference = packed_reference(options.reference)
         self.options = replace(options, reference=None)
 
-    def room(self) -> int:
+    def capacity(self) -> int:
         try:
             return max(1, len(self.client.nthreads())) * (1 + AHEAD)
         except OSError as error:
             raise CannotGrade(LOST) from error
 
     def submit(self, package: Package) -> "Future[Graded]":
-        future: Future[Graded] = self.executor.submit(
+        future: Future[Graded] = self.dask.submit(
             grade_here, package, self.options, self.reference, fingerprint()
         )
         return future
 
-    def mend(self) -> None:
+    def restart(self) -> None:
         pass
 
-    def alone(self, package: Package) -> Graded:
+    def run_alone(self, package: Package) -> Graded:
         return self.submit(package).result()
 
 

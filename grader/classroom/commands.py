@@ -1,4 +1,8 @@
-"""The commands for a class: a course with nbgrader, and marks for an LMS."""
+"""The commands for a class: a course with nbgrader, and marks for an LMS.
+
+Each imports what it needs itself: all of it together would add a tenth of a second to every start
+of the grader, `check` included.
+"""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,33 +10,7 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.classroom import notebooks
-from grader.classroom.nbgrader import (
-    ASSIGNMENT,
-    ENGINE,
-    INSTRUCTOR,
-    NoCourse,
-    collect,
-    fill,
-    grade_submitted,
-    make_course,
-    nbgrader_api,
-    opened,
-    read_results,
-)
-from grader.classroom.roster import (
-    CannotRead,
-    folded,
-    load_marking,
-    marks,
-    names_of,
-    parts_from_gradebook,
-    parts_from_results,
-    people,
-    read_roster,
-    why,
-)
-from grader.commands import console, stop
+from grader.commands import console, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -51,6 +29,9 @@ def course_command(
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
+    needs_checkout("nbgrader course")
+    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
+
     try:
         files = make_course(course, renew)
     except NoCourse as error:
@@ -65,6 +46,9 @@ def collect_command(
     course: Course = Path("."),
 ) -> None:
     """Take submissions into the course folder. Exit status 1: a name could not be used."""
+    needs_checkout("nbgrader collect")
+    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, collect
+
     try:
         taken = list(collect(folder, course))
     except NoCourse as error:
@@ -77,6 +61,7 @@ def collect_command(
 
 @course_app.command("bridge")
 def bridge_command(
+    context: typer.Context,
     results: Annotated[
         list[Path] | None, typer.Argument(help="Result files, or folders of them; or grade now.")
     ] = None,
@@ -86,6 +71,12 @@ def bridge_command(
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
 ) -> None:
     """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
+    if results:
+        given = ("jobs", "isolation", "seed")
+        refuse_ignored(context, given, "with results, which are graded already")
+    from grader.classroom.nbgrader.course import NoCourse, grade_submitted
+    from grader.classroom.nbgrader.gradebook import fill, read_results
+
     troubles: list[str] = []
     try:
         if not results:
@@ -109,6 +100,10 @@ def bridge_command(
 @course_app.command("release")
 def release_command() -> None:
     """Renew the notebooks that the starter holds, by nbgrader itself."""
+    needs_checkout("nbgrader release")
+    from grader.classroom.nbgrader import notebooks
+    from grader.classroom.nbgrader.course import NoCourse
+
     try:
         names = notebooks.release(KIT)
     except NoCourse as error:
@@ -128,6 +123,7 @@ def gradescope_command(
     seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
 ) -> None:
     """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
+    needs_checkout("gradescope")
     from grader.classroom.gradescope import NoWheels, write_autograder
     from grader.classroom.gradescope.autograder import Settings
 
@@ -140,6 +136,7 @@ def gradescope_command(
 
 @app.command("dashboard")
 def dashboard_command(
+    context: typer.Context,
     results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
     submissions: Annotated[
         Path | None, typer.Option(help="The class itself: one student's replay per known mistake.")
@@ -150,9 +147,11 @@ def dashboard_command(
     seed: Annotated[int | None, typer.Option(help="The seed it was graded with.")] = None,
 ) -> None:
     """Make a page of a class, and beside it a report for each student."""
-    from grader.classroom.batch import people_of
+    if submissions is None:
+        refuse_ignored(context, ("roster", "seed"), "without --submissions")
     from grader.classroom.dashboard import NoResults, read_class, with_replays, write_dashboard
-    from grader.classroom.intake import opened_class
+    from grader.classroom.grading import people_of
+    from grader.classroom.intake.listing import opened_class
 
     try:
         entries = read_class(results)
@@ -188,7 +187,13 @@ def marks_command(
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
+    if settings is None and course is None:
+        needs_checkout("marks", ", or name marks.toml with --settings")
     from grader.classroom.dashboard import NoResults, read_class
+    from grader.classroom.marks import ENGINE, load_marking, marks, parts_from_results, why
+    from grader.classroom.nbgrader.course import INSTRUCTOR, NoCourse
+    from grader.classroom.nbgrader.gradebook import parts_from_gradebook
+    from grader.classroom.roster import CannotRead, read_roster
 
     try:
         listed = read_roster(roster)
@@ -215,15 +220,14 @@ def marks_command(
 @course_app.command("roster")
 def roster_command(roster: List, course: Course = Path("."), key: Key = "") -> None:
     """Tell the gradebook the names of a class list."""
+    from grader.classroom.nbgrader.course import NoCourse
+    from grader.classroom.nbgrader.gradebook import tell_names
+    from grader.classroom.roster import CannotRead, read_roster
+
     try:
         listed = read_roster(roster)
         column = listed.key(key)
-        with opened(course, nbgrader_api()) as book:
-            known = {folded(student.id): student.id for student in book.students}
-            for person in people(listed, column):
-                name = person.pop("id")
-                name = next((known[each] for each in names_of(name) if each in known), name)
-                book.update_or_create_student(name, **person)
+        tell_names(course, listed, column)
     except (CannotRead, NoCourse) as error:
         stop(str(error), "go on")
     console.print(f"{len(listed.rows)} students are in the gradebook, by {column}")

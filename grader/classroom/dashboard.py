@@ -16,7 +16,8 @@ import msgspec
 from markupsafe import Markup
 
 from grader.classroom.book import Book, Outcome, outcome_of
-from grader.classroom.intake import CannotTake, Intake, pack
+from grader.classroom.intake.found import CannotTake, Intake
+from grader.classroom.intake.packing import pack
 from grader.judge.children import start_worker
 from grader.judge.grade import Options, grade, work_folder
 from grader.judge.result import Result, State, TodoResult

@@ -1,28 +1,12 @@
-"""Class lists in, marks out: the CSV files of Canvas and Moodle.
-
-One mark per student is made from the parts of the assignment by the shares in marks.toml. Names and
-identifiers are written as they came, but never so that a spreadsheet would run them.
-"""
+"""Class lists: the CSV files of Canvas and Moodle, and who is meant by what an LMS says."""
 
 import csv
 import io
-import unicodedata
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-import msgspec
-from msgspec import Struct
-
-from grader.classroom import nbgrader
-from grader.classroom.nbgrader import ASSIGNMENT, ENGINE, NoCourse
-from grader.report.sinks.tables import harmless
-from grader.words import clean
-
-if TYPE_CHECKING:
-    from grader.classroom.book import Outcome
+from grader.classroom.names import folded, names_of
 
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 MOODLE = ("First name", "Last name", "ID number", "Email address")
@@ -35,106 +19,7 @@ class CannotRead(Exception):
     """A file that is not what it should be; the message names it and says what to do."""
 
 
-# ---------------------------------------------------------------- how marks are made
-
-
-class Marking(Struct, frozen=True, forbid_unknown_fields=True):
-    """marks.toml."""
-
-    title: str
-    shares: dict[str, float]
-    total: float = 100
-    decimals: int = 1
-    absent: int | float | str = 0
-
-
-@dataclass(frozen=True)
-class Part:
-    """What a student has in one notebook."""
-
-    points: float
-    max_points: float
-    waiting: bool = False  # for a person to grade it
-    note: str = ""  # why these points
-
-
-Parts = dict[str, Part]
-
-
-def load_marking(path: Path) -> Marking:
-    try:
-        marking = msgspec.toml.decode(path.read_bytes(), type=Marking)
-    except OSError as error:
-        raise CannotRead(f"there is no {path}: it says what each part is worth") from error
-    except msgspec.MsgspecError as error:
-        raise CannotRead(f"{path}: {error}") from error
-    wrong = [f"{name} = {share}" for name, share in marking.shares.items() if not 0 <= share < 1e9]
-    if wrong or not sum(marking.shares.values()):
-        raise CannotRead(f"{path}: shares must be 0 or more, and not all 0 ({', '.join(wrong)})")
-    if marking.total <= 0 or not 0 <= marking.decimals <= 6:
-        raise CannotRead(f"{path}: total must be above 0, and decimals from 0 to 6")
-    return marking
-
-
-def mark_of(parts: Parts, marking: Marking) -> str:
-    """One mark from all parts; a part that is missing counts as 0."""
-    share = sum(
-        weight * parts[name].points / parts[name].max_points
-        for name, weight in marking.shares.items()
-        if name in parts and parts[name].max_points > 0
-    )
-    mark = Decimal(marking.total * share / sum(marking.shares.values()))
-    # what binary fractions leave over must not decide which way to round
-    mark = mark.quantize(Decimal("1e-9"))
-    return str(mark.quantize(Decimal(1).scaleb(-marking.decimals), ROUND_HALF_UP))
-
-
-def waiting(parts: Parts, marking: Marking) -> list[str]:
-    """The parts that a person must still grade."""
-    return [name for name in marking.shares if name in parts and parts[name].waiting]
-
-
-def parts_from_gradebook(course: Path, marking: Marking) -> dict[str, Parts]:
-    """What everybody has in every notebook, late penalties taken off."""
-    api = nbgrader.nbgrader_api()
-    found: dict[str, Parts] = {}
-    with nbgrader.opened(course, api) as book:
-        try:
-            notebooks = {notebook.name for notebook in book.find_assignment(ASSIGNMENT).notebooks}
-        except api.MissingEntry as error:
-            raise NoCourse(f"the gradebook knows no assignment {ASSIGNMENT}") from error
-        unknown = sorted(set(marking.shares) - notebooks)
-        if unknown:
-            raise CannotRead(f"shares: there is no notebook {', '.join(unknown)} in the gradebook")
-        for submission in book.assignment_submissions(ASSIGNMENT):
-            found[submission.student.id] = {
-                notebook.name: Part(
-                    max(notebook.score - (notebook.late_submission_penalty or 0), 0),
-                    notebook.max_score,
-                    notebook.needs_manual_grade,
-                )
-                for notebook in submission.notebooks
-            }
-    return found
-
-
-def parts_from_results(outcomes: Iterable["Outcome"]) -> dict[str, Parts]:
-    """The engine alone, where no notebooks are used: after adjustments, which are its note.
-
-    What could not be graded waits for a person.
-    """
-    return {
-        each.name: {ENGINE: Part(each.final, each.max_points, bool(each.trouble), why(each))}
-        for each in outcomes
-    }
-
-
-def why(outcome: "Outcome") -> str:
-    """Why these are its points, if they are not what the checks gave."""
-    return outcome.trouble or "; ".join(outcome.reasons)
-
-
-# ---------------------------------------------------------------- the class list
+# ---------------------------------------------------------------- reading
 
 
 @dataclass
@@ -189,16 +74,6 @@ def is_student(row: dict[str, str]) -> bool:
     return row["Student"].strip() not in ("", POINTS_POSSIBLE, TEST_STUDENT)
 
 
-def folded(words: str) -> str:
-    """What two spellings of one identifier have in common."""
-    return unicodedata.normalize("NFC", words).strip().casefold()
-
-
-def names_of(cell: str) -> list[str]:
-    """What a student may be called in the gradebook: the cell, or the first half of an address."""
-    return [name for name in dict.fromkeys([folded(cell), folded(cell).partition("@")[0]]) if name]
-
-
 def people(roster: Roster, key: str) -> Iterator[dict[str, str]]:
     """Students for nbgrader: id, names and address, as far as the class list has them."""
     for row in roster.rows:
@@ -213,82 +88,48 @@ def people(roster: Roster, key: str) -> Iterator[dict[str, str]]:
         }
 
 
-# ---------------------------------------------------------------- marks for the LMS
+# ---------------------------------------------------------------- who is meant
 
 
-@dataclass(frozen=True)
-class Marks:
-    """A file for the LMS, and what a person should know about it."""
+class ClassList:
+    """Who is in the class, by everything that an LMS may call them; empty without a roster."""
 
-    text: str
-    given: int
-    notes: list[str]
+    def __init__(self, roster: Roster | None = None, key: str = "") -> None:
+        self.names: list[str] = []
+        self._known: dict[tuple[str, str], set[str]] = {}
+        if roster is None:
+            return
+        key = roster.key(key)
+        for row in roster.rows:
+            if not row[key].strip():
+                continue
+            self.names.append(row[key].strip())
+            for column, label in [*row.items(), *(("name", name) for name in names_in(row))]:
+                self._known.setdefault((column, folded(label)), set()).add(row[key].strip())
 
+    def name_of(self, columns: Iterable[str], *labels: object) -> str | None:
+        """The one student whom one of the labels means."""
+        for column in columns:
+            for label in labels:
+                names = self._known.get((column, folded(str(label or ""))), set())
+                if label and len(names) == 1:
+                    return next(iter(names))
+        return None
 
-def marks(
-    roster: Roster, key: str, scores: dict[str, Parts], marking: Marking, so_far: bool = False
-) -> Marks:
-    """The class list with a mark for each student.
+    def absent(self, handed_in: Iterable[str]) -> list[str]:
+        """Those who handed in nothing, given the names of the others."""
+        here = {folded(name) for name in handed_in}
+        return [name for name in self.names if not here & set(names_of(name))]
 
-    A mark that still waits for a person is left empty, unless `so_far`.
-    """
-    by_name = {folded(student): student for student in scores}
-    rows, notes, met = [], [], set()
-    given = 0
-    for row in roster.rows:
-        student = next((by_name[name] for name in names_of(row[key]) if name in by_name), None)
-        mark, words = str(marking.absent), "nothing handed in"
-        if student is not None:
-            met.add(student)
-            mark, words = mark_of(scores[student], marking), summary(scores[student], marking)
-            left = waiting(scores[student], marking)
-            if left and not so_far:
-                mark = ""
-                notes.append(f"{row[key]}: no mark yet, {', '.join(left)} must be graded by hand")
-        else:
-            notes.append(f"{row[key]}: nothing handed in")
-        given += mark != ""
-        rows.append((row, mark, words))
-    for student in sorted(set(scores) - met):
-        notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
-    table = canvas_table(roster, rows, marking) if roster.canvas else plain_table(roster, key, rows)
-    return Marks(as_csv(table, roster), given, notes)
+    def unlisted(self, handed_in: Iterable[str]) -> list[str]:
+        """Those who handed in and are not in the class list."""
+        known = {each for name in self.names for each in names_of(name)}
+        return [name for name in handed_in if self.names and folded(name) not in known]
 
 
-def summary(parts: Parts, marking: Marking) -> str:
-    """What makes the mark, for the column of feedback."""
-    return "; ".join(
-        f"{name} {parts[name].points:g} / {parts[name].max_points:g}"
-        + f" ({clean(parts[name].note)})" * bool(parts[name].note)
-        for name in marking.shares
-        if name in parts
-    )
-
-
-Marked = tuple[dict[str, str], str, str]  # a row of the class list, its mark, the summary
-
-
-def canvas_table(roster: Roster, rows: list[Marked], marking: Marking) -> list[list[str]]:
-    """Canvas takes back its own first columns and one column per assignment."""
-    own = [name for name in CANVAS if name in roster.columns]
-    title = next((c for c in roster.columns if c.startswith(f"{marking.title} (")), marking.title)
-    table = [[*own, title]]
-    if roster.possible:
-        table.append([f"    {POINTS_POSSIBLE}", *[""] * (len(own) - 1), f"{marking.total:g}"])
-    table += [[*(row[name] for name in own), mark] for row, mark, _ in rows]
-    return table
-
-
-def plain_table(roster: Roster, key: str, rows: list[Marked]) -> list[list[str]]:
-    """Moodle asks at import which column is which."""
-    own = [name for name in roster.columns if name in MOODLE or name == key]
-    table = [[*own, "Grade", "Feedback"]]
-    table += [[*(row[name] for name in own), mark, words] for row, mark, words in rows]
-    return table
-
-
-def as_csv(table: list[list[str]], roster: Roster) -> str:
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, delimiter=roster.delimiter, lineterminator="\r\n")
-    writer.writerows([harmless(cell) for cell in row] for row in table)
-    return roster.mark + out.getvalue()
+def names_in(row: dict[str, str]) -> Iterator[str]:
+    """Someone's full name, first name first and last name first."""
+    last, _, first = row.get("Student", "").partition(", ")
+    last, first = row.get("Last name", row.get("Surname", last)), row.get("First name", first)
+    if first and last:
+        yield from (f"{first} {last}", f"{last} {first}")

@@ -156,7 +156,7 @@ class Grading:
             self.reference,
             self.sandbox.open_child,
             self.find_unusable(),
-            self.options.only,
+            self.options.wants,
             self.options.seed,
             self.options.progress,
             observations=self.observations,

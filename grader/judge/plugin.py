@@ -40,7 +40,7 @@ class GradingPlugin:
     reference: Reference
     open_child: Callable[[int], Child]  # takes the budget in CPU seconds
     unusable: dict[str, Broke | NotYet]  # module -> why it cannot be imported
-    only: frozenset[str] = frozenset()  # TODO ids; empty for all
+    wanted: Callable[[Todo], bool]
     seed: int | None = None
     progress: Callable[[CheckResult], None] | None = None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
@@ -48,9 +48,6 @@ class GradingPlugin:
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     trouble: str = ""  # why a file of checks could not be read
     interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
-
-    def wanted(self, todo: Todo) -> bool:
-        return not self.only or todo.id in self.only
 
     def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
         self.interrupted = excinfo.value

@@ -18,8 +18,8 @@ import psutil
 from rich.console import Console
 from rich.table import Table
 
-from grader.classroom.batch import shared_worker
 from grader.classroom.book import read_book
+from grader.classroom.executor import shared_worker
 from grader.judge import plugin
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.maintain.bank import members

@@ -5,8 +5,10 @@ from typing import Annotated
 
 import typer
 
-from grader.commands import console, known_todos, stop
+from grader.commands import console, known_todos, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT
+
+FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
 
 app = typer.Typer()
 
@@ -16,6 +18,7 @@ def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
     """Carry the solution's given code over into the starter."""
+    needs_checkout("sync")
     from grader.maintain.sync import OutOfStep, sync
 
     try:
@@ -31,11 +34,16 @@ def sync_command(
 def verify_command(
     jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
 ) -> None:
-    """Grade the bank of wrong, right and hostile submissions: the grader is graded."""
+    """Grade the bank of wrong, right and hostile submissions: the grader is graded.
+
+    What build/verify holds of an earlier run is not graded again, unless something changed.
+    """
+    needs_checkout("verify")
     from grader.maintain.verify import verify
 
-    raise typer.Exit(0 if verify(jobs, only, console).sound else 1)
+    raise typer.Exit(0 if verify(jobs, only, console, fresh).sound else 1)
 
 
 @app.command("release")
@@ -44,15 +52,17 @@ def release_command(
     / "build"
     / "release",
     jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.
 
     Exit status 0: it is there, 2: it was not made, and why.
     """
+    needs_checkout("release")
     from grader.maintain.release import Refused, release
 
     try:
-        made = release(out, jobs, console)
+        made = release(out, jobs, console, fresh)
     except Refused as error:
         stop(str(error), "release")
     for path in made:
@@ -70,6 +80,7 @@ def mutants_command(
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     """
+    needs_checkout("mutants")
     from grader.maintain.mutants import campaign
 
     only = known_todos(todo)
@@ -78,13 +89,16 @@ def mutants_command(
 
 @app.command("bench")
 def bench_command(
+    context: typer.Context,
     rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
     class_: Annotated[
         int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
     ] = 0,
 ) -> None:
     """Measure what a grade costs and what the isolation adds to it; or what a class does."""
+    needs_checkout("bench")
     if class_:
+        refuse_ignored(context, ("rounds",), "with --class")
         from grader.maintain.bench_class import bench_class
 
         bench_class(console, class_)

@@ -41,9 +41,13 @@ class Refused(Exception):
     """Nothing is handed out; the message says why."""
 
 
-def release(out: Path, jobs: int, console: Console) -> list[Path]:
-    """Verify the kit and build the release into `out`; returns what was written."""
-    if not verify(jobs, "", console).sound:
+def release(out: Path, jobs: int, console: Console, fresh: bool = False) -> list[Path]:
+    """Verify the kit and build the release into `out`; returns what was written.
+
+    What an earlier `verify` found sound and nothing has touched since is not graded again, unless
+    all is to be graded `fresh`.
+    """
+    if not verify(jobs, "", console, fresh).sound:
         raise Refused("`grader verify` has complaints, see above")
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         work = Path(folder)

@@ -15,7 +15,7 @@ from grader.todo_regions import python_files, regions_in, replaced
 
 LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
 SKIPPED = {
-    "notebooks",  # the starter's are made by nbgrader: see classroom/notebooks.py
+    "notebooks",  # the starter's are made by nbgrader: see classroom/nbgrader/notebooks.py
     "build",
     "__pycache__",
     ".ipynb_checkpoints",

@@ -1,26 +1,35 @@
-"""The grader is graded: the trees, the rubric and every member of the bank."""
+"""The grader is graded: the trees, the rubric and every member of the bank.
+
+A member that got the marks it must is not graded again until something changes that decides about
+them, so a run that was stopped goes on where it was.
+"""
 
 import os
 import tempfile
 import time
+from collections import Counter as Count
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from functools import cache
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
+from grader.classroom.executor import begin_process
 from grader.classroom.progress import Counter
 from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Entry, Member, members
+from grader.maintain.kept import Kept
 from grader.maintain.sync import sync
 from grader.maintain.traces import watched
+
+KEPT = KIT / "build" / "verify"
 
 
 @dataclass
@@ -31,6 +40,7 @@ class Verdict:
     result: Result | None
     seconds: float
     complaint: str
+    earlier: bool = False  # graded by an earlier run
 
 
 @dataclass
@@ -43,12 +53,15 @@ class Report:
         return not self.complaints and not any(each.complaint for each in self.verdicts)
 
 
-def verify(jobs: int, only: str, console: Console) -> Report:
-    """Grade the bank, as far as its names contain `only`; prints a table."""
+def verify(jobs: int, only: str, console: Console, fresh: bool = False) -> Report:
+    """Grade the bank, as far as its names contain `only`; prints a table.
+
+    What an earlier run found sound still is, unless all is to be graded `fresh`.
+    """
     report = Report(complaints=list(kit_complaints()))
     chosen = [each for each in [*trees(), *members(KIT)] if only in f"{each.kind}/{each.name}"]
     with Counter("grading the bank", len(chosen), console) as counter:
-        for verdict in grade_all(chosen, jobs):
+        for verdict in verdicts(chosen, jobs, Kept(KEPT), fresh):
             report.verdicts.append(verdict)
             counter.reached(len(report.verdicts))
             if verdict.complaint:
@@ -57,6 +70,22 @@ def verify(jobs: int, only: str, console: Console) -> Report:
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)
     return report
+
+
+def verdicts(chosen: list[Member], jobs: int, kept: Kept, fresh: bool) -> Iterator[Verdict]:
+    """On each member, those of an earlier run first; only sound ones are kept for the next run."""
+    anew = []
+    for member in chosen:
+        kept.key(member)  # before anything is graded
+        found = None if fresh else kept.read(member)
+        if found is None or complaint_of(member, *found):
+            anew.append(member)
+        else:
+            yield Verdict(member, *found, "", earlier=True)
+    for verdict in grade_all(anew, jobs):
+        if verdict.result is not None and not verdict.complaint:
+            kept.write(verdict.member, verdict.result, verdict.seconds)
+        yield verdict
 
 
 def trees() -> list[Member]:
@@ -77,10 +106,16 @@ def kit_complaints() -> Iterator[str]:
 
 def grade_all(chosen: Iterable[Member], jobs: int) -> Iterator[Verdict]:
     context = get_context("spawn")
-    with ProcessPoolExecutor(jobs or os.cpu_count(), mp_context=context) as pool:
+    with ProcessPoolExecutor(jobs or os.cpu_count(), context, begin_process) as pool:
         futures = [pool.submit(grade_member, member) for member in chosen]
-        for future in as_completed(futures):
-            yield future.result()
+        try:
+            for future in as_completed(futures):
+                yield future.result()
+        except BaseException:  # somebody is tired of waiting
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in active_children():
+                process.kill()
+            raise
 
 
 def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
@@ -92,7 +127,8 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
         options = Options(shipped_reference(), only=todos)
         start = time.monotonic()
         try:
-            with watched(Path(folder, "temporary")) as traces:
+            name = member.name if member.source else ""  # a tree leaves nothing on purpose
+            with watched(Path(folder, "temporary"), name) as traces:
                 # One without fork keeps processes ahead, as if left behind: not to be shared.
                 shared = worker if isinstance(worker, WarmWorker) else None
                 result = grade(submission, options, shared)
@@ -100,8 +136,18 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
-        complaint = member.complaint(result, seconds) or traces.complaint
+        complaint = complaint_of(member, result, seconds) or traces.complaint
         return Verdict(member, result, seconds, complaint)
+
+
+def complaint_of(member: Member, result: Result, seconds: float) -> str:
+    """What is wrong with its marks, or with the name that its mistake was given."""
+    if complaint := member.complaint(result, seconds):
+        return complaint
+    if member.kind == "wrong" and member.misnamed(result) == "wrong":
+        names = sorted({todo.misconception for todo in result.todos if todo.misconception})
+        return f"its mistake is named {', '.join(names)}"
+    return ""
 
 
 @cache
@@ -118,16 +164,30 @@ def show(report: Report, console: Console) -> None:
     for each in report.verdicts:
         table.add_row(*row(each))
     console.print(table)
-    wrong = [v for v in report.verdicts if v.member.kind == "wrong" and v.result is not None]
-    named = [v.member.misnamed(v.result) for v in wrong if v.result is not None]
-    counts = {kind: named.count(kind) for kind in ("right", "wrong", "none")}
-    bad = sum(1 for v in report.verdicts if v.complaint)
-    console.print(
-        f"{len(report.verdicts)} members, {bad} with the wrong marks; mistakes named rightly: "
-        f"{counts['right']}, not named: {counts['none']}, named wrongly: {counts['wrong']}"
-    )
+    for line in summary(report.verdicts):
+        console.print(line)
     for complaint in report.complaints:
         console.print(f"the kit: {complaint}")
+
+
+def summary(verdicts: list[Verdict]) -> Iterator[str]:
+    """How many of each kind there were, how many are as they must, and what was not graded now."""
+    all_of = Count(each.member.kind for each in verdicts)
+    bad = Count(each.member.kind for each in verdicts if each.complaint)
+    for kind, count in all_of.items():
+        yield f"{kind}: {count}, of which {bad[kind]} with a complaint"
+    named = Count(
+        each.member.misnamed(each.result)
+        for each in verdicts
+        if each.member.kind == "wrong" and each.result is not None
+    )
+    yield (
+        f"mistakes named rightly: {named['right']}, not named: {named['none']}, "
+        f"named wrongly: {named['wrong']}"
+    )
+    earlier = sum(each.earlier for each in verdicts)
+    now = len(verdicts) - earlier
+    yield f"{len(verdicts)} members: {now} graded now, {earlier} taken from an earlier run"
 
 
 def row(verdict: Verdict) -> list[str]:

@@ -367,6 +367,7 @@ def test_without_matplotlib_one_sentence_says_how_to_get_figures(tiny, monkeypat
     assert "install matplotlib" in capsys.readouterr().out
 
 
+@pytest.mark.soak
 def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     command = [sys.executable, "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
     done = subprocess.run(

@@ -3,6 +3,7 @@
 import builtins
 import gc
 import json
+import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -270,6 +271,14 @@ def test_too_small_a_pile_gets_a_sentence(capsys):
     assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
 
 
+def test_it_measures_in_a_students_folder_with_nothing_done(handed_out):
+    code = "from experiments import effects; effects.measure((10,), rounds=1, heaps=(10,))"
+    program = [sys.executable, "-c", code]
+    environment = {**os.environ, "PYTHONPATH": ""}
+    subprocess.run(program, cwd=handed_out, env=environment, check=True, capture_output=True)
+
+
+@pytest.mark.soak
 def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
     program += ["--out", str(tmp_path)]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
-from grader.classroom.intake import Found
+from grader.classroom.intake.found import Found
 from grader.judge.submission import CannotGrade
 
 DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)

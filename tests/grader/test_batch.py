@@ -1,5 +1,6 @@
 """Grading a class: what is kept, what is graded again, and what survives a kill."""
 
+import ast
 import csv
 import io
 import json
@@ -18,19 +19,14 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from grader.classroom import batch, commands, progress
+from grader.classroom import commands, grading, progress
 from grader.classroom.adjustments import Adjust, Adjustments
-from grader.classroom.batch import (
-    Graded,
-    Pool,
-    Run,
-    Wanted,
-    grade_class,
-    key_of,
-    page_of,
-    run_class,
-)
-from grader.classroom.intake import Package, opened_class
+from grader.classroom.batch import Run, grade_class
+from grader.classroom.executor import Graded, Pool
+from grader.classroom.fingerprint import DECIDING, deciding_files, key_of
+from grader.classroom.grading import ClassOptions, page_of, run_class
+from grader.classroom.intake.found import Package
+from grader.classroom.intake.listing import opened_class
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result, TodoResult
 from grader.judge.submission import CannotGrade
@@ -67,7 +63,7 @@ class Inline:
     def __init__(self) -> None:
         self.names: list[str] = []
 
-    def room(self) -> int:
+    def capacity(self) -> int:
         return 1
 
     def submit(self, package: Package) -> "Future[Graded]":
@@ -86,11 +82,11 @@ def classroom(tmp_path: Path) -> Path:
 
 
 def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
-    """One run; `.names` of its crew are those that were graded anew."""
-    crew = Inline()
+    """One run; `.names` of its executor are those that were graded anew."""
+    executor = Inline()
     with opened_class(classroom) as intake:
-        run = grade_class(intake, classroom.parent / "out", key, crew, QUIET, adjustments)
-    run.names = crew.names
+        run = grade_class(intake, classroom.parent / "out", key, executor, QUIET, adjustments)
+    run.names = executor.names
     return run
 
 
@@ -175,6 +171,29 @@ def test_the_key_depends_on_all_that_decides(tmp_path):
     assert len(keys) == 5 and key_of(Options(seed=1)) in keys
 
 
+def test_what_decides_no_points_does_not_count(tmp_path):
+    names = ("checks/todo_1.py", "checks/rubric.toml", "judge/grade.py", "worker/child.py")
+    others = ("player/page.py", "report/terminal.py", "cli.py", "watch.py", "classroom/book.py")
+    for name in (*names, *others, "protocol.py", "judge/notes.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    found = [path.relative_to(tmp_path).as_posix() for path in deciding_files(tmp_path)]
+    assert found == sorted([*names, "protocol.py"])
+
+
+def test_what_decides_uses_nothing_that_does_not_count():
+    top = KIT / "grader"
+    used = {}
+    for path in deciding_files(top):
+        if path.suffix == ".py":
+            for node in ast.walk(ast.parse(path.read_bytes())):
+                if isinstance(node, ast.ImportFrom) and str(node.module).startswith("grader."):
+                    used.setdefault(str(node.module).split(".")[1], path.name)
+    places = {Path(name).stem for name in DECIDING}
+    assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
+    assert used.keys() - places <= {"player"}, used  # replays, which show what was decided
+
+
 # ---------------------------------------------------------------- adjustments, table, notes
 
 
@@ -221,12 +240,12 @@ def test_names_and_words_are_harmless_in_the_table(classroom):
 
 
 def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
-    monkeypatch.setattr(batch, "hired", lambda wanted: FragilePool(wanted.options, 1))
+    monkeypatch.setattr(grading, "opened_executor", lambda wanted: FragilePool(wanted.options, 1))
     (classroom / "roster.csv").write_text(
         "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
     )
     (classroom / "adjustments.toml").write_text("[late]\nper_day = 10\n", encoding="utf-8")
-    run = run_class(classroom, Wanted(Options()), QUIET)
+    run = run_class(classroom, ClassOptions(Options()), QUIET)
     assert run.book.folder == classroom.parent / "class-results"
     assert "nothing was handed in by dora@x" in run.notes
     assert "not in the class list: ben, cem" in run.notes
@@ -246,7 +265,7 @@ def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
     assert run.counts == {"graded": 8, "kept": 0, "trouble": 3}
 
 
-def test_a_crew_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
+def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
     class Leaving(Inline):
         def submit(self, package: Package) -> "Future[Graded]":
             future = super().submit(package)
@@ -265,7 +284,7 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
     for name, tree in (("anna", "solution"), ("ben", "starter")):
         (tmp_path / "class" / name).mkdir(parents=True)
         shutil.copy(KIT / tree / "integrators.py", tmp_path / "class" / name)
-    run = run_class(tmp_path / "class", Wanted(ONLY_8A, jobs=1), QUIET)
+    run = run_class(tmp_path / "class", ClassOptions(ONLY_8A, jobs=1), QUIET)
     for name in ("anna", "ben"):
         alone = as_json(grade(tmp_path / "class" / name, ONLY_8A))
         assert run.book.result_file(name).read_bytes() == alone
@@ -276,9 +295,9 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
 
 def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
     run = graded(classroom)
-    monkeypatch.setattr(batch, "LONGEST_PAGE", 2)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 2)
     assert "more than 2, by `grader dashboard" in page_of(run)
-    monkeypatch.setattr(batch, "LONGEST_PAGE", 3)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 3)
     assert page_of(run).endswith("out.class.html")
 
 

@@ -11,10 +11,10 @@ import pytest
 from mixed_trees import mixed
 from rich.console import Console
 
-from grader.classroom.batch import rates, table_of
 from grader.classroom.book import outcome_of
 from grader.classroom.dashboard import Entry, rates_of
-from grader.classroom.notebooks import engine_notebook
+from grader.classroom.grading import rates, table_of
+from grader.classroom.nbgrader.notebooks import engine_notebook
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric

@@ -159,6 +159,12 @@ def checkout_of(tree: str, folder: Path) -> Path:
     return shutil.copytree(KIT / tree, folder / "work", ignore=ignored)
 
 
+def with_integrators(checkout: Path) -> Path:
+    """A starter in which TODOs 8a to 8c are done: that is graded in a moment."""
+    shutil.copyfile(KIT / "solution" / "integrators.py", checkout / "integrators.py")
+    return checkout
+
+
 def in_agreement(run: Run) -> Run:
     """Every form says the same points."""
     points, most = run.result["points"], run.result["max_points"]
@@ -183,6 +189,7 @@ def unbegun_bonus(todo: dict[str, Any]) -> bool:
     return is_bonus(todo["id"]) and todo["state"] == "not started"
 
 
+@pytest.mark.soak
 def test_the_solution_is_green(tmp_path: Path):
     run = in_agreement(run_workflow(checkout_of("solution", tmp_path), tmp_path / "runner"))
     assert run.status == 0 and run.annotations == []
@@ -196,7 +203,7 @@ def test_the_starter_is_red_and_nothing_is_held_against_it(tmp_path: Path):
 
 
 def test_a_mistake_is_annotated_on_its_line(tmp_path: Path):
-    checkout = checkout_of("solution", tmp_path)
+    checkout = with_integrators(checkout_of("starter", tmp_path))
     patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
     run = in_agreement(run_workflow(checkout, tmp_path / "runner"))
     assert run.status == 1

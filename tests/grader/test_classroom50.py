@@ -102,6 +102,7 @@ def checkout_of(tree: str, folder: Path) -> Path:
     return shutil.copytree(KIT / tree, folder / "physics-engine-anna", ignore=ignored)
 
 
+@pytest.mark.soak
 def test_the_solution_succeeds(tmp_path: Path):
     run = without_download(checkout_of("solution", tmp_path))
     assert run.status == 0, run.log

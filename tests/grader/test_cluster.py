@@ -13,10 +13,12 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from grader.classroom import batch, cluster
-from grader.classroom.batch import GaveUp, Wanted, packed_reference, run_class
+from grader.classroom import cluster, fingerprint
 from grader.classroom.cluster import grade_here
-from grader.classroom.intake import Package
+from grader.classroom.executor import ExecutorFailed
+from grader.classroom.fingerprint import packed_reference
+from grader.classroom.grading import ClassOptions, run_class
+from grader.classroom.intake.found import Package
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
@@ -50,7 +52,7 @@ def classroom(tmp_path: Path) -> Path:
 
 def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
     """Every result and the table, byte by byte."""
-    wanted = Wanted(ONLY_8A, classroom.parent / out, **how)
+    wanted = ClassOptions(ONLY_8A, classroom.parent / out, **how)
     run = run_class(classroom, wanted, QUIET)
     assert not any(each.trouble for each in run.outcomes)
     files = {path.name: path.read_bytes() for path in run.book.folder.glob("*.json")}
@@ -85,7 +87,7 @@ def test_no_scheduler_is_a_sentence(classroom, monkeypatch):
 
 def test_workers_with_another_grader_are_refused(workers, classroom):
     with distributed.Client(workers, set_as_default=False) as client:
-        client.run(setattr, batch, "fingerprint", partial(str, "another"))
+        client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))
         try:
             with pytest.raises(CannotGrade, match=r"another version .* on tcp://"):
                 graded(classroom, "out", cluster=workers.scheduler_address)
@@ -94,7 +96,7 @@ def test_workers_with_another_grader_are_refused(workers, classroom):
 
 
 def test_a_worker_with_another_grader_that_joins_later_stops_the_class():
-    with pytest.raises(GaveUp, match="another version"):
+    with pytest.raises(ExecutorFailed, match="another version"):
         grade_here(Package("ann", []), ONLY_8A, None, "made elsewhere")
 
 
@@ -105,6 +107,6 @@ def test_the_reference_that_travels_is_enough(tmp_path):
     assert {Path(name).parts[0].removesuffix(".py") for name, _ in reference.files} == modules
     package = Package("ann", [("integrators.py", b"")])
     content, _ = grade_here(
-        package, replace(ONLY_8A, reference=None), reference, cluster.fingerprint()
+        package, replace(ONLY_8A, reference=None), reference, fingerprint.fingerprint()
     )
     assert content == as_json(grade(package.unpack(tmp_path), ONLY_8A))

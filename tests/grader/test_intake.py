@@ -3,6 +3,8 @@
 import io
 import random
 import stat
+import subprocess
+import sys
 import unicodedata
 import zipfile
 from datetime import UTC, datetime
@@ -10,17 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from grader.classroom import intake
-from grader.classroom.intake import (
-    CannotTake,
-    ClassList,
-    Found,
-    opened_class,
-    opened_submission,
-    pack,
-    portable,
-)
-from grader.classroom.roster import read_roster
+from grader.classroom.intake import zips
+from grader.classroom.intake.found import CannotTake, Found
+from grader.classroom.intake.listing import opened_class
+from grader.classroom.intake.packing import opened_submission, pack
+from grader.classroom.names import portable
+from grader.classroom.roster import ClassList, read_roster
+from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
@@ -199,7 +197,7 @@ def test_one_strange_name_in_a_download_does_not_stop_the_class(classroom):
 # ---------------------------------------------------------------- what people keep
 
 
-def test_folders_checkouts_and_droppings(classroom):
+def test_folders_checkouts_and_system_files(classroom):
     write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
     write(
         classroom, {"ann/.git/config": "", "ben/x/.DS_Store": "", ".DS_Store": "", "Thumbs.db": ""}
@@ -234,6 +232,14 @@ def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
         pass
     with opened_submission(tmp_path) as folder:
         assert folder == tmp_path
+
+
+def test_taking_in_loads_the_judge_and_no_more_of_the_grader():
+    code = "import sys; from grader.classroom.intake import listing; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    loaded = {name.split(".")[1] for name in done.stdout.split() if name.startswith("grader.")}
+    assert "classroom" in loaded and loaded <= {"classroom", "judge", "protocol", "todo_regions"}
 
 
 def test_one_submission_is_not_taken_for_a_class(classroom):
@@ -310,17 +316,19 @@ def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
     write(classroom, {f"{who}_1_a.zip": zipped(PROGRAM) for who in ("doejane_1234", "roebo_77")})
     write(classroom, under("stranger"))
     with opened_class(classroom, known) as taken:
-        assert [each.name for each in taken.found] == ["bo", "jane", "stranger"]
-        assert known.absent(taken.found) == ["al"]
-        assert known.strangers(taken.found) == ["stranger"]
+        names = [each.name for each in taken.found]
+        assert names == ["bo", "jane", "stranger"]
+        assert known.absent(names) == ["al"]
+        assert known.unlisted(names) == ["stranger"]
 
 
 def test_moodles_class_list_knows_full_names(classroom, tmp_path):
     known = people(tmp_path, MOODLE_LIST)
     write(classroom, under("Ann Lee_5_assignsubmission_file") | under("bo"))
     with opened_class(classroom, known) as taken:
-        assert [each.name for each in taken.found] == ["ann@school.edu", "bo"]
-        assert known.absent(taken.found) == [] and known.strangers(taken.found) == []
+        names = [each.name for each in taken.found]
+        assert names == ["ann@school.edu", "bo"]
+        assert known.absent(names) == [] and known.unlisted(names) == []
 
 
 def test_of_two_with_one_name_neither_is_guessed(tmp_path):
@@ -381,12 +389,12 @@ def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
 
 
 def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch):
-    monkeypatch.setattr(intake, "MAX_DIRECTORY", 1000)
+    monkeypatch.setattr(zips, "MAX_DIRECTORY", 1000)
     assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
 
 
 def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
-    monkeypatch.setattr(intake, "MAX_ZIP", 10)
+    monkeypatch.setattr(zips, "MAX_ZIP", 10)
     assert "MB" in refused(classroom, zipped(PROGRAM))
 
 
@@ -419,7 +427,7 @@ def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
     assert "broken" in refused(classroom, bytes(content))
 
 
-def test_links_environments_and_droppings_in_a_zip_are_left_out(classroom):
+def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
     content = io.BytesIO(zipped(PROGRAM))
     with zipfile.ZipFile(content, "a") as archive:
         link = zipfile.ZipInfo("passwords.txt")

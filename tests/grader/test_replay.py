@@ -21,7 +21,7 @@ from grader.judge.children import ChildEnded, start_worker
 from grader.judge.filming import MOST_SHOTS, FilmingLab, filmed
 from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
 from grader.judge.plugin import Failing
-from grader.judge.replay import Replays, Runs, record_expected
+from grader.judge.replay import Replays, Runs
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Member, members, patch
@@ -338,12 +338,6 @@ def test_a_force_is_worked_out_as_the_judge_does():
 # ---------------------------------------------------------------- without a reference
 
 
-@pytest.fixture(scope="module")
-def recorded_runs() -> bytes:
-    with opened(KIT / "solution") as children:
-        return record_expected(children)
-
-
 def test_without_a_reference_the_run_stands_alone(mistaken: Path, tmp_path: Path):
     options = Options(None, only=frozenset("3"), replays=tmp_path / "alone")
     grade(mistaken, options)
@@ -356,10 +350,10 @@ def test_recorded_runs_stand_in_for_the_reference(
     mistaken: Path,
     pages: Path,
     tmp_path: Path,
-    recorded_runs: bytes,
+    expected_runs: bytes,
     monkeypatch: pytest.MonkeyPatch,
 ):
-    runs = msgspec.json.decode(recorded_runs, type=Runs)
+    runs = msgspec.json.decode(expected_runs, type=Runs)
     monkeypatch.setattr(replays, "recorded", lambda: runs)
     grade(mistaken, Options(None, only=frozenset({"3", "8b"}), replays=tmp_path / "recorded"))
     compared = 0
@@ -372,8 +366,8 @@ def test_recorded_runs_stand_in_for_the_reference(
     assert compared >= 5
 
 
-def test_recorded_runs_are_of_fixed_checks_and_compact(recorded_runs: bytes):
-    runs = msgspec.json.decode(recorded_runs, type=Runs)
+def test_recorded_runs_are_of_fixed_checks_and_compact(expected_runs: bytes):
+    runs = msgspec.json.decode(expected_runs, type=Runs)
     fixed = {
         f"{todo.id}/{check.id}"
         for todo in load_rubric().todos
@@ -382,8 +376,8 @@ def test_recorded_runs_are_of_fixed_checks_and_compact(recorded_runs: bytes):
     }
     assert set(runs) == fixed
     assert all(any(take.lines for scene in runs[name] for take in scene) for name in runs)
-    assert len(recorded_runs) < 2_500_000
-    assert b"circle_box(" not in recorded_runs
+    assert len(expected_runs) < 2_500_000
+    assert b"circle_box(" not in expected_runs
 
 
 # ---------------------------------------------------------------- what a submission may send

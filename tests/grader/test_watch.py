@@ -283,7 +283,10 @@ def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatc
     assert len(list(islice(looks, 3))) < 3
 
 
-@pytest.mark.parametrize("replaces", [False, True], ids=["writes", "replaces"])
+@pytest.mark.parametrize(
+    "replaces",
+    [pytest.param(False, id="writes"), pytest.param(True, id="replaces", marks=pytest.mark.soak)],
+)
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
 def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
     tree = hand_in("starter")

@@ -8,7 +8,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader.judge.children import Child, ChildEnded, WarmWorker, start_worker
+from grader.judge import children
+from grader.judge.children import Child, ChildEnded, SpawnWorker, WarmWorker, start_worker
 from grader.judge.grade import KIT
 from grader.protocol import (
     Call,
@@ -72,13 +73,13 @@ def clock(): return (time.time(), time.perf_counter())
 class Asker:
     """Asks a fresh child to call one function of MODULE."""
 
-    def __init__(self, tmp_path: Path, spawn: bool) -> None:
+    def __init__(self, tmp_path: Path, worker: WarmWorker | SpawnWorker) -> None:
         folder, scratch, bytecode = (tmp_path / n for n in ("submission", "scratch", "bytecode"))
         for each in (folder, scratch, bytecode):
             each.mkdir()
         (folder / "hostile.py").write_text(MODULE, encoding="utf-8")
-        self.worker = start_worker(spawn)
-        limits = Limits(cpu_seconds=2, memory_mb=1024)
+        self.worker = worker
+        limits = Limits(cpu_seconds=1, memory_mb=1024)
         hidden = [str(KIT / "grader")]
         self.setup = ChildSetup(
             str(folder), str(scratch), limits, True, hidden, str(bytecode), True
@@ -99,20 +100,32 @@ class Asker:
             child.end()
 
 
+@pytest.fixture(scope="module")
+def warm() -> Iterator[WarmWorker | SpawnWorker]:
+    worker = start_worker()
+    yield worker
+    worker.close()
+
+
+@pytest.fixture(scope="module")
+def spawning() -> Iterator[WarmWorker | SpawnWorker]:
+    worker = start_worker(spawn=True)
+    yield worker
+    worker.close()
+
+
 @pytest.fixture
-def forked(tmp_path: Path) -> Iterator[Asker]:
-    asker = Asker(tmp_path, spawn=False)
+def forked(tmp_path: Path, warm: WarmWorker) -> Iterator[Asker]:
+    asker = Asker(tmp_path, warm)
     yield asker
     asker.end()
-    asker.worker.close()
 
 
-@pytest.fixture(params=["fork", "spawn"])
+@pytest.fixture(params=["warm", "spawning"], ids=["fork", "spawn"])
 def ask(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Asker]:
-    asker = Asker(tmp_path, spawn=request.param == "spawn")
+    asker = Asker(tmp_path, request.getfixturevalue(request.param))
     yield asker
     asker.end()
-    asker.worker.close()
 
 
 linux = pytest.mark.skipif(
@@ -141,11 +154,12 @@ def test_sys_exit_is_an_exception_like_any_other(ask: Asker):
 
 
 def test_an_endless_loop_uses_up_its_processor_time(ask: Asker):
-    with pytest.raises(ChildEnded, match="2 s of processor time"):
+    with pytest.raises(ChildEnded, match="1 s of processor time"):
         ask("forever")
 
 
-def test_waiting_for_nothing_is_noticed_before_the_last_resort(ask: Asker):
+def test_waiting_for_nothing_is_noticed_before_the_last_resort(ask: Asker, monkeypatch):
+    monkeypatch.setattr(children, "ASLEEP_SECONDS", 2)
     with pytest.raises(ChildEnded, match="it sleeps"):
         ask("wait_for_nothing")
 

@@ -396,7 +396,7 @@ def test_the_guides_options_of_grade_exist() -> None:
     table = guide.partition("## Grade")[2].partition("## Read a report")[0]
     told = {name.replace("-", "_") for name in re.findall(r"^\| `--([\w-]+)", table, re.M)}
     names = {name.rstrip("_") for name in grade_command.__annotations__}
-    assert told == names - {"path", "return"}
+    assert told == names - {"context", "path", "return"}
 
 
 def targets(makefile: Path) -> set[str]:

@@ -27,8 +27,10 @@ from handed_in import (
 )
 from typer.testing import CliRunner
 
-from grader.classroom import commands, nbgrader
-from grader.classroom.nbgrader import ASSIGNMENT, ENGINE
+from grader.classroom import commands
+from grader.classroom.marks import ENGINE
+from grader.classroom.nbgrader import course as courses
+from grader.classroom.nbgrader.course import ASSIGNMENT
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.maintain.sync import students_files
 
@@ -123,9 +125,10 @@ def run(course, *arguments):
     return subprocess.run(command, cwd=course, env=environment, capture_output=True, text=True)
 
 
-def bridge(course, *more):
+def bridge(course, *results):
+    how = results or ["--jobs", "1"]
     return CliRunner().invoke(
-        commands.course_app, ["bridge", "--course", str(course), "--jobs", "1", *map(str, more)]
+        commands.course_app, ["bridge", "--course", str(course), *map(str, how)]
     )
 
 
@@ -136,12 +139,12 @@ def course(tmp_path_factory):
         "nbgrader.api", reason="needs the extra notebooks, which make soak installs"
     )
     top = tmp_path_factory.mktemp("course")
-    made = nbgrader.make_course(top / "course")
+    made = courses.make_course(top / "course")
     assert "quiz.ipynb" in made
     edit(top / "course" / "nbgrader_config.py", "SECONDS = 60", f"SECONDS = {SECONDS}")
     generated = run(top / "course", "generate_assignment", ASSIGNMENT)
     assert generated.returncode == 0, generated.stderr[-2000:]
-    taken = list(nbgrader.collect(make_class(top / "class"), top / "course"))
+    taken = list(courses.collect(make_class(top / "class"), top / "course"))
     assert all(each.taken for each in taken) and len(taken) == 8
     graded = run(top / "course", "autograde", ASSIGNMENT)
     assert "'physics-engine' for student 'hana'" in graded.stderr
@@ -376,7 +379,7 @@ def test_a_changed_submission_is_taken_in_and_graded_anew(course, tmp_path):
     notebooks = {name: read(RELEASED / f"{name}.ipynb") for name in NAMES}
     folder = hand_in(again / "ben", "starter", notebooks)
     write(folder / "notebooks" / "quiz.ipynb", answered("quiz"))
-    taken = list(nbgrader.collect(again, copy))
+    taken = list(courses.collect(again, copy))
     assert [each.words for each in taken] == ["5 notebooks"]
     again = run(copy, "autograde", ASSIGNMENT, "--student", "ben")  # no --force
     assert again.returncode == 0, again.stderr[-2000:]

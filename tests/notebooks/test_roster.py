@@ -7,18 +7,16 @@ import msgspec
 import pytest
 
 from grader.classroom.book import Outcome
-from grader.classroom.nbgrader import INSTRUCTOR
-from grader.classroom.roster import (
-    CannotRead,
+from grader.classroom.marks import (
     Marking,
     Part,
     load_marking,
     mark_of,
     marks,
     parts_from_results,
-    people,
-    read_roster,
 )
+from grader.classroom.nbgrader.course import INSTRUCTOR
+from grader.classroom.roster import CannotRead, people, read_roster
 from grader.report.sinks.tables import harmless
 
 CANVAS = """\

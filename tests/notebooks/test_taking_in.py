@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from handed_in import NAMES, RELEASED, hand_in, read
 
-from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, collect, make_course
+from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, collect, make_course
 from grader.judge.grade import KIT
 from grader.maintain.sync import students_files
 from grader.todo_regions import python_files, regions_in

@@ -49,7 +49,13 @@ def must_hold(case):
         assert holds(figure, cell), f"{figure.words}: {cell}, not {figure.rule} {figure.limit}"
 
 
-@pytest.mark.parametrize("case", [case.at("quick") for case in CASES], ids=lambda case: case.title)
+QUICK = [
+    pytest.param(case, marks=() if case.quick else pytest.mark.soak)
+    for case in (case.at("quick") for case in CASES)
+]
+
+
+@pytest.mark.parametrize("case", QUICK, ids=lambda case: case.title)
 def test_a_hard_case_holds(case):
     must_hold(case)
 
@@ -136,7 +142,7 @@ def escapes(scene, seconds):
     return sum(max(abs(ball.x), abs(ball.y)) > half for ball in balls(world))
 
 
-@settings(max_examples=10, **QUIETLY)
+@settings(max_examples=5, **QUIETLY)
 @given(scene=BOXES)
 def test_nobody_escapes_from_a_closed_box(scene):
     assert escapes(scene, 2) == 0

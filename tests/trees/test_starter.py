@@ -41,7 +41,13 @@ def test_it_runs_on_with_many_balls(loop):
     assert len(played["frames"]) == 250
 
 
-@pytest.mark.parametrize("todo", TODOS)
+@pytest.mark.parametrize(
+    "todo",
+    [
+        todo if todo in ("1", "4", "6", "7b", "8a") else pytest.param(todo, marks=pytest.mark.soak)
+        for todo in TODOS
+    ],
+)
 def test_it_runs_with_one_todo_finished(todo, tmp_path):
     tree = mixed(STARTER, SOLUTION, todo, tmp_path)
     if todo.startswith("8"):

@@ -12,7 +12,8 @@ import msgspec
 from msgspec import Struct
 from rich.console import Console
 
-from grader.classroom.intake import CannotTake, Found, pack
+from grader.classroom.intake.found import CannotTake, Found
+from grader.classroom.intake.packing import pack
 from grader.judge.grade import KIT, Options, grade, shipped_reference, work_folder
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade

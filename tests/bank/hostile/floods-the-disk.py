@@ -6,7 +6,7 @@ import tempfile
 
 for folder in (os.getcwd(), tempfile.gettempdir(), os.path.dirname(__file__), "/var/tmp", "/dev/shm"):
     try:
-        name = os.path.join(folder, f"flood-{os.getpid()}")
+        name = os.path.join(folder, f"of-floods-the-disk-{os.getpid()}")
         with open(name, "wb") as file:
             for _ in range(40):
                 file.write(bytes(1024**2))

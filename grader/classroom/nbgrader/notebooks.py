@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from grader.classroom.nbgrader import ASSIGNMENT, NoCourse, make_course
+from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
 from grader.judge.rubric import Rubric, load_rubric
 
 Cell = dict[str, Any]

@@ -1,0 +1,120 @@
+"""Who grades the submissions of a class: processes of this machine, or a cluster's.
+
+Both run the same function on the same packages. What one of these does to its process touches no
+other.
+"""
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+import time
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from functools import cache
+from typing import Protocol, Self
+
+from grader.classroom.intake.found import Package
+from grader.judge.children import Worker, start_worker
+from grader.judge.grade import Options, grade, work_folder
+from grader.report.files import as_json
+
+AHEAD = 2  # submissions that wait, packed, for each one being graded
+LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
+
+Graded = tuple[bytes, float]  # a result as JSON, and the seconds it took
+
+
+def grade_package(package: Package, options: Options) -> Graded:
+    """Grade one submission; run in a process of the pool or of a cluster."""
+    start = time.monotonic()
+    with work_folder() as work:
+        result = grade(package.unpack(work), options, shared_worker())
+    return as_json(result), time.monotonic() - start
+
+
+@cache
+def shared_worker() -> Worker:
+    """One for all submissions that this process grades; it ends when this process does."""
+    return start_worker()
+
+
+# ---------------------------------------------------------------- processes
+
+
+class Executor(Protocol):
+    """Processes that grade, here or elsewhere."""
+
+    def capacity(self) -> int:
+        """How many submissions to have under way."""
+
+    def submit(self, package: Package) -> "Future[Graded]": ...
+
+    def restart(self) -> None:
+        """A process fell over, and with it all that was under way: start anew."""
+
+    def run_alone(self, package: Package) -> Graded:
+        """Grade one of those that were under way then, and nothing beside it."""
+
+
+class ExecutorFailed(Exception):
+    """The executor cannot go on; the message says why and what to do."""
+
+
+class Pool:
+    """Processes of this machine."""
+
+    work = staticmethod(grade_package)
+
+    def __init__(self, options: Options, jobs: int) -> None:
+        self.options, self.jobs = options, jobs or os.cpu_count() or 1
+        if sys.platform == "win32":
+            self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
+
+    def _start(self, jobs: int) -> ProcessPoolExecutor:
+        context = multiprocessing.get_context("spawn")
+        return ProcessPoolExecutor(jobs, context, begin_process)
+
+    def __enter__(self) -> Self:
+        self.processes = self._start(self.jobs)
+        return self
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        if kind is not None:  # somebody is tired of waiting
+            for process in multiprocessing.active_children():
+                process.kill()
+        self.processes.shutdown(cancel_futures=True)
+
+    def capacity(self) -> int:
+        return self.jobs * (1 + AHEAD)
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        try:
+            return self.processes.submit(self.work, package, self.options)
+        except BrokenProcessPool as error:
+            broken: Future[Graded] = Future()
+            broken.set_exception(error)
+            return broken
+
+    def restart(self) -> None:
+        self.processes.shutdown()
+        self.processes = self._start(self.jobs)
+
+    def run_alone(self, package: Package) -> Graded:
+        """In a pool of its own, so that it is known which one is to blame."""
+        with self._start(1) as executor:
+            return executor.submit(self.work, package, self.options).result()
+
+
+def begin_process() -> None:
+    """In a process of the pool: Ctrl-C is the parent's, and nobody works on without a parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def follow() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()

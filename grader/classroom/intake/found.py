@@ -1,0 +1,66 @@
+"""What taking in gives: submissions where they lie, and what is left to say of the others."""
+
+import hashlib
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+
+class CannotTake(Exception):
+    """One submission that cannot be read; the message says why and what to do."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """One submission where it lies, before anything of it is read."""
+
+    name: str  # of its result; a file name on every platform
+    sources: tuple[Path, ...]  # a folder, or what was handed in
+    late: bool = False  # so marked by the LMS
+    handed_in: datetime | None = None
+
+
+@dataclass
+class Intake:
+    """A class as it lies in a folder."""
+
+    found: list[Found] = field(default_factory=list)
+    troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Upload:
+    """One file or folder of a class, and whose it is by its name."""
+
+    path: Path
+    name: str  # as of `Found`
+    late: bool = False
+    from_lms: bool = False  # an LMS names each file by its student: those of one belong together
+    empty: bool = False  # a text or a link was handed in, and no file
+
+
+class Package(Struct, frozen=True):
+    """A submission that can travel: its files, the same bytes for the same files."""
+
+    name: str
+    files: list[tuple[str, bytes]]  # sorted by path, which is relative and has forward slashes
+    notes: list[str] = []
+
+    @property
+    def digest(self) -> str:
+        """The same for the same files, whoever handed them in."""
+        return hashlib.sha256(msgspec.msgpack.encode(self.files)).hexdigest()
+
+    def unpack(self, folder: Path) -> Path:
+        """Write it into a new folder named after it."""
+        target = folder / self.name
+        target.mkdir()
+        for name, content in self.files:
+            path = target / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        return target

@@ -1,0 +1,79 @@
+"""Where in a folder the work lies, and what lies about there besides."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from grader.classroom.intake.found import CannotTake
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import IGNORED
+
+DEEPEST = 3  # folders around a program, and zips inside zips
+SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
+
+
+class ManyPrograms(CannotTake):
+    """More than one program in a submission: it is for a person to choose."""
+
+
+def entries_of(folder: Path) -> list[Path]:
+    """What lies in a folder, in a fixed order, without what desktops leave behind."""
+    return sorted(path for path in folder.iterdir() if not is_system_file(path.name))
+
+
+def is_system_file(name: str) -> bool:
+    return name.startswith(".") or name.lower() in SYSTEM_FILES
+
+
+def is_zip(path: Path) -> bool:
+    return path.suffix.lower() == ".zip"
+
+
+def python_first(paths: Iterable[Path]) -> list[Path]:
+    return sorted(paths, key=lambda each: (each.suffix != ".py", each))
+
+
+def root_of(folder: Path) -> Path:
+    """The folder that holds the work: zips and people often put more folders around it."""
+    level = [folder]
+    for _ in range(DEEPEST + 1):
+        holding = [path for path in level if holds_program(path)]
+        if len(holding) > 1:
+            places = ", ".join(path.relative_to(folder).as_posix() for path in holding[:5])
+            raise ManyPrograms(f"there is more than one program, in {places}: leave one")
+        if holding:
+            return holding[0]
+        level = [inner for path in level for inner in folders_in(path)]
+    return unwrapped(folder)
+
+
+def unwrapped(folder: Path) -> Path:
+    """Where there is no program: as far in as each folder holds but one other."""
+    for _ in range(DEEPEST):
+        inside = [path for path in folder.iterdir() if not is_system_file(path.name)]
+        if len(inside) != 1 or inside != folders_in(folder) or inside[0].name == "notebooks":
+            break
+        folder = inside[0]
+    return folder
+
+
+def folders_in(folder: Path) -> list[Path]:
+    return [
+        path
+        for path in entries_of(folder)
+        if path.is_dir() and not path.is_symlink() and path.name not in IGNORED
+    ]
+
+
+def holds_program(folder: Path) -> bool:
+    return bool(programs_in(folder))
+
+
+def programs_in(folder: Path) -> frozenset[str]:
+    """The modules that the rubric asks for and that lie in this folder itself."""
+    return frozenset(
+        name for name in modules() if (folder / name).is_dir() or (folder / f"{name}.py").is_file()
+    )
+
+
+def modules() -> frozenset[str]:
+    return frozenset(todo.module for todo in load_rubric().todos)

@@ -1,0 +1,142 @@
+"""Zips as strangers make them: bounded, nothing outside its folder, every trouble a sentence."""
+
+import shutil
+import stat
+import unicodedata
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from grader.classroom.intake.found import CannotTake
+from grader.classroom.intake.places import is_system_file
+from grader.classroom.names import folded, portable
+from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES
+
+MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
+MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
+MENTIONED = 5  # of the files that are left out
+OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
+
+
+@dataclass
+class Bounds:
+    """What is left of a submission's allowance, over all of its zips."""
+
+    files: int = MAX_FILES
+    bytes: int = MAX_BYTES
+    left_out: list[str] = field(default_factory=list)
+
+    def take(self, name: str, length: int) -> bool:
+        if not self.files or length > self.bytes:
+            if len(self.left_out) < MENTIONED:
+                self.left_out.append(f"{name}: too much")
+            return False
+        self.files, self.bytes = self.files - 1, self.bytes - length
+        return True
+
+
+def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
+    """Unpack what may be part of a submission, Python's files first, within the bounds."""
+    check_size(path)
+    with checked_zip(path) as archive:
+        members = sorted(members_of(archive), key=lambda each: (each[0].suffix != ".py", each[0]))
+        environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, member in members:
+            ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
+            if ignored or environments & set(name.parents):
+                continue
+            if bounds.take(name.as_posix(), member.file_size):
+                write_member(archive, member, folder / name)
+
+
+def unzip_class(path: Path, folder: Path) -> None:
+    """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
+    with checked_zip(path) as archive:
+        for member in plain_members(archive):
+            parts = [part for part in text_of(member).split("/") if part]
+            if not any(is_system_file(part) for part in parts):
+                write_member(archive, member, folder.joinpath(*map(portable, parts)))
+
+
+@contextmanager
+def checked_zip(path: Path) -> Iterator[zipfile.ZipFile]:
+    """Open a zip; whatever goes wrong with it becomes a sentence."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            yield archive
+    except CannotTake:
+        raise
+    except NotImplementedError as error:
+        raise CannotTake(f"{OWN_WAY} ({error})") from error
+    except RuntimeError as error:
+        raise CannotTake("the zip is encrypted: ask for one without a password") from error
+    except Exception as error:  # zipfile and zlib have many; the bytes are a stranger's
+        raise CannotTake(f"the zip is broken ({type(error).__name__}: {error!s:.100})") from error
+
+
+def check_size(path: Path) -> None:
+    """Refuse a zip that would take all memory before a single file of it is unpacked."""
+    size = path.stat().st_size
+    if size > MAX_ZIP:
+        raise CannotTake(f"the zip has {size >> 20} MB, more than {MAX_ZIP >> 20}")
+    with open(path, "rb") as file:
+        file.seek(max(0, size - (1 << 16) - 64))
+        end = file.read()
+    at = end.rfind(b"PK\x05\x06")  # the end of the list of files, which says how long that is
+    length = int.from_bytes(end[at + 12 : at + 16], "little")
+    if at >= 0 and (length > MAX_DIRECTORY or end[max(0, at - 20) : at].startswith(b"PK\x06\x07")):
+        raise CannotTake("the zip lists too many files: ask for the program alone")
+
+
+def plain_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
+    """Files, not folders and not links."""
+    for member in archive.infolist():
+        if not member.is_dir() and stat.S_IFMT(member.external_attr >> 16) in (0, stat.S_IFREG):
+            yield member
+
+
+def members_of(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
+    """The plain files by name; of two with one name the last counts, as for every unzip."""
+    found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
+    for member in plain_members(archive):
+        name = PurePosixPath(checked_name(text_of(member)))
+        other, _ = found.get(folded(name.as_posix()), (name, member))
+        if other != name:
+            raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
+        found[folded(name.as_posix())] = name, member
+    return list(found.values())
+
+
+def text_of(member: zipfile.ZipInfo) -> str:
+    """A member's name: UTF-8 where it says so or looks it, or else the old DOS letters."""
+    name = member.filename
+    if not member.flag_bits & 0x800:
+        with suppress(UnicodeError):
+            name = name.encode("cp437").decode("utf-8")
+    return unicodedata.normalize("NFC", name.replace("\\", "/"))
+
+
+def checked_name(name: str) -> str:
+    """The name, if it stays inside its folder and every system can have it."""
+    parts = [part for part in name.split("/") if part not in ("", ".")]
+    if name.startswith("/") or ".." in parts or ":" in parts[0]:
+        raise CannotTake(f"the zip reaches outside its folder, with {name[:100]!r}")
+    for part in parts:
+        if portable(part) != part.strip(" .") and not is_system_file(part):
+            raise CannotTake(f"the zip holds {part[:100]!r}, a name not for every system")
+    return "/".join(part if is_system_file(part) else portable(part) for part in parts)
+
+
+def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
+    """Unpack one file: no more of it than the zip says it has.
+
+    Only with these two ways of packing does `zipfile` take no more memory than it gives back.
+    """
+    if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise CannotTake(OWN_WAY)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with archive.open(member) as source, open(path, "wb") as target:
+        shutil.copyfileobj(source, target)
