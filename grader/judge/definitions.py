@@ -108,7 +108,7 @@ class Program:
                         return found
                 case ast.Import(names=aliases) if rest:
                     for alias in aliases:
-                        if alias.asname == first:
+                        if (alias.asname or alias.name) == first:
                             return self._bound(alias.name, rest, seen)
         return None if tree else Definition(module, None)  # empty, or no Python: nothing to tell
 

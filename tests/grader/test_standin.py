@@ -1,0 +1,91 @@
+"""Putting a function in the place of another, whoever holds that one and by whatever name."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from grader.worker.standin import fitted, plain_function, put_in_place
+
+
+def test_all_who_hold_a_function_reach_the_one_that_stands_in():
+    def double(x: int, times: int = 2) -> int:
+        return times * x
+
+    alias, part, table = double, functools.partial(double, 3), {"double": double}
+    bound: Callable[..., int] = lambda x, f=double: f(x)  # noqa: E731
+    before = put_in_place(double, lambda x, times=0: -x)
+    assert [alias(3), part(), table["double"](3), bound(3)] == [-3] * 4
+    assert before(3) == 6 and before(3, times=5) == 15
+
+
+def test_a_closure_and_a_method_keep_what_they_know():
+    def counter() -> Callable[[], int]:
+        count = [0]
+
+        def more() -> int:
+            count[0] += 1
+            return count[0]
+
+        return more
+
+    class World:
+        def step(self, dt: float) -> tuple[type, float]:
+            return __class__, dt  # type: ignore[name-defined]
+
+    more, step = counter(), World().step
+    before = put_in_place(more, lambda: 0)
+    assert (more(), before(), before()) == (0, 1, 2)
+    kept = put_in_place(World.step, lambda self, dt: -dt)
+    assert step(2) == -2 and kept(World(), 2) == (World, 2)
+
+
+def test_a_decorated_function_is_found_beneath():
+    @functools.lru_cache
+    def cached(x: int) -> int:
+        return x
+
+    def plain() -> None: ...
+
+    assert plain_function(cached) is cached.__wrapped__
+    assert plain_function(staticmethod(plain)) is plain
+    assert plain_function(3) is None and plain_function(len) is None
+
+
+def same(a: Any, b: Any) -> None: ...
+def renamed(circle: Any, box: Any) -> None: ...
+def optional(a: Any, b: Any, log: Any = None, *, deep: bool = False) -> None: ...
+def other_order(b: Any, a: Any) -> None: ...
+def one_more(a: Any, extra: Any, b: Any) -> None: ...
+def anything(*args: Any, **kwargs: Any) -> None: ...
+def positional(a: Any, b: Any, /) -> None: ...
+
+
+@pytest.mark.parametrize(
+    ("original", "args", "kwargs"),
+    [
+        (same, (1, 2), {}),
+        (same, (1,), {"b": 2}),
+        (renamed, (1, 2), {}),
+        (renamed, (), {"box": 2, "circle": 1}),
+        (optional, (1, 2), {}),
+        (optional, (1, 2, "log"), {"deep": True}),
+        (other_order, (2, 1), {}),
+        (one_more, (1, "?", 2), {}),
+        (anything, (1, 2), {}),
+        (positional, (1, 2), {}),
+    ],
+)
+def test_a_function_that_is_called_alike_fits(original: Any, args: Any, kwargs: Any):
+    stand_in = fitted(lambda a, b: (a, b), ["a", "b"], original)
+    assert stand_in is not None and stand_in(*args, **kwargs) == (1, 2)
+
+
+def too_few(a: Any) -> None: ...
+def too_many(x: Any, y: Any, z: Any) -> None: ...
+
+
+@pytest.mark.parametrize("original", [too_few, too_many])
+def test_one_that_is_called_otherwise_is_left_alone(original: Any):
+    assert fitted(lambda a, b: (a, b), ["a", "b"], original) is None
