@@ -20,6 +20,7 @@ from typing import Literal
 import msgspec
 from msgspec import Struct
 
+from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
 from grader.todo_regions import python_files, read_source, regions_in, replaced
@@ -272,7 +273,36 @@ def add_odd_names(folder: Path) -> None:
             return
 
 
+def copies_beside(folder: Path) -> None:
+    """What people keep before they begin, beside what they then work on."""
+    ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
+    for name in ("backup", "original"):
+        shutil.copytree(KIT / "starter", folder / name, ignore=ignored)
+    shutil.copytree(KIT / "starter" / "mini_engine", folder / "mini_engine copy", ignore=ignored)
+    for name in ("integrators_original.py", "pymunk_scene2.py", "z_integrators.py"):
+        source = "pymunk_scene.py" if "scene" in name else "integrators.py"
+        shutil.copyfile(KIT / "starter" / source, folder / name)
+
+
+def copies_inside(folder: Path) -> None:
+    package = folder / "mini_engine"
+    shutil.copytree(KIT / "starter" / "mini_engine", package / "mini_engine")
+    for name in ("contacts", "solver", "world"):
+        starter = KIT / "starter" / "mini_engine" / f"{name}.py"
+        shutil.copyfile(starter, package / f"{name}_old.py")
+
+
+def leave_out_given_files(folder: Path) -> None:
+    """Hand in only what has a TODO."""
+    for path in [folder / "lab_runtime.py", *(folder / "mini_engine").rglob("*.py")]:
+        if not regions_in(read_source(path)):
+            path.unlink()
+
+
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
+    "copies-beside": copies_beside,
+    "copies-inside": copies_inside,
+    "given-files-missing": leave_out_given_files,
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),
     "tabs": rewrite(lambda data: data.replace(b"    ", b"\t")),

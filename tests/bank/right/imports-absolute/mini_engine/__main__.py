@@ -1,0 +1,5 @@
+"""Start the window, for python -m mini_engine."""
+
+from mini_engine.game_loop import main
+
+main()

@@ -1,0 +1,131 @@
+"""The world and its step. TODO 5 lives in World.apply_damping."""
+
+import math
+from itertools import combinations
+
+from pygame import Vector2
+
+from .broad_phase import near_pairs
+from .constants import ITERATIONS
+from .contacts import collide
+from .sleeping import update_sleep
+from .solver import solve_friction, solve_normal, target_speed
+from .validate import require
+
+
+class World:
+    """Bodies, joints and the contacts of the latest step.
+
+    gravity in px/s²; the dampings are rates per second (0 means none).
+    """
+
+    def __init__(self, gravity=(0, 980), linear_damping=0.05, angular_damping=0.3):
+        self.gravity = Vector2(gravity)
+        self.linear_damping = linear_damping  # 1/s
+        self.angular_damping = angular_damping  # 1/s
+        self.bodies = []
+        self.joints = []
+        self.springs = []
+        self.contacts = []
+        self.sleeping = False  # whether bodies at rest may sleep
+        self.grid = False  # whether a grid finds the pairs to look at
+        self.drawn = 1.0  # how much of the latest step the window shows: 0 its begin, 1 its end
+        self.iterations = ITERATIONS  # passes of the solver per step
+        require(self.gravity.length() < math.inf, "World.gravity", self.gravity, "finite")
+        for field in ("linear_damping", "angular_damping"):
+            rate = getattr(self, field)
+            require(0 <= rate < math.inf, f"World.{field}", rate, "a finite number, 0 or more")
+
+    def add(self, body):
+        """Add a body and return it. Raises ValueError when it is here already."""
+        found = f"in this world already (at {body.pos})"
+        require(body not in self.bodies, "World.add's body", found, "a new one")
+        self.bodies.append(body)
+        return body
+
+    def moving_bodies(self):
+        """The bodies that are neither static nor asleep."""
+        return [body for body in self.bodies if not body.is_static]
+
+    def step(self, dt, *, check=True):
+        """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
+        require(0 < dt < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
+        if check:
+            for body in self.bodies:
+                body.check()
+
+        # 1 forces
+        self.apply_gravity(dt)
+        for spring in self.springs:
+            spring.apply(dt)
+        if self.linear_damping or self.angular_damping:
+            self.apply_damping(dt)
+
+        # 2 detect
+        self.contacts = self.find_contacts()
+        if self.sleeping and update_sleep(self, dt):
+            self.contacts = self.find_contacts()
+
+        # 3 solve
+        if self.contacts or self.joints:
+            self.solve(dt)
+
+        # 4 move
+        self.move(dt)
+
+    def apply_gravity(self, dt):
+        """Let moving bodies fall faster."""
+        for body in self.moving_bodies():
+            body.vel += self.gravity * dt
+
+    def apply_damping(self, dt):
+        """Slow moving bodies down: each second keeps the share exp(-rate), whatever the step."""
+        # TODO 5: damp by a rate per second
+        keep_vel = math.exp(-self.linear_damping * dt)
+        keep_omega = math.exp(-self.angular_damping * dt)
+        # END TODO 5
+        for body in self.moving_bodies():
+            body.vel *= keep_vel
+            body.omega *= keep_omega
+
+    def find_contacts(self):
+        """The contacts of all bodies where they are now."""
+        contacts = []
+        if not self.moving_bodies():
+            return contacts
+        pairs = near_pairs(self.bodies) if self.grid else combinations(self.bodies, 2)
+        for a, b in pairs:
+            if a.is_static and b.is_static:
+                continue
+            contact = collide(a, b)
+            if contact is not None:
+                contacts.append(contact)
+        return contacts
+
+    def solve(self, dt):
+        """Find velocities that suit every contact and joint, pass by pass."""
+        for contact in self.contacts:
+            contact.target = target_speed(contact, dt)
+        for joint in self.joints:
+            joint.prepare(dt)
+        for _ in range(self.iterations):
+            for contact in self.contacts:
+                self.solve_contact(contact, dt)
+            for joint in self.joints:
+                joint.solve()
+
+    def solve_contact(self, c, dt):
+        """One pass over contact c: the normal impulse, then friction, which it limits.
+
+        The step of dt seconds is in c.target already.
+        """
+        solve_normal(c)
+        if c.a.friction > 0 and c.b.friction > 0:
+            solve_friction(c)
+
+    def move(self, dt):
+        """Move and turn bodies with their new velocities (semi-implicit Euler)."""
+        for body in self.moving_bodies():
+            body.before = Vector2(body.pos), body.angle
+            body.pos += body.vel * dt
+            body.angle += body.omega * dt

@@ -1,0 +1,3 @@
+from .window import main
+
+main()

@@ -1,0 +1,84 @@
+"""Four integrators on a spring.
+
+Each takes a position x (px), a velocity v (px/s), a time step dt (s) and a function accel(x)
+(px/s²), and returns the new (x, v). Run this file to compare them.
+"""
+
+import math
+
+OMEGA = 2 * math.pi  # rad/s: the spring swings once per second
+X0 = 100.0  # px
+DT = 1 / 30  # s
+SECONDS = 10  # s, whole periods: exact x is X0 again
+
+
+def explicit_euler(x, v, dt, accel):
+    """Move with the old velocity, then change it."""
+    return x + v * dt, v + accel(x) * dt
+
+
+def semi_implicit_euler(x, v, dt, accel):
+    """Change the velocity first, then move with the new one."""
+    v += accel(x) * dt
+    x += v * dt
+    return x, v
+
+
+def velocity_verlet(x, v, dt, accel):
+    """Move along a parabola, then use the mean of the accelerations at both ends."""
+    a = accel(x)
+    x += v * dt
+    x += a * dt * dt / 2
+    v += a * dt / 2
+    v += accel(x) * dt / 2
+    return x, v
+
+
+def rk4(x, v, dt, accel):
+    """Take four samples of (velocity, acceleration): start, middle twice, end.
+
+    Each sample is taken where the one before leads; the means weigh them 1, 2, 2, 1
+    (the classical Runge-Kutta method).
+    """
+    h = dt / 2
+    a1 = accel(x)
+    v2 = v + h * a1
+    a2 = accel(x + h * v)
+    v3 = v + h * a2
+    a3 = accel(x + h * v2)
+    v4 = v + dt * a3
+    a4 = accel(x + dt * v3)
+    return x + dt / 6 * (v + 2 * (v2 + v3) + v4), v + dt / 6 * (a1 + 2 * (a2 + a3) + a4)
+
+
+def spring(x):
+    """Acceleration (px/s²) of a spring that pulls back to x = 0."""
+    return -(OMEGA**2) * x
+
+
+def energy(x, v):
+    """Energy per unit of mass (px²/s²) of the spring's body."""
+    return 0.5 * v**2 + 0.5 * OMEGA**2 * x**2
+
+
+def simulate(method, dt, seconds):
+    """Let the spring go at X0 and return (x, v) after seconds, in steps of dt."""
+    if not 0 < dt < math.inf:
+        raise ValueError(f"dt is {dt}, but it must be a finite number of seconds above 0.")
+    x, v = X0, 0.0
+    for _ in range(round(seconds / dt)):
+        x, v = method(x, v, dt, spring)
+    return x, v
+
+
+def main():
+    """Print how far each method is from the exact answer."""
+    print(f"{'method':<20} {'x after 10 s':>12} {'error (px)':>12} {'energy change':>14}")
+    for method in (explicit_euler, semi_implicit_euler, velocity_verlet, rk4):
+        x, v = simulate(method, DT, SECONDS)
+        change = f"{100 * (energy(x, v) / energy(X0, 0.0) - 1):.2f}%"
+        print(f"{method.__name__:<20} {x:>12.2f} {abs(x - X0):>12.3f} {change:>14}")
+
+
+if __name__ == "__main__":
+    main()
