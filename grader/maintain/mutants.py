@@ -175,11 +175,11 @@ class Family(Struct, frozen=True, forbid_unknown_fields=True):
     todos: list[str]
     operators: list[str]
     why: str
-    now: str = ""  # a piece of the changed lines; empty for all mutants of these operators
+    having: list[str] = []  # pieces, one of which is in the changed lines; none: whatever they are
 
     def has(self, mutant: Mutant) -> bool:
         known = mutant.todo in self.todos and mutant.operator in self.operators
-        return known and self.now in mutant.now
+        return known and any(piece in mutant.now for piece in self.having or [""])
 
 
 class Equivalents(Struct, frozen=True, forbid_unknown_fields=True):

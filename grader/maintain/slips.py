@@ -46,6 +46,7 @@ class Scope(Struct, frozen=True, forbid_unknown_fields=True):
     results: dict[str, Scale] = {}
     answers: list[str] = []
     products: list[str] = []
+    many: int = 100
     parameters: frozenset[str] = frozenset()  # of the function
     unfinished: str = ""  # what the starter has in the place of the region
 
@@ -297,15 +298,24 @@ def changes_in_place(code: Code, scope: Scope) -> Iterator[Code]:
         statement = place[index]
         if not isinstance(statement, ast.Assign | ast.AugAssign | ast.Return | ast.Expr):
             continue
-        for left, operation, right in operations(statement):
-            update = f"{left} {operation}= {right}"
-            rest = Instead(f"{left} {operation} {right}", left).visit(copy.deepcopy(statement))
-            place[index : index + 1] = [*parsed(update), rest]
+        for node in operations(statement):
+            left, sign = ast.unparse(node.left), SIGNS[type(node.op)]
+            update = parsed(f"{left} {sign}= {ast.unparse(node.right)}")
+            rest = Instead(ast.unparse(node), left).visit(copy.deepcopy(statement))
+            place[index : index + 1] = [*update, rest]
             yield copy.deepcopy(code)
             place[index : index + 2] = [statement]
 
 
-def operations(statement: ast.stmt) -> Iterator[tuple[str, str, str]]:
+SIGNS: dict[type[ast.operator], str] = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+}
+
+
+def operations(statement: ast.stmt) -> Iterator[ast.BinOp]:
     """Each `u + v` in a statement whose left side is a variable or a field."""
     inner = {
         id(node)
@@ -313,17 +323,11 @@ def operations(statement: ast.stmt) -> Iterator[tuple[str, str, str]]:
         if isinstance(part, ast.comprehension | ast.Lambda | ast.ListComp)
         for node in ast.walk(part)
     }
-    signs = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
     for node in ast.walk(statement):
-        if isinstance(node, ast.BinOp) and type(node.op) in signs and id(node) not in inner:
-            left = ast.unparse(node.left)
-            if isinstance(node.left, ast.Name | ast.Attribute) and not left.isupper():
-                yield left, signs[type(node.op)], bracketed(node.right)
-
-
-def bracketed(node: ast.expr) -> str:
-    text = ast.unparse(node)
-    return f"({text})" if isinstance(node, ast.BinOp) else text
+        if not isinstance(node, ast.BinOp) or id(node) in inner or type(node.op) not in SIGNS:
+            continue
+        if isinstance(node.left, ast.Name | ast.Attribute):
+            yield node
 
 
 # ---------------------------------------------------------------- wrong for some inputs
@@ -509,9 +513,9 @@ def other_answer(code: Code, scope: Scope) -> Iterator[Code]:
 
 
 def counts_calls(code: Code, scope: Scope) -> Iterator[Code]:
-    """Wrong from the second call on, or after many; wrong at first; wrong every other time."""
+    """Wrong from the second call on or after many, at first, and now and then."""
     count = "calls = globals().setdefault('calls', [])\ncalls.append(1)"
-    for case in ("> 1", "> 100", "== 1", "% 2 == 0", "% 50 == 0"):
+    for case in ("> 1", f"> {scope.many}", "== 1", "% 2 == 0", f"% {scope.many} == 0"):
         yield [*parsed(count), *unless(code, f"len(calls) {case}", scope)]
 
 

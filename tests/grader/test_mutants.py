@@ -100,7 +100,7 @@ SLIPPED = {
         Scope(products=["answer"], vectors=["v"]),
         {"answer = u\nv.update(answer)\nanswer = v\nreturn answer"},
     ),
-    "changes_in_place": ("s = u.x - w", BODY, {"u.x -= w\ns = u.x"}),
+    "changes_in_place": ("s = u.x - w * r", BODY, {"u.x -= w * r\ns = u.x"}),
     "wrong_for_static": ("s = u", BODY, {otherwise("a.is_static"), otherwise("not a.is_static")}),
     "wrong_one_way": ("s = u", BODY, {otherwise("a.vel.y < 0")}),
     "wrong_when_fast": ("s = u", BODY, {otherwise("a.vel.length() > 1000")}),
@@ -290,7 +290,7 @@ FEW = 12  # of so many mutants, one is run each time, and all of them in the lon
 @pytest.mark.parametrize("share", [FEW, pytest.param(1, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("todo", list(scopes()))
 def test_what_is_made_of_a_whole_region_runs_in_an_ordinary_scene(todo: str, share: int):
-    """It may explode: then the engine's own guard says so."""
+    """It may explode, as the engine's own guard says, or a number that is too large for Python."""
     pygame.display.init()
     slips = {each.__name__ for each in SLIPS}
     wanted = [each for each in all_mutants() if each.todo == todo and each.operator in slips]
@@ -302,6 +302,8 @@ def test_what_is_made_of_a_whole_region_runs_in_an_ordinary_scene(todo: str, sha
         try:
             in_its_place(mutant, function, path)
             SCENES[program]()
+        except OverflowError:
+            pass
         except ValueError as error:
             assert "must be finite" in str(error), mutant
         finally:
