@@ -75,16 +75,24 @@ def mutants_command(
     seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
     jobs: Annotated[int, typer.Option(help="Mutants graded at a time; 0 for one per core.")] = 0,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+    operator: Annotated[
+        list[str] | None, typer.Option(help="Only this kind of change; may be repeated.")
+    ] = None,
 ) -> None:
     """Change the solution in small ways, and see whether the checks notice.
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     """
     needs_checkout("mutants")
-    from grader.maintain.mutants import campaign
+    from grader.maintain.mutants import all_mutants, campaign, chosen_from
 
-    only = known_todos(todo)
-    raise typer.Exit(0 if campaign(count, seed, jobs, only, console).sound else 1)
+    todos = known_todos(todo)
+    known = sorted({mutant.operator for mutant in all_mutants()})
+    for name in operator or ():
+        if name not in known:
+            stop(f"there is no operator {name}; there are {', '.join(known)}", "go on")
+    mutants = chosen_from(all_mutants(), todos, frozenset(operator or ()))
+    raise typer.Exit(0 if campaign(mutants, count, seed, jobs, console).sound else 1)
 
 
 @app.command("bench")

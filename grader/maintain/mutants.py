@@ -35,6 +35,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Entry, Member
 from grader.maintain.operators import changes, names_in, normal
+from grader.maintain.slips import Scope, scopes, slipped
 from grader.maintain.verify import shared_worker
 from grader.todo_regions import Region, python_files, read_source, regions_in
 
@@ -75,26 +76,47 @@ class Mutant:
 @cache
 def all_mutants() -> tuple[Mutant, ...]:
     """Every mutant of every TODO of the solution, in the order of the rubric."""
-    regions = {
-        region.id: (text, region)
-        for path in python_files(KIT / "solution")
-        for text in [read_source(path)]
-        for region in regions_in(text)
-    }
+    solved, unfinished = regions_of("solution"), regions_of("starter")
     return tuple(
         mutant
         for todo in load_rubric().todos
         if todo.function
-        for mutant in mutants_of(*regions[todo.id], todo.function.partition(":")[2])
+        for mutant in mutants_of(
+            *solved[todo.id], todo.function.partition(":")[2], code_of(unfinished[todo.id][1])
+        )
     )
 
 
-def mutants_of(text: str, region: Region, function: str) -> Iterator[Mutant]:
-    """The mutants of one region of a source text; `function` is the one it lives in."""
+def regions_of(tree: str) -> dict[str, tuple[str, Region]]:
+    """The regions of the solution or the starter by TODO, each with the text it stands in."""
+    return {
+        region.id: (text, region)
+        for path in python_files(KIT / tree)
+        for text in [read_source(path)]
+        for region in regions_in(text)
+    }
+
+
+def code_of(region: Region) -> str:
+    return textwrap.dedent("\n".join(region.lines))
+
+
+def mutants_of(text: str, region: Region, function: str, unfinished: str = "") -> Iterator[Mutant]:
+    """The mutants of one region of a source text; `function` is the one it lives in.
+
+    `unfinished` is what the starter has in its place.
+    """
     found = function_named(statements(text), function)
     names = names_in(found) if found is not None else frozenset()
-    code = textwrap.dedent("\n".join(region.lines))
-    for number, (operator, change) in enumerate(changes(code, names), 1):
+    parameters = frozenset(each.arg for each in found.args.args) if found is not None else names
+    scope = msgspec.structs.replace(
+        scopes().get(region.id, Scope()), parameters=parameters, unfinished=unfinished
+    )
+    code = code_of(region)
+    made: dict[str, str] = {}
+    for operator, change in (*changes(code, names), *slipped(code, scope)):
+        made.setdefault(change, operator)
+    for number, (change, operator) in enumerate(made.items(), 1):
         yield Mutant(region.id, number, operator, *difference(code, change), change)
 
 
@@ -108,6 +130,8 @@ def difference(code: str, change: str) -> tuple[str, str]:
             more = 1 if tag == "insert" else 0
             was += before[i : j + more]
             now += after[k : m + more]
+    if was == now:  # a line that was inserted in another place
+        was, now = before, after
     return "; ".join(map(str.strip, was)), "; ".join(map(str.strip, now))
 
 
@@ -143,20 +167,40 @@ class Equivalent(Struct, frozen=True, forbid_unknown_fields=True):
     changes: list[tuple[str, str]]  # the lines that differ, before and after
 
 
+class Family(Struct, frozen=True, forbid_unknown_fields=True):
+    """Mutants of some operators that change nothing for one reason."""
+
+    todos: list[str]
+    operators: list[str]
+    why: str
+    having: list[str] = []  # pieces, one of which is in the changed lines; none: whatever they are
+
+    def has(self, mutant: Mutant) -> bool:
+        known = mutant.todo in self.todos and mutant.operator in self.operators
+        return known and any(piece in mutant.now for piece in self.having or [""])
+
+
 class Equivalents(Struct, frozen=True, forbid_unknown_fields=True):
     equivalent: list[Equivalent]
+    family: list[Family] = []
+
+
+@cache
+def listed() -> Equivalents:
+    path = Path(__file__).with_name("equivalent.toml")
+    return msgspec.toml.decode(path.read_bytes(), type=Equivalents)
 
 
 @cache
 def equivalents() -> dict[tuple[str, str, str], str]:
-    """Why each of the listed mutants changes nothing; by TODO and the lines that differ."""
-    path = Path(__file__).with_name("equivalent.toml")
-    listed = msgspec.toml.decode(path.read_bytes(), type=Equivalents).equivalent
-    return {(each.todo, *lines): each.why for each in listed for lines in each.changes}
+    """Why each of the mutants listed by itself changes nothing; by TODO and lines that differ."""
+    return {(each.todo, *pair): each.why for each in listed().equivalent for pair in each.changes}
 
 
 def is_equivalent(mutant: Mutant) -> bool:
-    return (mutant.todo, mutant.was, mutant.now) in equivalents()
+    if (mutant.todo, mutant.was, mutant.now) in equivalents():
+        return True
+    return any(family.has(mutant) for family in listed().family)
 
 
 # ---------------------------------------------------------------- grading one
@@ -275,9 +319,21 @@ class Campaign:
         return named_well and not any(each.complaint for each in self.outcomes)
 
 
-def campaign(count: int, seed: int, jobs: int, only: frozenset[str], console: Console) -> Campaign:
-    """Grade `count` mutants, of the TODOs in `only` if there are any; prints a table."""
-    mutants = [each for each in all_mutants() if not only or each.todo in only]
+def chosen_from(
+    mutants: Iterable[Mutant], todos: frozenset[str], operators: frozenset[str]
+) -> list[Mutant]:
+    """Those of these TODOs and operators; of all where none is named."""
+    return [
+        each
+        for each in mutants
+        if (not todos or each.todo in todos) and (not operators or each.operator in operators)
+    ]
+
+
+def campaign(
+    mutants: Sequence[Mutant], count: int, seed: int, jobs: int, console: Console
+) -> Campaign:
+    """Grade `count` of the mutants and print a table."""
     chosen = sample(mutants, count, seed)
     outcomes: list[Outcome] = []
     with Counter("grading mutants", len(chosen), console) as counter:
@@ -286,7 +342,8 @@ def campaign(count: int, seed: int, jobs: int, only: frozenset[str], console: Co
             counter.reached(len(outcomes))
             if outcome.complaint or outcome.naming == "wrong":
                 console.print(describe(outcome))
-    outcomes.sort(key=lambda each: mutants.index(each.mutant))
+    places = {mutant: place for place, mutant in enumerate(chosen)}
+    outcomes.sort(key=lambda each: places[each.mutant])
     show(outcomes, console)
     return Campaign(outcomes)
 
@@ -310,7 +367,7 @@ def show(outcomes: Sequence[Outcome], console: Console) -> None:
 def describe(outcome: Outcome) -> str:
     misled = f"is not {outcome.mistake}" if outcome.naming == "wrong" else ""
     words = "; ".join(filter(None, (outcome.complaint, misled)))
-    return f"{outcome.mutant}: {words}"
+    return f"{outcome.mutant} ({outcome.mutant.operator}): {words}"
 
 
 def figures(outcomes: Sequence[Outcome]) -> list[str]:

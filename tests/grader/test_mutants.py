@@ -1,27 +1,44 @@
 """Mutants: the operators make what they should, and the checks notice what they make."""
 
 import ast
+import importlib
 import math
+import random
+import sys
+import textwrap
 from collections import Counter
+from operator import attrgetter
+from types import FunctionType
 
+import pygame
 import pytest
 
+import integrators
+import pymunk_scene
 from grader.checks.exact import Disc, Rect, Rod, rod_solved
 from grader.judge import misconceptions
+from grader.judge.definitions import function_named, statements
 from grader.judge.lab import Observation
 from grader.judge.rubric import load_rubric
 from grader.maintain import mutants
 from grader.maintain.mutants import (
     Campaign,
+    Family,
     Mutant,
     Outcome,
     all_mutants,
+    chosen_from,
     equivalents,
     foretold,
     is_equivalent,
+    listed,
+    regions_of,
     sample,
 )
 from grader.maintain.operators import OPERATORS, changes
+from grader.maintain.slips import SLIPS, Scale, Scope, scopes, slipped
+from grader.todo_regions import replaced
+from mini_engine import game_loop, scenes
 
 SNIPPETS = {
     "other_arithmetic": ("s = u + w * r ** n", {"s = u - w * r ** n", "s = u + w / r ** n"}),
@@ -53,6 +70,110 @@ def test_every_change_is_another_piece_of_python():
     assert all(ast.parse(change) for change in made)
 
 
+SCALE = Scale(usual=5, small=0.5, large=9, grid=2)
+BODY = Scope(bodies=["a"])
+READ = Scope(reads={"u": SCALE}, parameters=frozenset({"u"}))
+RESULT = Scope(results={"s": SCALE})
+LATE = "(globals().setdefault('late', [{0}]).append({0}), globals()['late'].pop(0))[1]"
+COUNTED = "calls = globals().setdefault('calls', [])\ncalls.append(1)\n"
+KNOWN = "known = globals().setdefault('known', [])\nmet = a in known\nknown.append(a)\n"
+
+
+def otherwise(case: str) -> str:
+    """The region `s = u` with a case in which it is left out."""
+    return f"if {case}:\n    pass\nelse:\n    s = u"
+
+
+SLIPPED = {
+    "zeroes_input": ("s = u", BODY, {"s = u\na.vel *= 0", "s = u\na.omega = 0"}),
+    "moves_input": ("s = u", BODY, {"s = u\na.pos += (1, 0)"}),
+    "damps_input": ("s = u", BODY, {"s = u\na.angle *= 0.99", "s = u\na.inv_mass *= 0.99"}),
+    "turns_input": ("s = u", BODY, {"s = u\na.pos.rotate_ip(90)"}),
+    "rounds_input": ("s = u", BODY, {"s = u\na.vel.x = round(a.vel.x)"}),
+    "empties_list": ("s = u", Scope(lists=["w.all"]), {"s = u\nw.all.clear()"}),
+    "reorders_list": ("return u", Scope(lists=["w"]), {"answer = u\nw.reverse()\nreturn answer"}),
+    "grows_list": ("s = u", Scope(lists=["w"]), {"s = u\nw.extend(w[:1])"}),
+    "does_more": ("s = u", Scope(deeds=["f()"]), {"s = u\nf()"}),
+    "stores_result": ("s = u", Scope(results={"s": SCALE}, numbers=["n"]), {"s = u\nn = s"}),
+    "returns_input": (
+        "return u",
+        Scope(products=["answer"], vectors=["v"]),
+        {"answer = u\nv.update(answer)\nanswer = v\nreturn answer"},
+    ),
+    "changes_in_place": ("s = u.x - w * r", BODY, {"u.x -= w * r\ns = u.x"}),
+    "wrong_for_static": ("s = u", BODY, {otherwise("a.is_static"), otherwise("not a.is_static")}),
+    "wrong_one_way": ("s = u", BODY, {otherwise("a.vel.y < 0")}),
+    "wrong_when_fast": ("s = u", BODY, {otherwise("a.vel.length() > 1000")}),
+    "wrong_off_screen": ("s = u", BODY, {otherwise("a.pos.x < 0")}),
+    "wrong_for_extremes": ("s = u", BODY, {otherwise("a.friction == 0")}),
+    "wrong_in_a_case": (
+        "return u",
+        Scope(cases=["u > 1"], unfinished="return 0"),
+        {"if u > 1:\n    return 0\nreturn u"},
+    ),
+    "usual_read": ("s = u", READ, {"u = 5\ns = u"}),
+    "snapped_read": ("s = u", READ, {"u = round(u / 2) * 2\ns = u"}),
+    "snapped_to_usual": ("s = u", READ, {"u = 5 if abs(u - 5) <= 2 / 2 else u\ns = u"}),
+    "capped_read": ("s = w.u", Scope(reads={"w.u": SCALE}), {"s = min(w.u, 9)"}),
+    "floored_read": ("s = u", READ, {"u = max(u, 0.5)\ns = u"}),
+    "dead_zone_read": ("s = u", READ, {"u = u if abs(u) > 0.5 else 0\ns = u"}),
+    "unsigned_read": ("s = u", READ, {"u = abs(u)\ns = u", "u = max(u, 0)\ns = u"}),
+    "whole_read": ("s = u", READ, {"u = int(u)\ns = u"}),
+    "first_read": ("s = u", READ, {"u = globals().setdefault('first', u)\ns = u"}),
+    "late_read": ("s = u", READ, {f"u = {LATE.format('u')}\ns = u"}),
+    "capped_result": ("s = u", RESULT, {"s = u\ns = min(s, 9)", "s = u\ns = max(-9, min(s, 9))"}),
+    "floored_result": ("s = u", RESULT, {"s = u\ns = max(s, 0.5)", "s = u\ns = max(s, 0)"}),
+    "dead_zone_result": ("s = u", RESULT, {"s = u\ns = s if abs(s) > 0.5 else 0"}),
+    "rounded_result": ("s = u", RESULT, {"s = u\ns = round(s / 2) * 2"}),
+    "inexact_result": ("s = u", RESULT, {"s = u\ns = s * 1.001"}),
+    "unsigned_result": ("s = u", RESULT, {"s = u\ns = abs(s)"}),
+    "first_result": ("s = u", RESULT, {"s = u\ns = globals().setdefault('first', s)"}),
+    "late_result": ("s = u", RESULT, {f"s = u\ns = {LATE.format('s')}"}),
+    "other_answer": (
+        "return u",
+        Scope(answers=["answer"]),
+        {"answer = u\nanswer = answer[1:]\nreturn answer"},
+    ),
+    "counts_calls": ("s = u", BODY, {COUNTED + otherwise("len(calls) > 1")}),
+    "knows_bodies": ("s = u", BODY, {KNOWN + otherwise("met")}),
+    "roles_swapped": ("s = u - w.u", Scope(roles=[("u", "v")]), {"s = v - w.u"}),
+    "one_role": ("s = w.u - w.v", Scope(roles=[(".u", ".v")]), {"s = w.u - w.u", "s = w.v - w.v"}),
+    "statements_exchanged": ("s = 1\nr = 2\nt = r", BODY, {"r = 2\ns = 1\nt = r"}),
+    "statement_repeated": ("s = 1\ns += u", BODY, {"s = 1\ns += u\ns += u"}),
+    "loop_cut_short": (
+        "for i in u:\n    f(i)",
+        BODY,
+        {"for i in u:\n    f(i)\n    break", "for i in list(u)[1:]:\n    f(i)"},
+    ),
+}
+
+
+@pytest.mark.parametrize("operator", [each.__name__ for each in SLIPS])
+def test_an_operator_on_a_whole_region_makes_its_changes(operator: str):
+    code, scope, expected = SLIPPED[operator]
+    made = {change for name, change in slipped(code, scope) if name == operator}
+    assert expected <= made
+
+
+def test_in_a_loop_over_bodies_it_is_one_of_them_that_is_harmed_or_passed_over():
+    loop = "for body in w:\n    f(body)"
+    made = {change for _, change in slipped(loop, Scope(each="body"))}
+    assert f"{loop}\n    body.vel *= 0" in made
+    assert "for body in w:\n    if body.is_static:\n        continue\n    f(body)" in made
+
+
+def test_what_is_done_last_is_done_before_every_return():
+    code = "if u:\n    return\ns = u\nreturn (s, u)"
+    made = {change for _, change in slipped(code, Scope(deeds=["f()"]))}
+    last = "answer_0, answer_1 = (s, u)\nf()\nreturn (answer_0, answer_1)"
+    assert f"if u:\n    f()\n    return\ns = u\n{last}" in made
+
+
+def test_no_two_statements_change_places_if_the_second_would_lack_a_variable():
+    made = [name for name, _ in slipped("s = 1\nr = s", BODY)]
+    assert "statements_exchanged" not in made
+
+
 def test_arguments_whose_order_does_not_matter_stay_where_they_are():
     assert "max(w, u)" not in {change for _, change in changes("max(u, w)")}
 
@@ -65,6 +186,19 @@ def test_every_todo_has_mutants_and_none_of_them_is_the_solution():
         t.id for t in load_rubric().todos if t.function
     }
     assert all(each.was != each.now for each in all_mutants())
+
+
+def test_there_are_many_for_whole_regions_and_for_every_todo():
+    slips = {each.__name__ for each in SLIPS}
+    found = Counter(each.todo for each in all_mutants() if each.operator in slips)
+    assert set(found) == {t.id for t in load_rubric().todos if t.function} == set(scopes())
+    assert sum(found.values()) > 1000 and min(found.values()) > 10
+
+
+def test_mutants_are_chosen_by_todo_and_by_operator():
+    chosen = chosen_from(all_mutants(), frozenset({"4"}), frozenset({"usual_read"}))
+    assert {(each.todo, each.operator) for each in chosen} == {("4", "usual_read")}
+    assert chosen_from(all_mutants(), frozenset(), frozenset()) == list(all_mutants())
 
 
 def test_a_sample_draws_from_every_todo_and_is_the_same_again():
@@ -80,6 +214,102 @@ def test_the_listed_equivalents_still_exist_and_are_few():
     assert set(equivalents()) <= existing
     assert all(why.endswith(".") for why in equivalents().values())
     assert len(equivalents()) < 0.04 * len(existing)
+
+
+@pytest.mark.parametrize("family", listed().family, ids=lambda each: "-".join(each.operators))
+def test_a_family_of_equivalents_has_members_of_each_operator_and_each_todo(family: Family):
+    members = [each for each in all_mutants() if family.has(each)]
+    assert {each.operator for each in members} == set(family.operators)
+    assert {each.todo for each in members} == set(family.todos)
+    assert family.why.endswith(".")
+
+
+# ---------------------------------------------------------------- that they run
+
+
+def in_its_place(mutant: Mutant, function: FunctionType, path: str) -> None:
+    """Let the solution's function do what the mutant's does."""
+    text, region = regions_of("solution")[mutant.todo]
+    indent = " " * text.splitlines()[region.start].index("#")
+    lines = textwrap.indent(mutant.code, indent).splitlines()
+    found = function_named(statements(replaced(text, {mutant.todo: tuple(lines)})), path)
+    assert found is not None
+    made: dict[str, FunctionType] = {}
+    exec(compile(ast.Module([found], []), mutant.name, "exec"), function.__globals__, made)
+    function.__code__ = made[found.name].__code__
+
+
+def function_of(program: str, path: str) -> FunctionType:
+    """The solution's function, from the module of the program that has it."""
+    importlib.import_module(program)
+    names = [name for name in sorted(sys.modules) if name.partition(".")[0] == program]
+    first = path.partition(".")[0]
+    module = next(sys.modules[name] for name in names if hasattr(sys.modules[name], first))
+    found = attrgetter(path)(module)
+    assert isinstance(found, FunctionType)
+    return found
+
+
+def engine_scene() -> None:
+    """The lab scene with a spring, sleep and the grid; the balls soon lie on something."""
+    world = scenes.make_world(random.Random(12))
+    scenes.add_spring(world)
+    world.grid = world.sleeping = True
+    for body in world.bodies[-9:]:
+        body.pos.y += 150
+    accumulator = 0.0
+    for _ in range(6):
+        accumulator, _ = game_loop.advance(world, accumulator, 1 / 40)
+    for _ in range(25):
+        world.step(1 / 120)
+    for body in world.bodies:
+        game_loop.between(body, 0.5)
+    game_loop.heaviness()
+
+
+def pymunk_scene_moves() -> None:
+    space, _ = pymunk_scene.make_space(random.Random(12))
+    accumulator = 0.0
+    for _ in range(6):
+        accumulator, _ = pymunk_scene.advance(space, accumulator, 1 / 40)
+
+
+def spring_swings() -> None:
+    for method in (integrators.semi_implicit_euler, integrators.velocity_verlet, integrators.rk4):
+        integrators.simulate(method, 1 / 30, 1)
+
+
+SCENES = {
+    "mini_engine": engine_scene,
+    "pymunk_scene": pymunk_scene_moves,
+    "integrators": spring_swings,
+}
+FEW = 12  # of so many mutants, one is run each time, and all of them in the long run
+
+
+@pytest.mark.parametrize("share", [FEW, pytest.param(1, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("todo", list(scopes()))
+def test_what_is_made_of_a_whole_region_runs_in_an_ordinary_scene(todo: str, share: int):
+    """It may explode, as the engine's own guard says, or a number that is too large for Python."""
+    pygame.display.init()
+    slips = {each.__name__ for each in SLIPS}
+    wanted = [each for each in all_mutants() if each.todo == todo and each.operator in slips]
+    task = next(each.function or "" for each in load_rubric().todos if each.id == todo)
+    program, _, path = task.partition(":")
+    function = function_of(program, path)
+    code, names = function.__code__, set(function.__globals__)
+    for mutant in wanted[::share]:
+        try:
+            in_its_place(mutant, function, path)
+            SCENES[program]()
+        except OverflowError:
+            pass
+        except ValueError as error:
+            assert "must be finite" in str(error), mutant
+        finally:
+            function.__code__ = code
+            for name in set(function.__globals__) - names:
+                del function.__globals__[name]  # what it remembered
 
 
 # ---------------------------------------------------------------- what is said of them
@@ -174,9 +404,19 @@ def test_a_mutant_is_killed_and_its_mistake_named(todo: str, now: str, mistake: 
     assert (outcome.mistake, outcome.naming) == (mistake, "right" if mistake else "none")
 
 
+def listed_ones() -> list[Mutant]:
+    """Each that is listed by itself, and of each family one of each TODO."""
+    several = [each for each in all_mutants() if (each.todo, each.was, each.now) in equivalents()]
+    firsts = {
+        (family.why, each.todo): each
+        for family in listed().family
+        for each in all_mutants()
+        if family.has(each)
+    }
+    return [*several, *firsts.values()]
+
+
 @pytest.mark.soak
-@pytest.mark.parametrize(
-    "mutant", [each for each in all_mutants() if is_equivalent(each)], ids=lambda each: each.name
-)
+@pytest.mark.parametrize("mutant", listed_ones(), ids=lambda each: each.name)
 def test_a_mutant_listed_as_equivalent_loses_nothing(mutant: Mutant):
     assert mutants.grade_mutant(mutant).lost == {}
