@@ -6,6 +6,8 @@ what may change is the judge's to say.
 
 import sys
 from collections.abc import Iterable
+from functools import cache
+from types import ModuleType
 from typing import Any
 
 from grader.protocol import Change
@@ -48,16 +50,11 @@ class Frame:
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
-        for module in self.modules():
+        for names in own_modules(str(self.subject.folder), len(sys.modules)):
             for name in CONSTANTS:
-                if name in module:
-                    found[0, name] = (module[name],)
+                if name in names:
+                    found[0, name] = (names[name],)
         return found
-
-    def modules(self) -> list[dict[str, Any]]:
-        folder = str(self.subject.folder)
-        found = (vars(module) for module in list(sys.modules.values()) if type(module) is MODULE)
-        return [names for names in found if str(names.get("__file__")).startswith(folder)]
 
     def changes(self) -> list[Change]:
         """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
@@ -69,7 +66,11 @@ class Frame:
         ]
 
 
-MODULE = type(sys)
+@cache
+def own_modules(folder: str, loaded: int) -> list[dict[str, Any]]:
+    """The names of each module from a folder, looked up anew when more is `loaded`."""
+    found = (vars(module) for module in list(sys.modules.values()) if type(module) is ModuleType)
+    return [names for names in found if str(names.get("__file__")).startswith(folder)]
 
 
 def fields_of(thing: Any) -> tuple[str, ...]:
