@@ -52,8 +52,8 @@ class Frame:
                 found[-number, ""] = numbers_in(argument)
         for names in own_modules(str(self.subject.folder), len(sys.modules)):
             for name in CONSTANTS:
-                if name in names:
-                    found[0, name] = (names[name],)
+                if name in names:  # in each module that has it
+                    found[0, name] = (*found.get((0, name), ()), names[name])
         return found
 
     def changes(self) -> list[Change]:
