@@ -8,6 +8,7 @@ may close a circle.
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -28,6 +29,7 @@ class Import:
     only_for_types: bool
 
 
+@cache
 def imports_below(root: Path) -> list[Import]:
     """All imports of one file below a root from another one."""
     base = root.parent if (root / "__init__.py").exists() else root  # what is on Python's path

@@ -94,9 +94,10 @@ def used(node: ast.AST) -> set[str]:
 
 def asked_of(source: str, module: str) -> set[str]:
     """The names of `grader.checks.<module>` that a file uses, imported or as attributes."""
-    tree = ast.parse(source)
     names: set[str] = set()
-    for node in ast.walk(tree):
+    if module not in source:
+        return names
+    for node in ast.walk(ast.parse(source)):
         match node:
             case ast.ImportFrom(module=name) if name == f"grader.checks.{module}":
                 names.update(each.name for each in node.names)

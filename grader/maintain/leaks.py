@@ -12,10 +12,9 @@ import io
 import json
 import re
 import zipfile
-from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import accumulate
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -78,16 +77,14 @@ class Row:
     """A text as one row of words and signs, a space between any two."""
 
     def __init__(self, text: str) -> None:
-        found = list(WORD.finditer(text))
-        self.words = " " + " ".join(each[0] for each in found) + " "
-        self.starts = list(accumulate((len(each[0]) + 1 for each in found), initial=1))
-        self.places = [each.start() for each in found]
+        self.words = f" {' '.join(WORD.findall(text))} "
         self.text = text
 
     def line(self, position: int) -> int:
         """The line of the text that a position in the row belongs to."""
-        number = bisect_right(self.starts, position + 1) - 1
-        return self.text.count("\n", 0, self.places[number]) + 1
+        number = self.words.count(" ", 0, position + 1) - 1
+        word = next(islice(WORD.finditer(self.text), number, None))
+        return self.text.count("\n", 0, word.start()) + 1
 
 
 def texts_in(name: str, data: bytes) -> Iterator[tuple[str, str]]:
@@ -158,10 +155,12 @@ def region_secrets(solution: Path) -> Iterator[list[Secret]]:
     """What stands in the regions: for each statement, what to look for, the widest first."""
     for path in python_files(solution):
         text = read_source(path)
+        functions = list(functions_of(text))
         for region in regions_in(text):
             within = range(region.start + 1, region.stop + 1)
-            for function in functions_of(text):
-                yield from statement_secrets(f"TODO {region.id}", text, function, within)
+            for function in functions:
+                if function.lineno < within.stop and within.start <= (function.end_lineno or 0):
+                    yield from statement_secrets(f"TODO {region.id}", text, function, within)
 
 
 def functions_of(text: str) -> Iterator[ast.FunctionDef]:

@@ -43,17 +43,7 @@ def test_every_title_is_there_once():
     assert len(CASES) == len(hard_cases.CASES)
 
 
-LONG = ("pile", "6 random closed boxes")  # takes the lesson's engine seconds
-
-
-@pytest.mark.parametrize(
-    "title",
-    [
-        pytest.param(title, marks=pytest.mark.soak if title.startswith(LONG) else ())
-        for title, case in CASES.items()
-        if case.quick
-    ],
-)
+@pytest.mark.parametrize("title", [title for title, case in CASES.items() if case.quick])
 def test_the_lessons_engine_never_yields_nan_silently(title):
     for cell in answers(title, "lesson").values():
         assert cell in ("stopped", battery.NO_ANSWER) or math.isfinite(cell)

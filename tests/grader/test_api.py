@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from mixed_trees import mixed
 
 import grader
 from grader.judge.grade import KIT
@@ -28,14 +29,12 @@ def example() -> str:
     return code
 
 
-def test_the_lines_of_the_guide_print_the_points_of_each_todo(hand_in, tmp_path: Path):
-    submissions = tmp_path / "submissions"
-    submissions.mkdir()
-    hand_in("solution", integrators_py=None).rename(submissions / "ann")
+def test_the_lines_of_the_guide_print_the_points_of_each_todo(tmp_path: Path):
+    mixed(tmp_path / "submissions" / "ann", "starter", "solution", {"4"})
     done = run(example(), tmp_path)
     assert done.returncode == 0, done.stderr
     head, *todos = done.stdout.splitlines()
-    assert re.fullmatch(r"ann: \d\d of 100 points", head)
+    assert head == "ann: 10 of 100 points"
     assert len(todos) == len(load_rubric().todos)
     assert "TODO 4: 10 of 10, passed" in todos
     assert [line for line in todos if line.startswith("TODO 8")] != []

@@ -30,6 +30,7 @@ from grader.words import total
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
+WHOLE = ("6", "7d", "whole")
 RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 tells about a submission
 
 
@@ -38,10 +39,17 @@ def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
 
 
 @pytest.fixture(scope="module")
-def without_bonus(tmp_path_factory: pytest.TempPathFactory) -> Result:
-    """The solution as of somebody who did no bonus task."""
+def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """The solution as of somebody who did no bonus task.
+
+    Graded again are the TODOs of the whole programs, which bonus code would be run in, if any were.
+    """
     folder = tmp_path_factory.mktemp("none") / "ann"
-    return graded(mixed(folder, "solution", "starter", BONUS))
+    again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({*WHOLE, *BONUS}))
+    todos = {todo.id: todo for todo in again.todos}
+    return msgspec.structs.replace(
+        solution, bonus=again.bonus, todos=[todos.get(each.id, each) for each in solution.todos]
+    )
 
 
 @pytest.fixture(scope="module")
@@ -71,10 +79,14 @@ def test_the_rubric_counts_the_bonus_apart():
     assert {todo.id: todo.max_points for todo in rubric.todos if todo.bonus} == WORTH
 
 
-def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result):
-    assert (without_bonus.points, without_bonus.max_points, without_bonus.bonus) == (100, 100, 0)
-    assert without_bonus.complete
-    assert {t.state for t in without_bonus.todos if t.bonus} == {"not started"}
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])
+def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result, tmp_path: Path, whole: bool):
+    result = (
+        graded(mixed(tmp_path / "ann", "solution", "starter", BONUS)) if whole else without_bonus
+    )
+    assert sum(todo.points for todo in result.counted) == result.max_points == 100
+    assert result.bonus == 0 and result.complete
+    assert {t.state for t in result.todos if t.bonus} == {"not started"}
 
 
 def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(tmp_path: Path):

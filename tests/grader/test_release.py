@@ -20,7 +20,6 @@ from rich.console import Console
 
 from grader.checks import exact
 from grader.judge import recorded
-from grader.judge.children import Worker, start_worker
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
@@ -32,7 +31,7 @@ from grader.maintain.pages import as_page
 from grader.maintain.release import Refused, build, build_wheel, look_for_leaks, pinned, prove
 from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, visible
 from grader.maintain.sync import students_files
-from grader.maintain.verify import Report
+from grader.maintain.verify import Report, shared_worker
 
 WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
 REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
@@ -136,20 +135,12 @@ def secrets() -> list[Secret]:
 # ---------------------------------------------------------------- the students' grader
 
 
-@pytest.fixture(scope="module")
-def worker() -> Iterator[Worker]:
-    """One for all grades of the instructor's grader."""
-    started = start_worker()
-    yield started
-    started.close()
-
-
-def compare(released: Released, chosen: list[Member], worker) -> Counter[str]:
+def compare(released: Released, chosen: list[Member]) -> Counter[str]:
     """Grade with both graders: every visible check must end alike. Counts the mistakes named."""
     submissions = [(released.wrong[member.name], member.todos) for member in chosen]
     named: Counter[str] = Counter()
     for (path, todos), theirs in zip(submissions, released.grade(submissions), strict=True):
-        ours = grade(path, Options(reference=None, only=todos), worker)
+        ours = grade(path, Options(reference=None, only=todos), shared_worker())
         for our, their in zip(ours.todos, theirs.todos, strict=True):
             states = {check.id: (check.state, check.points) for check in our.checks}
             shown = {check.id: (check.state, check.points) for check in their.checks}
@@ -160,16 +151,16 @@ def compare(released: Released, chosen: list[Member], worker) -> Counter[str]:
     return named
 
 
-def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released, worker):
-    named = compare(released, SAMPLE, worker)
+def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released):
+    named = compare(released, SAMPLE)
     assert len(SAMPLE) >= 7
     assert named["same"] > 0.7 * named.total() > 0
 
 
 @pytest.mark.soak
-def test_so_it_is_for_all_wrong_submissions(tmp_path: Path, worker):
+def test_so_it_is_for_all_wrong_submissions(tmp_path: Path):
     released = make(tmp_path, WRONG)
-    named = compare(released, WRONG, worker)
+    named = compare(released, WRONG)
     assert named["same"] > 0.9 * named.total() > 0
 
 
@@ -273,8 +264,11 @@ def test_a_line_is_found_in_every_kind_of_file(name: str, secrets: list[Secret])
     assert {leak.what for leak in found} == {"TODO 4"}
 
 
-def test_planted_leaks_stop_the_release(released: Released, tmp_path: Path):
+def test_planted_leaks_stop_the_release(
+    released: Released, secrets: list[Secret], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
+    monkeypatch.setattr(releases, "secrets_of", lambda kit: secrets)  # found out once
     tree = tmp_path / releases.NAME
     shutil.copytree(released.tree, tree)
     solver = (KIT / "solution" / "mini_engine" / "solver.py").read_text(encoding="utf-8")

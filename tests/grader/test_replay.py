@@ -13,6 +13,7 @@ from typing import Any
 
 import msgspec
 import pytest
+from conftest import only_some
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
 
 import grader.judge.replay as replays
@@ -21,10 +22,11 @@ from grader.judge.children import ChildEnded, start_worker
 from grader.judge.filming import MOST_SHOTS, FilmingLab, filmed
 from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
 from grader.judge.plugin import Failing
-from grader.judge.replay import Replays, Runs
+from grader.judge.replay import Replays, Runs, record_expected
 from grader.judge.result import Result
-from grader.judge.rubric import load_rubric
+from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Member, members, patch
+from grader.maintain.verify import shared_worker
 from grader.player.film import Line, Take
 from grader.player.page import page
 from grader.player.pairing import replay
@@ -73,7 +75,8 @@ def mistaken(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def graded(mistaken: Path) -> Result:
     todos = frozenset({"1", "3", "4", "6", "7b", "7c", "8b"})
     folder = mistaken.parent / "pages"
-    return grade(mistaken, Options(shipped_reference(), only=todos, replays=folder))
+    options = Options(shipped_reference(), only=todos, replays=folder)
+    return grade(mistaken, options, shared_worker())
 
 
 @pytest.fixture(scope="module")
@@ -110,9 +113,9 @@ def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pag
 
 def test_marks_and_reasons_are_the_same_with_and_without_replays(mistaken: Path, tmp_path: Path):
     options = Options(shipped_reference(), only=frozenset({"7b"}))
-    plain = grade(mistaken, options)
+    plain = grade(mistaken, options, shared_worker())
     for name in "12":
-        seen = grade(mistaken, replace(options, replays=tmp_path / name))
+        seen = grade(mistaken, replace(options, replays=tmp_path / name), shared_worker())
         blank = re.sub(rb'"replay": "[^"]*"', b'"replay": null', as_json(seen))
         assert blank == as_json(plain) != as_json(seen)
     first, second = (sorted((tmp_path / name).iterdir()) for name in "12")
@@ -340,7 +343,7 @@ def test_a_force_is_worked_out_as_the_judge_does():
 
 def test_without_a_reference_the_run_stands_alone(mistaken: Path, tmp_path: Path):
     options = Options(None, only=frozenset("3"), replays=tmp_path / "alone")
-    grade(mistaken, options)
+    grade(mistaken, options, shared_worker())
     film = film_of(tmp_path / "alone" / "3-a_stretched_rod_pulls_its_ends_together.html")
     assert not film["compared"] and film["parting"] is None
     assert film["scenes"][0]["expected"] == [] != film["scenes"][0]["yours"]
@@ -355,7 +358,8 @@ def test_recorded_runs_stand_in_for_the_reference(
 ):
     runs = msgspec.json.decode(expected_runs, type=Runs)
     monkeypatch.setattr(replays, "recorded", lambda: runs)
-    grade(mistaken, Options(None, only=frozenset({"3", "8b"}), replays=tmp_path / "recorded"))
+    options = Options(None, only=frozenset({"3", "8b"}), replays=tmp_path / "recorded")
+    grade(mistaken, options, shared_worker())
     compared = 0
     for path in (tmp_path / "recorded").glob("*.html"):
         film, live = film_of(path)["parting"], film_of(pages / path.name)["parting"]
@@ -366,15 +370,27 @@ def test_recorded_runs_stand_in_for_the_reference(
     assert compared >= 5
 
 
-def test_recorded_runs_are_of_fixed_checks_and_compact(expected_runs: bytes):
-    runs = msgspec.json.decode(expected_runs, type=Runs)
-    fixed = {
+def fixed_checks(rubric: Rubric) -> set[str]:
+    return {
         f"{todo.id}/{check.id}"
-        for todo in load_rubric().todos
+        for todo in rubric.todos
         for check in todo.checks
         if check.kind != "property" and not check.hidden
     }
-    assert set(runs) == fixed
+
+
+def all_or_some_expected_runs(request: pytest.FixtureRequest, whole: bool) -> bytes:
+    if not whole:
+        return request.getfixturevalue("expected_runs")
+    with opened(KIT / "solution") as open_child:
+        return record_expected(open_child)
+
+
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])
+def test_recorded_runs_are_of_fixed_checks_and_compact(request, whole: bool):
+    expected_runs = all_or_some_expected_runs(request, whole)
+    runs = msgspec.json.decode(expected_runs, type=Runs)
+    assert set(runs) == fixed_checks(load_rubric() if whole else only_some(load_rubric()))
     assert all(any(take.lines for scene in runs[name] for take in scene) for name in runs)
     assert len(expected_runs) < 2_500_000
     assert b"circle_box(" not in expected_runs
@@ -667,7 +683,7 @@ def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tm
     tree = tmp_path / "tree"
     member.build(KIT, tree)
     options = Options(shipped_reference(), only=member.todos, replays=tmp_path / "pages")
-    result = grade(tree, options)
+    result = grade(tree, options, shared_worker())
     for check in (check for todo in result.todos for check in todo.checks):
         if check.state == "not yet":
             assert check.replay is not None, check.id

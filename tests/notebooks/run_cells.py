@@ -1,8 +1,9 @@
 """Run a notebook's code cells in order, as Jupyter does, and print what failed as JSON.
 
-    python run_cells.py NOTEBOOK
+    python run_cells.py NOTEBOOK [--draw]
 
-A failing cell does not stop the next one. Figures are not drawn where matplotlib is missing.
+A failing cell does not stop the next one. Figures are drawn where that is asked for, since
+matplotlib takes longer to load than most notebooks to run, and where it is installed.
 """
 
 import io
@@ -10,6 +11,7 @@ import json
 import os
 import sys
 from contextlib import redirect_stdout
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from unittest.mock import MagicMock
@@ -28,11 +30,9 @@ def stand_in():
     sys.modules.update({"matplotlib": package, "matplotlib.pyplot": pyplot})
 
 
-def main(path):
+def main(path, draws):
     os.environ["MPLBACKEND"] = "agg"
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
+    if not draws or find_spec("matplotlib") is None:
         stand_in()
     os.chdir(path.parent)
     sys.path.insert(0, "")
@@ -49,4 +49,4 @@ def main(path):
     print(json.dumps({"failed": failed, "kept": kept}))
 
 
-main(Path(sys.argv[1]).resolve())
+main(Path(sys.argv[1]).resolve(), "--draw" in sys.argv)

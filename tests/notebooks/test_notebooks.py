@@ -140,10 +140,10 @@ def test_checksums_tell_nothing_about_what_was_hidden(name):
 # ---------------------------------------------------------------- run from top to bottom
 
 
-def run(folder, name):
+def run(folder, name, *options):
     """What fails in a notebook of a handed-in folder, and some of its data."""
     command = [sys.executable, str(RUNNER), str(folder / "notebooks" / f"{name}.ipynb")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 
@@ -161,8 +161,8 @@ def complete(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def run_of(complete):
-    """What comes of each notebook of that folder; each is run once."""
-    return cache(lambda name: run(complete, name))
+    """What comes of each notebook of that folder; each is run once, and draws."""
+    return cache(lambda name: run(complete, name, "--draw"))
 
 
 @ALL
