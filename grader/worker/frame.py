@@ -15,6 +15,7 @@ LATEST = 12  # objects that are looked at beside those that a call is given
 CONSTANTS = (  # the lesson's
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
     *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
+    *("SLOW", "SLEEP_AFTER", "WAKING", "CELL"),
 )
 FIELDS = {  # by what marks an object as one of the lesson's
     "inv_mass": (
@@ -48,22 +49,23 @@ class Frame:
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
-        for module in self.modules():
+        for module, names in self.modules():
             for name in CONSTANTS:
-                if name in module:
-                    found[0, name] = (module[name],)
+                if name in names:
+                    found[0, f"{module}:{name}"] = (names[name],)
         return found
 
-    def modules(self) -> list[dict[str, Any]]:
+    def modules(self) -> list[tuple[str, dict[str, Any]]]:
+        """The submission's modules by name. One may hold what another has changed since."""
         folder = str(self.subject.folder)
-        found = (vars(module) for module in list(sys.modules.values()) if type(module) is MODULE)
-        return [names for names in found if str(names.get("__file__")).startswith(folder)]
+        found = [(k, vars(each)) for k, each in list(sys.modules.items()) if type(each) is MODULE]
+        return [each for each in found if str(each[1].get("__file__")).startswith(folder)]
 
     def changes(self) -> list[Change]:
         """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
         after = self.state()
         return [
-            Change(ref, name)
+            Change(ref, name.rpartition(":")[2])
             for (ref, name), before in self.before.items()
             if not alike(before, after.get((ref, name), ()))
         ]
