@@ -101,13 +101,12 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
         f"at {-last.vy:.0f} px/s",
         "count_hits only counts: what bounces must bounce as it would without it.",
     )
-    two_balls_hit_two_pegs_at_once(lab)
+    two_balls_hit_two_pegs_at_once(lab, here)
 
 
-def two_balls_hit_two_pegs_at_once(lab: Lab) -> None:
+def two_balls_hit_two_pegs_at_once(lab: Lab, here: Course) -> None:
     lab.ran("no gravity: two balls thrown at two pegs at the same time")
-    here = course(lab)
-    before = hits(lab, here)  # whether each space begins at 0 is asked elsewhere
+    before = hits(lab, here)
     for ball, (x, y) in zip(here.balls, PEGS, strict=False):
         lab.put(ball, position=(x, y - 100.0), velocity=(0.0, SPEED))
     step_on(lab, here, here.balls[0])
