@@ -167,7 +167,7 @@ class Call(Struct, frozen=True, tag="call"):
     target: str
     args: list[Argument] = []
     kwargs: dict[str, Argument] = {}
-    counting: list[str] = []  # functions whose calls are counted meanwhile, as module:name
+    work: bool = False  # count the lines of the submission that run meanwhile
     twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
 
 
@@ -237,7 +237,7 @@ class Event(Struct, frozen=True):
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
     key: str = ""
-    held: str = ""  # a key that is held meanwhile, such as "left shift"
+    held: str = ""  # keys that are held meanwhile, such as "left shift" or "left shift+left ctrl"
 
 
 class Play(Struct, frozen=True, tag="play"):
@@ -277,7 +277,7 @@ class Change(Struct, frozen=True, array_like=True):
 
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
-    counted: int = 0
+    lines: int = 0  # that ran, where they were to be counted; one that ran twice counts twice
     changed: list[Change] = []
     again: Value = None  # the second answer, where two were asked for
 

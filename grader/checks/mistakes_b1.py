@@ -6,20 +6,29 @@ from functools import partial
 from grader.checks.todo_b1 import (
     AFTER_A_HIT,
     AFTER_A_PUSH,
+    AFTER_A_SPIN,
+    AFTER_THE_AIR,
     AT_FIRST,
     AT_REST,
     CARRIED_AWAY,
     CHEAP,
+    CREEPING,
     FLOOR_GONE,
     FLYING,
+    LONG_AT_REST,
     ON_A_ROD,
+    ON_A_SPRING,
+    ONE_OF_TWO_GONE,
     ROLLING,
     SPINNING,
 )
 from grader.judge.misconceptions import Undecided, mistake, truth
 
-AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, ON_A_ROD, AFTER_A_PUSH, AFTER_A_HIT)
-RIGHT = dict.fromkeys((*AWAKE, FLOOR_GONE, CARRIED_AWAY), False) | {AT_REST: True, CHEAP: True}
+HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
+HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
+AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
+ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, CHEAP)
+RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
 truth("sleep", RIGHT.__getitem__)
 
@@ -40,7 +49,7 @@ def wrong_at(*moments: str, unsure: Collection[str] = ()) -> Callable[[str], boo
 known(
     "sleeps-too-soon",
     "It sleeps before half a second is over: still_for counts seconds, dt more in each step.",
-    wrong_at(AT_FIRST, unsure=(AFTER_A_PUSH, CARRIED_AWAY)),
+    wrong_at(AT_FIRST, unsure=(*ANEW, *LEFT, *HIT)),
 )
 known(
     "sleeps-at-the-top-of-a-throw",
@@ -55,25 +64,25 @@ known(
 known(
     "sleeps-on-its-rod",
     "What hangs on a rod or a spring never sleeps: see held.",
-    wrong_at(ON_A_ROD),
+    wrong_at(*HELD),
 )
 known(
     "the-time-never-begins-anew",
     "Time at rest is added up over pauses: set still_for to 0 in every step in which it moves.",
-    wrong_at(AFTER_A_PUSH),
+    wrong_at(AFTER_A_PUSH, unsure=(AFTER_THE_AIR,)),
 )
 known(
     "sleeps-through-a-hit",
     "A sleeper sleeps on when something faster than WAKING touches it.",
-    wrong_at(AFTER_A_HIT),
+    wrong_at(*HIT),
 )
 known(
     "floats-when-its-support-leaves",
     "A sleeper stays in the air when what it lay on has gone: see has_left().",
-    wrong_at(FLOOR_GONE, CARRIED_AWAY),
+    wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,)),
 )
 known(
     "stands-still-without-sleeping",
     "The body stands still but is computed on: fall_asleep() makes it static for the while.",
-    wrong_at(CHEAP, unsure=(AFTER_A_HIT, FLOOR_GONE, CARRIED_AWAY)),
+    wrong_at(CHEAP, unsure=(*HIT, *LEFT)),
 )

@@ -50,6 +50,12 @@ rods = st.builds(Rod, masses, masses, radii, pairs.filter(any), velocities, velo
 rubbings = st.lists(st.builds(Rubbing, impulses, speeds, speeds), min_size=1, max_size=2)
 
 
+# For a broad phase: bodies in and around the window, most of them small.
+crowd_radii = radii | st.integers(40, 400).map(float)  # px
+crowd_discs = st.builds(Disc, coordinates, coordinates, crowd_radii)
+crowd_rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
+
+
 @st.composite
 def discs_near_boxes(draw: st.DrawFn) -> tuple[Disc, Rect]:
     """A box, and a disc whose centre is at most a radius outside of it."""

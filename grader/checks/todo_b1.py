@@ -7,6 +7,7 @@ or clearly not.
 import math
 
 from grader.judge.lab import STEP, Lab, Pair, Thing
+from grader.protocol import BodyValue, Rng
 
 GRAVITY = 980.0  # px/s²
 RADIUS = 10.0  # px
@@ -14,12 +15,21 @@ LYING = -RADIUS + 0.25  # px, the centre of a ball that lies on a floor whose to
 
 # When a body is looked at. Known mistakes are told by what is seen then: see mistakes_b1.py.
 AT_FIRST, AT_REST = "for the first half second", "after 0.75 s at rest"
+LONG_AT_REST = "when its timer is at 0.6 s"
+CREEPING = "after 0.75 s at 3 px/s"
 FLYING, ROLLING, SPINNING = "in free flight", "while it rolls", "while it spins"
-ON_A_ROD = "on its rod"
+ON_A_ROD, ON_A_SPRING = "on its rod", "on its spring"
 AFTER_A_PUSH = "for half a second after the push, as its time begins anew"
-AFTER_A_HIT = "after the hit"
+AFTER_THE_AIR = "for half a second after it came down, as its time begins anew"
+AFTER_A_HIT, AFTER_A_SPIN = "after the hit", "when a ball that spins has touched it"
 FLOOR_GONE, CARRIED_AWAY = "when its floor is gone", "when the ball below is gone"
+ONE_OF_TWO_GONE = "when one of the two boxes it lies on is gone"
 CHEAP = "a pile that sleeps costs next to nothing"
+
+STEPS = (1 / 60, 1 / 120, 1 / 240)  # s, steps in which gravity adds 4 to 16 px/s
+LESS = 10  # times as much work awake
+LAB_SCENE = 40.0  # s; a ball that rolls at 20 px/s is at 3 by then, as it loses 5 % a second
+FALLING_ASLEEP = "vel omega inv_mass inv_inertia"  # what may change in that moment
 
 
 def floor(lab: Lab, friction: float = 0.6) -> Thing:
@@ -27,9 +37,16 @@ def floor(lab: Lab, friction: float = 0.6) -> Thing:
 
 
 def ball(
-    lab: Lab, x: float = 0.0, y: float = LYING, vel: Pair = (0.0, 0.0), omega: float = 0.0
+    lab: Lab,
+    x: float = 0.3,
+    y: float = LYING,
+    vel: Pair = (0.0, 0.0),
+    omega: float = 0.0,
+    mass: float = 1.0,
+    angle: float = 0.0,
 ) -> Thing:
-    return lab.circle((x, y), RADIUS, vel=vel, omega=omega, friction=0.6, restitution=0.0)
+    fields = {"vel": vel, "omega": omega, "angle": angle}
+    return lab.circle((x, y), RADIUS, mass, friction=0.6, restitution=0.0, **fields)
 
 
 def room(
@@ -54,8 +71,9 @@ def want(lab: Lab, sleeps: bool, body: Thing, when: str) -> None:
     lab.want(found == sleeps, f"{words[sleeps]} {when}", words[found])
 
 
-def run(lab: Lab, world: Thing, seconds: float) -> None:
-    lab.simulate(world, [], round(seconds / STEP))
+def run(lab: Lab, world: Thing, seconds: float, dt: float = STEP) -> None:
+    steps = round(seconds / dt)
+    lab.simulate(world, [], steps, dt, every=steps)
 
 
 def put_to_sleep(lab: Lab, world: Thing, *bodies: Thing) -> None:
@@ -66,26 +84,74 @@ def put_to_sleep(lab: Lab, world: Thing, *bodies: Thing) -> None:
 
 def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
     """A ball at rest sleeps after half a second, and then stays where it is"""
-    lab.ran("a ball that lies on the floor")
-    lying, ground = ball(lab), floor(lab)
-    world = room(lab, ground, lying)
-    run(lab, world, 0.45)
-    want(lab, False, lying, AT_FIRST)
-    run(lab, world, 0.3)
-    want(lab, True, lying, AT_REST)
-    lab.want(not asleep(lab, ground), "a floor that is static and never asleep", "a floor asleep")
-    before = lab.state(lying)
-    run(lab, world, 0.5)
-    after = lab.state(lying)
+    for dt in STEPS:
+        lab.ran(f"a ball that lies on the floor, in steps of 1/{round(1 / dt)} s")
+        lying, ground = ball(lab), floor(lab)
+        world = room(lab, ground, lying)
+        start = lab.state(lying)
+        run(lab, world, 0.45, dt)
+        want(lab, False, lying, AT_FIRST)
+        run(lab, world, 0.3, dt)
+        want(lab, True, lying, AT_REST)
+        static = not asleep(lab, ground)
+        lab.want(static, "a floor that is static and never asleep", "a floor asleep")
+        before = lab.state(lying)
+        lab.want(
+            math.dist(start.pos, before.pos) < 0.1,  # px: it sinks in by less than SLOP has left
+            "a ball that fell asleep where it lay",
+            f"it moved by {math.dist(start.pos, before.pos):.3g} px",
+        )
+        run(lab, world, 0.5, dt)
+        stays(lab, before, lab.state(lying))
+    lab.ran("a ball that creeps over the floor at 3 px/s")
+    creeping = ball(lab, vel=(3.0, 0.0), omega=3.0 / RADIUS)
+    world = room(lab, floor(lab), creeping)
+    run(lab, world, 0.75)
+    want(lab, True, creeping, CREEPING)
+    the_lab_scene_falls_asleep(lab)
+
+
+def stays(lab: Lab, before: BodyValue, after: BodyValue) -> None:
     lab.want(
         (after.pos, after.angle) == (before.pos, before.angle),
         "a sleeper exactly where it fell asleep half a second ago",
-        f"it moved by {math.dist(tuple(before.pos), tuple(after.pos)):.3g} px",
+        f"it moved by {math.dist(before.pos, after.pos):.3g} px",
     )
+
+
+def the_lab_scene_falls_asleep(lab: Lab) -> None:
+    """Its balls must all turn grey; the pendulum's bob is not one of them: it hangs on a rod."""
+    lab.ran(f"the lab scene with S on, for {LAB_SCENE:g} s")
+    made = lab.thing(lab.call("make_world", Rng(46)), "a World")
+    bodies = [lab.thing(each) for each in lab.items(lab.get(made, "bodies"), "World.bodies")]
+    rods = [lab.thing(each) for each in lab.items(lab.get(made, "joints"), "World.joints")]
+    world = lab.world(
+        *bodies,
+        gravity=(0.0, GRAVITY),
+        linear_damping=0.05,
+        angular_damping=0.3,
+        joints=rods,
+        bonus=True,
+    )
+    lab.put(world, sleeping=True)
+    balls = [each for each in bodies if lab.state(each).inv_mass][1:]  # the first one is the bob
+    left = len(balls)
+    for second in range(round(LAB_SCENE)):
+        run(lab, world, 1.0)
+        left = sum(not asleep(lab, each) for each in balls)
+        if not left or (second > LAB_SCENE / 8 and left == len(balls)):
+            break
+    lab.want(not left, f"all its {len(balls)} balls asleep", f"{left} awake")
 
 
 def nothing_sleeps_that_moves_flies_or_hangs(lab: Lab) -> None:
     """Nothing sleeps that rolls, spins, flies or is held, and each push begins anew"""
+    nothing_sleeps_that_moves_or_flies(lab)
+    nothing_sleeps_that_is_held(lab)
+    time_at_rest_begins_anew(lab)
+
+
+def nothing_sleeps_that_moves_or_flies(lab: Lab) -> None:
     lab.ran("a ball thrown up at 20 px/s where things fall at 20 px/s²: slow for 1.2 s at the top")
     thrown = ball(lab, vel=(0.0, -20.0))
     stay_awake(lab, room(lab, thrown, gravity=20.0), thrown, FLYING)
@@ -95,10 +161,28 @@ def nothing_sleeps_that_moves_flies_or_hangs(lab: Lab) -> None:
     lab.ran("a ball that spins on ice at 20 rad/s, and does not move along")
     spinning = ball(lab, omega=20.0)
     stay_awake(lab, room(lab, floor(lab, 0.0), spinning), spinning, SPINNING)
-    lab.ran("a ball that lies on the floor and is held by a rod")
-    hook, held = lab.circle((0.0, -150.0), 5.0, 0.0), ball(lab)
-    rod = lab.thing(lab.call("DistanceJoint", hook, held), "a DistanceJoint")
-    stay_awake(lab, room(lab, floor(lab), hook, held, joints=(rod,)), held, ON_A_ROD)
+    lab.ran("a ball that touches nothing and stands still, without gravity")
+    floating = ball(lab, y=-100.0)
+    stay_awake(lab, room(lab, floor(lab), floating, gravity=0.0), floating, FLYING)
+
+
+def nothing_sleeps_that_is_held(lab: Lab) -> None:
+    for first in (True, False):
+        lab.ran("a ball that lies on the floor and is held by a rod")
+        hook, held = lab.circle((0.3, -150.0), 5.0, 0.0), ball(lab)
+        ends = (held, hook) if first else (hook, held)
+        rod = lab.thing(lab.call("DistanceJoint", *ends), "a DistanceJoint")
+        stay_awake(lab, room(lab, floor(lab), hook, held, joints=(rod,)), held, ON_A_ROD)
+        lab.ran("a ball that lies on the floor and is held by a spring")
+        hook, held = lab.circle((0.3, -150.0), 5.0, 0.0), ball(lab)
+        ends = (held, hook) if first else (hook, held)
+        spring = lab.thing(lab.call("SpringJoint", *ends, 0.1), "a SpringJoint")
+        world = room(lab, floor(lab), hook, held)
+        lab.tell(world, "springs.append", spring)
+        stay_awake(lab, world, held, ON_A_SPRING)
+
+
+def time_at_rest_begins_anew(lab: Lab) -> None:
     lab.ran("a ball that lies for 0.4 s, is pushed at 100 px/s for 0.1 s and lies again for 0.4 s")
     pushed = ball(lab)
     world = room(lab, floor(lab), pushed)
@@ -108,6 +192,13 @@ def nothing_sleeps_that_moves_flies_or_hangs(lab: Lab) -> None:
     lab.put(pushed, vel=(0.0, 0.0), omega=0.0)
     run(lab, world, 0.4)
     want(lab, False, pushed, AFTER_A_PUSH)
+    lab.ran("a ball that touches the floor for 0.4 s, nothing for 0.1 s, and then the floor again")
+    lifted = ball(lab)
+    world = room(lab, floor(lab), lifted, gravity=0.0)
+    for y, seconds in ((LYING, 0.4), (LYING - 50.0, 0.1), (LYING, 0.4)):
+        lab.put(lifted, pos=(0.3, y))
+        run(lab, world, seconds)
+    want(lab, False, lifted, AFTER_THE_AIR)
 
 
 def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
@@ -120,22 +211,74 @@ def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
 
 def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
     """A sleeper wakes when a moving body hits it, and when what it lies on goes away"""
-    lab.ran("a ball that rolls at 200 px/s into one that sleeps")
+    a_hit_wakes(lab)
+    what_has_lost_its_support_falls(lab)
+    going_to_sleep_changes_nothing_else(lab)
+
+
+def a_hit_wakes(lab: Lab) -> None:
+    lab.ran("a ball that rolls at 200 px/s into one that sleeps, and again when that sleeps anew")
     sleeper, ground = ball(lab), floor(lab)
     world = room(lab, ground, sleeper)
+    for _ in range(3):
+        put_to_sleep(lab, world, sleeper)
+        x = lab.state(sleeper).pos.x
+        roller = ball(lab, x - 60.0, vel=(200.0, 0.0), omega=20.0)
+        lab.tell(world, "add", roller)
+        run(lab, world, 0.3)
+        want(lab, False, sleeper, AFTER_A_HIT)
+        # Of two equal balls that do not bounce each goes on at half the speed.
+        speed = lab.state(sleeper).vel.x
+        lab.want(speed > 50.0, "it rolls on at about 100 px/s", f"{speed:.1f} px/s")
+        lab.tell(world, "bodies.remove", roller)
+        lab.put(sleeper, vel=(0.0, 0.0), omega=0.0)
+    lab.ran("a ball of 0.1 kg that falls at 300 px/s on one of 50 kg that sleeps")
+    sleeper = ball(lab, mass=50.0)
+    world = room(lab, floor(lab), sleeper)
     put_to_sleep(lab, world, sleeper)
-    lab.tell(world, "add", ball(lab, -60.0, vel=(200.0, 0.0), omega=20.0))
-    run(lab, world, 0.3)
-    want(lab, False, sleeper, AFTER_A_HIT)
-    # Of two equal balls that do not bounce each goes on at half the speed.
-    speed = lab.state(sleeper).vel.x
-    lab.want(speed > 50.0, "it rolls on at about 100 px/s", f"{speed:.1f} px/s")
+    lab.tell(world, "add", ball(lab, y=LYING - 60.0, vel=(0.0, 300.0), mass=0.1))
+    woke = False
+    for _ in range(30):
+        run(lab, world, STEP)
+        woke = woke or not asleep(lab, sleeper)
+    lab.saw("sleep", (AFTER_A_HIT,), not woke)
+    lab.want(woke, f"awake {AFTER_A_HIT}", "asleep")
+    lab.want(
+        abs(lab.state(sleeper).inv_mass * 50.0 - 1.0) < 1e-9 or asleep(lab, sleeper),
+        "a ball that has its 50 kg again",
+        "another mass",
+    )
+    lab.ran("a ball that spins at 40 rad/s, put down so that it touches one that sleeps")
+    sleeper = ball(lab)
+    world = room(lab, floor(lab), sleeper)
+    put_to_sleep(lab, world, sleeper)
+    lab.tell(world, "add", ball(lab, 0.3 + 2 * RADIUS - 0.2, omega=40.0))
+    run(lab, world, STEP)
+    want(lab, False, sleeper, AFTER_A_SPIN)
+    lab.ran("a ball that rolls past one that sleeps, and touches it nowhere")
+    sleeper = ball(lab)
+    world = room(lab, floor(lab), sleeper, ball(lab, -60.0, -80.0, vel=(300.0, -100.0)))
+    put_to_sleep(lab, world, sleeper)
+
+
+def what_has_lost_its_support_falls(lab: Lab) -> None:
     lab.ran("a ball that sleeps on a floor, and the floor is taken out of the world")
-    sleeper, ground = ball(lab), floor(lab)
+    sleeper, ground = ball(lab, angle=1.0), floor(lab)
     world = room(lab, ground, sleeper)
     put_to_sleep(lab, world, sleeper)
     lab.tell(world, "bodies.remove", ground)
     want_a_fall(lab, world, sleeper, FLOOR_GONE)
+    angle = lab.state(sleeper).angle
+    lab.want(abs(angle - 1.0) < 1e-6, "a ball still turned by 1 rad", f"by {angle:.6g} rad")
+    for gone in range(2):
+        lab.ran("a ball that sleeps in the gap between two boxes, and one of them is taken away")
+        boxes = [lab.box((x, 50.0), (100.0, 50.0), friction=0.6) for x in (-105.7, 106.3)]
+        sleeper = ball(lab, y=-7.9)
+        world = room(lab, *boxes, sleeper)
+        put_to_sleep(lab, world, sleeper)
+        lab.tell(world, "bodies.remove", boxes[gone])
+        run(lab, world, STEP)
+        want(lab, False, sleeper, ONE_OF_TWO_GONE)
     lab.ran("a ball that sleeps on another one, which wakes and is carried away")
     lower, upper = ball(lab), ball(lab, y=LYING - 2 * RADIUS + 0.25)
     world = room(lab, floor(lab), lower, upper)
@@ -154,22 +297,45 @@ def want_a_fall(lab: Lab, world: Thing, body: Thing, when: str) -> None:
     lab.want(fallen > 5.0, "it wakes and falls 11 px in 0.15 s", f"{fallen:.1f} px")
 
 
+def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
+    """What update_sleep leaves as it is: all that has nothing to do with sleep."""
+    lab.ran("update_sleep, for balls that have been at rest for 0, 0.3, 0.495 and 0.6 s")
+    times = (0.0, 0.3, 0.495, 0.6, 0.6)  # s
+    bodies = [ball(lab, 40.3 * number, angle=7.0) for number in range(len(times))]
+    flying = ball(lab, y=-200.0, vel=(40.0, 30.0), omega=3.0, angle=-8.0)
+    world = room(lab, *bodies, floor(lab), flying, gravity=0.0)
+    run(lab, world, STEP)  # so that it knows its contacts
+    for body, seconds in zip(bodies, times, strict=True):
+        lab.put(body, vel=(2.0, 0.0), omega=-0.1, still_for=seconds)
+    frame = dict.fromkeys(bodies[2:], FALLING_ASLEEP)
+    lab.call("update_sleep", world, STEP, changes=frame)
+    want(lab, True, bodies[-1], LONG_AT_REST)
+    lab.call("update_sleep", world, STEP, changes=dict.fromkeys(bodies[2:-2], FALLING_ASLEEP))
+    lab.put(flying, pos=(40.3 * (len(times) - 1), LYING - 2 * RADIUS + 0.5))
+    lab.tell(world, "step", STEP)
+    lab.call("update_sleep", world, STEP, changes=dict.fromkeys(bodies[2:], FALLING_ASLEEP))
+
+
 def a_sleeping_pile_costs_next_to_nothing(lab: Lab) -> None:
     """A pile that sleeps costs next to nothing"""
+    rows = ((3, 1), (2, 2))  # how many, and how many radii from the wall the first one is
     lab.ran("five balls that lie in two rows between walls")
     walls = [lab.box((x, -100.0), (20.0, 150.0), friction=0.6) for x in (-20.0, 6 * RADIUS + 20.0)]
-    low = [ball(lab, RADIUS * (1 + 2 * number)) for number in range(3)]
-    high = [
-        ball(lab, RADIUS * (2 + 2 * number), LYING - math.sqrt(3) * RADIUS) for number in range(2)
+    balls = [
+        ball(lab, RADIUS * (first + 2 * number), LYING - math.sqrt(3) * RADIUS * row)
+        for row, (count, first) in enumerate(rows)
+        for number in range(count)
     ]
-    world = room(lab, floor(lab), *walls, *low, *high)
-    work = ("collide", "World.solve_contact")
-    awake = lab.count(work, world, "step", STEP)
-    put_to_sleep(lab, world, *low, *high)
-    sleeping = lab.count(work, world, "step", STEP)
-    lab.saw("sleep", (CHEAP,), 10 * sleeping <= awake)
+    world = room(lab, floor(lab), *walls, *balls)
+    lab.put(world, sleeping=False)
+    run(lab, world, 0.2)  # until they press on each other
+    awake = lab.work(world, "step", STEP)
+    lab.put(world, sleeping=True)
+    put_to_sleep(lab, world, *balls)
+    sleeping = lab.work(world, "step", STEP)
+    lab.saw("sleep", (CHEAP,), LESS * sleeping <= awake)
     lab.want(
-        10 * sleeping <= awake,
-        f"at most a tenth of the {awake} calls of collide and solve_contact that it took awake",
-        f"{sleeping} calls a step",
+        LESS * sleeping <= awake,
+        f"at most one line of your code for each {LESS} of the {awake} that a step took awake",
+        f"{sleeping} lines",
     )

@@ -1,35 +1,102 @@
 """TODO B2: SpringJoint.apply, a spring's force on the two bodies at its ends."""
 
 import math
+import random
 from itertools import pairwise
 
 from grader.checks import exact
 from grader.checks.exact import Rod, Spring
-from grader.checks.todo_3 import FAST, SLOW, STILL, say, velocities, weight
-from grader.judge.lab import STEP, Lab, Moment
+from grader.checks.todo_3 import FAST, SLOW, STILL, velocities, weight
+from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
+from grader.words import told_apart
+
+Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
+PLACE = (64.0, -32.0)  # px, where A is
 
 
-def want_exact(lab: Lab, spring: Spring) -> None:
-    """Apply a spring once; both ends must have the right velocities."""
+def want_exact(lab: Lab, spring: Spring, *later: Rod) -> None:
+    """Apply a spring, and again with its ends elsewhere; each time both get the right velocities.
+
+    Its ends spin and are turned, and a spring leaves that alone.
+    """
     rod = spring.rod
-    lab.ran(
-        f"apply for 1/{round(1 / rod.dt)} s: stiffness {spring.stiffness:g} kg/s², damping "
-        f"{spring.damping:g} kg/s, length {rod.length:g} px; A {weight(rod.mass_a)}, {rod.vel_a} "
-        f"px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, {rod.offset} px from A"
-    )
-    a = lab.circle(STILL, 10.0, rod.mass_a, vel=rod.vel_a)
-    b = lab.circle(rod.offset, 10.0, rod.mass_b, vel=rod.vel_b)
+    a = lab.circle(PLACE, 10.0, rod.mass_a, omega=2.0, angle=-1.0)
+    b = lab.circle((0.0, 0.0), 5.0, rod.mass_b, omega=-3.0, angle=7.0)
     made = lab.call("SpringJoint", a, b, spring.stiffness, spring.damping, rod.length)
-    lab.tell(lab.thing(made, "a SpringJoint"), "apply", rod.dt)
+    joint = lab.thing(made, "a SpringJoint")
+    for each in (rod, *later):
+        apply_once(lab, joint, (a, b), Spring(each, spring.stiffness, spring.damping))
+
+
+def apply_once(lab: Lab, joint: Thing, ends: tuple[Thing, Thing], spring: Spring) -> None:
+    (a, b), rod = ends, spring.rod
+    lab.ran(
+        f"apply for {rod.dt:.4g} s: stiffness {spring.stiffness:.6g} kg/s², damping "
+        f"{spring.damping:.6g} kg/s, length {rod.length:.6g} px; A {weight(rod.mass_a)}, "
+        f"{in_short(rod.vel_a)} px/s; B {weight(rod.mass_b)}, {in_short(rod.vel_b)} px/s, "
+        f"{in_short(rod.offset)} px from A"
+    )
+    lab.put(a, vel=rod.vel_a)
+    lab.put(b, pos=(PLACE[0] + rod.offset[0], PLACE[1] + rod.offset[1]), vel=rod.vel_b)
+    # Who changes more than that loses the check of damped springs, and not all.
+    lab.tell(joint, "apply", rod.dt, changes={a: "vel", b: "vel"} if spring.damping else None)
     answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)
-    # Sums of a few numbers below 1000 px/s, each rounded by a share of 1e-16.
-    lab.want(
-        all(math.dist(*each) <= 1e-9 for each in zip(answer, right, strict=True)),
-        say(*right),
-        say(*answer),
+    told = told_apart(say, right, answer)
+    lab.want(close(spring, answer, right), *told)
+
+
+def close(spring: Spring, answer: Ends, right: Ends) -> bool:
+    """Equal but for the rounding of what is added up, each by a share of 1e-16."""
+    rod = spring.rod
+    distance = math.hypot(*rod.offset)
+    most = math.hypot(*rod.vel_a) + math.hypot(*rod.vel_b)  # px/s
+    force = spring.stiffness * (distance + rod.length) + spring.damping * most
+    sizes = (most + force * rod.dt * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
+    return all(
+        math.dist(*each) <= 1e-12 * (1.0 + size)
+        for *each, size in zip(answer, right, sizes, strict=True)
     )
+
+
+def in_short(pair: Pair) -> str:
+    return f"({pair[0]:.6g}, {pair[1]:.6g})"
+
+
+def say(ends: Ends, digits: int) -> str:
+    a, b = (f"({x:.{digits}f}, {y:.{digits}f})" for x, y in ends)
+    return f"A {a}, B {b} px/s"
+
+
+def springs(seed: int) -> list[tuple[Spring, Rod]]:
+    """Springs of every kind, always the same; each with its ends elsewhere later on.
+
+    They are soft and stiff, long and short, between light and heavy ends, of which one may be
+    static, in steps of any length.
+    """
+    draw = random.Random(seed)
+    found = []
+    for number in range(24):
+        masses = [10.0 ** draw.uniform(-3, 6) for _ in range(2)]
+        if number % 3 < 2:
+            masses[number % 3] = draw.choice([0.0, 2.0])
+        rest = draw.choice([0.0, 30.0, 100.0, 4000.0])  # px
+        dt = draw.choice([1 / 480, 1 / 240, STEP, 1 / 60, 1 / 30, 0.25])
+        now, later = (some_rod(draw, masses, rest, dt) for _ in range(2))
+        found.append((Spring(now, 10.0 ** draw.uniform(0, 6), 10.0 ** draw.uniform(-2, 3)), later))
+    return found
+
+
+def some_rod(draw: random.Random, masses: list[float], rest: float, dt: float) -> Rod:
+    """The ends of a spring of this length somewhere, it squeezed or stretched, and they moving."""
+    turn = draw.uniform(0, 2 * math.pi)
+    distance = max(rest, 1.0) * draw.choice([0.25, 0.999, 1.0625, 2.0, 8.0])
+    offset = distance * math.cos(turn), distance * math.sin(turn)
+    vel_a, vel_b = (
+        (draw.uniform(-500, 500), draw.uniform(-500, 500)) if mass else STILL for mass in masses
+    )
+    return Rod(masses[0], masses[1], rest, offset, vel_a, vel_b, dt)
 
 
 def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:
@@ -38,6 +105,8 @@ def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:
         want_exact(lab, Spring(Rod(3.0, 1.0, length, (60.0, 80.0), STILL, STILL, STEP), 120.0, 0.0))
     want_exact(lab, Spring(Rod(0.0, 2.0, 80.0, (-60.0, 0.0), STILL, FAST, 2 * STEP), 90.0, 0.0))
     want_exact(lab, Spring(Rod(2.0, 0.0, 30.0, (0.0, -50.0), SLOW, STILL, STEP), 90.0, 0.0))
+    for spring, later in springs(1):
+        want_exact(lab, spring._replace(damping=0.0), later)
 
 
 def damping_brakes_the_speed_along_the_spring(lab: Lab) -> None:
@@ -45,6 +114,8 @@ def damping_brakes_the_speed_along_the_spring(lab: Lab) -> None:
     for vel_a, vel_b in ((SLOW, FAST), (FAST, SLOW), (SLOW, SLOW)):
         want_exact(lab, Spring(Rod(3.0, 1.0, 50.0, (30.0, 40.0), vel_a, vel_b, STEP), 0.0, 12.0))
     want_exact(lab, Spring(Rod(1.0, 4.0, 80.0, (60.0, -80.0), FAST, SLOW, STEP), 120.0, 12.0))
+    for spring, later in springs(2):
+        want_exact(lab, spring, later)
 
 
 def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:

@@ -1,10 +1,12 @@
 """TODO B4: counting the hits of pegs with pymunk's collision callbacks."""
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 
 from grader.checks.todo_7 import BOB, near, pair, scene
 from grader.judge.lab import Lab, Moment, Pair, Thing
+from grader.protocol import ShapeValue, SpaceValue
 
 PEGS = ((375.0, 400.0), (435.0, 400.0))  # px, the first two
 LEDGE = (200.0, 270.0)  # px, in the middle of its lower side
@@ -22,6 +24,7 @@ class Course:
     balls: list[Thing]
     box: Thing
     data: Thing  # what count_hits returned
+    elasticity: float  # of a ball and a peg, multiplied as pymunk does
 
 
 def course(lab: Lab) -> Course:
@@ -34,7 +37,19 @@ def course(lab: Lab) -> Course:
     boxes = [each for each in moving if each.shapes[0].kind == "Poly"]
     lab.want(len(balls) > 1 and bool(boxes), "balls and boxes in the scene", "none")
     data = lab.thing(lab.get(space, "counter"), "a dictionary from count_hits")
-    return Course(space, [lab.thing(each) for each in balls], lab.thing(boxes[0]), data)
+    pegs = [each for each in static_shapes(found) if each.kind == "Circle"]
+    peg = min(pegs, key=lambda each: math.dist(middle(each), PEGS[0]))
+    product = peg.elasticity * balls[0].shapes[0].elasticity
+    return Course(space, [lab.thing(each) for each in balls], lab.thing(boxes[0]), data, product)
+
+
+def static_shapes(space: SpaceValue) -> list[ShapeValue]:
+    return [shape for body in space.bodies if body.kind == "static" for shape in body.shapes]
+
+
+def middle(shape: ShapeValue) -> Pair:
+    left, bottom, right, top = shape.box
+    return (left + right) / 2, (bottom + top) / 2
 
 
 def hits(lab: Lab, course: Course) -> int:
@@ -79,6 +94,23 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
     lab.saw("hits", ("touch", STEPS), counts[-1] - counts[-2])
     want_hits(lab, counts, [0, 1, 2, 3, 4])
     lab.want(last.vy < 0, "a ball that bounces off the peg", f"its speed is {last.vy:.0f} px/s")
+    bounce = here.elasticity * SPEED  # both surfaces count, as a product
+    lab.want(
+        abs(last.vy + bounce) < 0.05 * SPEED,
+        f"a ball that bounces off the peg at {bounce:.0f} px/s, counted or not",
+        f"at {-last.vy:.0f} px/s",
+        "count_hits only counts: what bounces must bounce as it would without it.",
+    )
+    two_balls_hit_two_pegs_at_once(lab, here)
+
+
+def two_balls_hit_two_pegs_at_once(lab: Lab, here: Course) -> None:
+    lab.ran("no gravity: two balls thrown at two pegs at the same time")
+    before = hits(lab, here)
+    for ball, (x, y) in zip(here.balls, PEGS, strict=False):
+        lab.put(ball, position=(x, y - 100.0), velocity=(0.0, SPEED))
+    step_on(lab, here, here.balls[0])
+    want_hits(lab, [hits(lab, here) - before], [2])
 
 
 def only_balls_on_pegs_count_in_each_space_apart(lab: Lab) -> None:

@@ -6,63 +6,95 @@ from itertools import pairwise
 from grader.checks import exact
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
-from grader.judge.lab import STEP, Lab, Thing
+from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
+from grader.words import told_apart
 
 CLOSE = 1e-6  # px or rad
-STEPS = (  # where a body was before a step, x, y and angle, and where it is now
-    ((0.0, 0.0, 0.0), (8.0, -4.0, 0.25)),
-    ((-30.0, 70.0, 1.5), (-30.0, 75.5, 1.25)),
+STEPS = (  # where a body was before a step, x, y and angle, where it is now, and how long in s
+    ((0.0, 0.0, 0.0), (8.0, -4.0, 0.25), STEP),
+    ((-30.0, 70.0, 1.5), (-30.0, 75.5, 1.25), STEP),
+    ((400.0, 100.0, 7.0), (330.0, 160.0, 9.5), 1 / 20),  # slow motion, and far
+    ((-5.0, 20.0, -8.0), (-905.0, -400.0, -7.5), STEP),
+    ((2.0, 3.0, 0.1), (2.3, 2.9, 0.1), 1 / 240),
+    ((50.0, 50.0, 20.0), (50.0, 50.0, 20.0), STEP),
 )
+BY_HAND = (4.0, 8.0)  # px; where the body is put after the last of these
 SHARES = (0.625, 0.25, 1.0, 0.0)
 RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enough to be seen to move
 
 
 def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
     """A body is drawn part of its way, and stays where it is"""
-    for before, now in STEPS:
-        body = moved(lab, before, now)
-        asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
-        answers = [drawn(lab, body, share) for share in asked]
-        for share, answer in zip(asked, answers, strict=True):
-            lab.saw("between", (before, now, share), answer[:2])
-        for share, answer in zip(asked, answers, strict=True):
-            lab.ran(f"between(body, {share:g}) after a step from {before[:2]} to {now[:2]}")
-            want_part_of_the_way(lab, answer, before, now, share)
-        found = lab.state(body)
-        lab.want(
-            math.dist((*found.pos, found.angle), now) < CLOSE,
-            f"a body that stays at ({now[0]:g}, {now[1]:g}), turned by {now[2]:g} rad",
-            f"it is at ({found.pos.x:g}, {found.pos.y:g}), turned by {found.angle:g} rad",
-            "between says where to draw. The body itself must stay as it is.",
-        )
+    for before, now, dt in STEPS:
+        body = moved(lab, before, now, dt)
+        lab.put(body, vel=(-90.0, 10.0), omega=-3.0)  # as if it had just hit something
+        want_all_shares(lab, body, before, now)
+    lab.put(body, pos=BY_HAND)
+    want_all_shares(lab, body, before, (*BY_HAND, now[2]))
+
+
+def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
+    """All that between says of a body on its way, and that it leaves the body alone."""
+    asked = [share for share in SHARES for _ in range(2)]  # the window may ask twice
+    answers = [drawn(lab, body, share) for share in asked]
+    for share, answer in zip(asked, answers, strict=True):
+        lab.saw("between", (before, now, share), answer[:2])
+    for share, answer in zip(asked, answers, strict=True):
+        lab.ran(f"between(body, {share:g}) after a step from {before[:2]} to {now[:2]}")
+        want_part_of_the_way(lab, answer, before, now, share)
+    was = lab.items(lab.get(body, "before"), "Body.before")
+    kept = (*lab.pair(was[0], "Body.before"), lab.number(was[1], "Body.before"))
+    lab.want(
+        math.dist(kept, before) < CLOSE,
+        f"body.before as it was, at {say_place(before[:2], 3)}",
+        f"it is at {say_place(kept[:2], 3)}",
+        "between says where to draw. body.before is for the next frame, too.",
+    )
+    found = lab.state(body)
+    lab.want(
+        math.dist((*found.pos, found.angle), now) < CLOSE,
+        f"a body that stays at ({now[0]:g}, {now[1]:g}), turned by {now[2]:g} rad",
+        f"it is at ({found.pos.x:g}, {found.pos.y:g}), turned by {found.angle:g} rad",
+        "between says where to draw. The body itself must stay as it is.",
+    )
 
 
 def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, share: float) -> None:
     """The right place. The angle may also be the one before or now: only the spoke shows it."""
     right = exact.part_of_the_way(before, now, share)
-    lab.want(
-        math.dist(found[:2], right[:2]) < CLOSE,
-        f"the place ({right[0]:.3f}, {right[1]:.3f})",
-        f"({found[0]:.3f}, {found[1]:.3f})",
-    )
-    lab.want(
-        any(abs(found[2] - each[2]) < CLOSE for each in (before, right, now)),
-        f"the angle {right[2]:.4f} rad",
-        f"{found[2]:.4f} rad",
-    )
+    place, told = told_apart(say_place, right[:2], found[:2])
+    lab.want(math.dist(found[:2], right[:2]) < CLOSE, f"the place {place}", told)
+    angle, told = told_apart(say_angle, right[2], found[2], 4)
+    good = any(abs(turned(found[2] - each[2])) < CLOSE for each in (before, right, now))
+    lab.want(good, f"the angle {angle}", told)
 
 
-def moved(lab: Lab, before: Place, now: Place) -> Thing:
+def turned(angle: float) -> float:
+    """An angle as it is seen: without whole turns."""
+    return math.remainder(angle, 2 * math.pi)
+
+
+def say_place(place: Pair, digits: int) -> str:
+    return f"({place[0]:.{digits}f}, {place[1]:.{digits}f})"
+
+
+def say_angle(angle: float, digits: int) -> str:
+    return f"{angle:.{digits}f} rad"
+
+
+def moved(lab: Lab, before: Place, now: Place, dt: float) -> Thing:
     """A body that a step of its world has brought from one place and angle to another."""
-    vx, vy, omega = ((end - begin) / STEP for begin, end in zip(before, now, strict=True))
+    vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
     body = lab.circle(before[:2], angle=before[2], vel=(vx, vy), omega=omega)
-    lab.simulate(lab.world(body, bonus=True), [body], 1)
+    lab.simulate(lab.world(body, bonus=True), [body], 1, dt)
     return body
 
 
 def drawn(lab: Lab, body: Thing, share: float) -> Place:
     """What between says: a place and an angle."""
-    parts = lab.items(lab.call("between", body, share), "what between returns")
+    parts = lab.items(
+        lab.call("between", body, share, changes=NOTHING, twice=True), "what between returns"
+    )
     lab.want(len(parts) == 2, "a place and an angle", f"{len(parts)} things")
     return *lab.pair(parts[0], "the place"), lab.number(parts[1], "the angle")
 

@@ -4,33 +4,70 @@ from grader.checks.pacing import want_a_proper_end
 from grader.judge.lab import Lab
 from grader.protocol import BodyValue, Event, Played
 
-HELD = ("", "left shift", "right shift", "left ctrl")  # in the order of the clicks
-PLACES = ((450, 120), (450, 190), (450, 260), (450, 330))  # px
-HEAVIER = 2.0  # times, at the least
+# What is held at each click, and how many times as heavy the ball must be. A click has its own
+# frame, but for those that are twice: the next ball is dropped with the same keys still down.
+CLICKS = (
+    ("", 1),
+    ("left shift", 10),
+    ("left shift", 10),
+    ("right shift", 10),
+    ("left ctrl", 1),
+    ("", 1),
+    ("left shift+right shift", 10),
+    ("left shift+left ctrl", 10),
+    ("numlock", 1),
+    ("right shift+numlock", 10),
+    ("caps lock", 1),
+    ("left shift+caps lock", 10),
+    ("left alt", 1),
+    ("right ctrl", 1),
+)
+PLACES = [(330 + 60 * (number % 7), 120 + 70 * (number // 7)) for number in range(len(CLICKS))]
+ROUNDING = 1e-9
 
 
 def shift_drops_heavier_balls(lab: Lab) -> None:
-    """A ball that is dropped with Shift held is heavier, whichever Shift"""
-    lab.ran("the lab scene, clicks with no key held, left Shift, right Shift and Ctrl")
+    """A ball that is dropped with Shift held is ten times as heavy, whichever Shift"""
+    lab.ran("the lab scene, clicks with no key held, one Shift or both, and other keys")
     clicks = [
-        Event(3 + number, "click", place, held=key)
-        for number, (place, key) in enumerate(zip(PLACES, HELD, strict=True))
+        Event(3 + number, "click", place, held=keys)
+        for number, (place, (keys, _)) in enumerate(zip(PLACES, CLICKS, strict=True))
     ]
-    played = lab.play([17] * 9, clicks, physics=False)
-    want_a_proper_end(lab, played, 9)
-    weights = [weight(lab, played, place) for place in PLACES]
+    played = lab.play([17] * (len(clicks) + 5), clicks, physics=False)
+    want_a_proper_end(lab, played, len(clicks) + 5)
+    balls = [dropped(lab, played, place) for place in PLACES]
+    weights = [1 / (each.inv_mass * usual_mass(each)) for each in balls]
     lab.saw("heaviness", (), weights)
-    plain, left, right, other = weights
+    for (keys, right), found in zip(CLICKS, weights, strict=True):
+        lab.want(
+            abs(found - right) < ROUNDING * right,
+            f"a ball {right} times as heavy as usual with {named(keys)}",
+            f"{found:.6g} times as heavy",
+        )
     lab.want(
-        max(abs(plain - 1.0), abs(other - 1.0)) < 1e-9 and min(left, right) >= HEAVIER,
-        f"with either Shift a ball {HEAVIER:g} times as heavy as usual or more, else a usual one",
-        ", ".join(f"{each:.3g}" for each in weights) + " times as heavy as usual",
+        all(abs(turning(each) - 1.0) < ROUNDING for each in balls),
+        "moments of inertia that grow with the mass, as mass · r² / 2",
+        ", ".join(f"{turning(each):.3g}" for each in balls) + " times that",
     )
 
 
-def weight(lab: Lab, played: Played, place: tuple[int, int]) -> float:
-    """How many times as heavy as usual, r² / 100, the ball is that was dropped at a place."""
+def named(keys: str) -> str:
+    return keys.replace("numlock", "num lock").replace("+", " and ") or "no key held"
+
+
+def usual_mass(ball: BodyValue) -> float:
+    """What a ball of this size weighs in the lab scene, kg."""
+    return ball.radius**2 / 100
+
+
+def turning(ball: BodyValue) -> float:
+    """Its moment of inertia, as a multiple of a disc's, mass · r² / 2."""
+    return ball.inv_mass / (ball.inv_inertia * ball.radius**2 / 2)
+
+
+def dropped(lab: Lab, played: Played, place: tuple[int, int]) -> BodyValue:
+    """The ball that was dropped at a place."""
     for body in played.bodies:
         if isinstance(body, BodyValue) and tuple(body.pos) == place and body.inv_mass:
-            return 100.0 / (body.inv_mass * body.radius**2)
+            return body
     lab.fail(f"a ball at {place}", "none there")

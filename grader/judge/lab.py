@@ -162,11 +162,10 @@ class Lab(Decoder):
             return f"the constant {change.name}"
         return f"the {in_words(change.name)} of {self.names.get(change.ref, 'another object')}"
 
-    def count(self, functions: Sequence[str], thing: Thing, method: str, *args: Any) -> int:
-        """How many calls of these functions of the TODO's module a method of an object makes."""
-        counting = [f"{self.module}:{each}" for each in functions]
+    def work(self, thing: Thing, method: str, *args: Any) -> int:
+        """How many lines of the submission run in a method of an object, however it is written."""
         arguments = [plain(each) for each in args]
-        return self._returned(Call(f"#{thing.ref}.{method}", arguments, counting=counting)).counted
+        return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
     def get(self, thing: Thing, name: str) -> Value:
         return self._value(Get(thing.ref, name))

@@ -8,6 +8,7 @@ import contextlib
 import os
 import sys
 import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -48,7 +49,7 @@ from grader.worker.imports import ImportRule
 from grader.worker.output import Output
 from grader.worker.play import play, simulate
 from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import ContractError, Subject
+from grader.worker.subject import REFERENCE, ContractError, Subject
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
@@ -139,11 +140,11 @@ def answer(
 
 
 def call(subject: Subject, request: Call) -> Returned:
-    """Call a function or method of the submission, and count other calls meanwhile if asked to."""
+    """Call a function or method of the submission, and count its work meanwhile if asked to."""
     function = subject.find(request.target)
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
-    if not request.counting:
+    if not request.work:
         given = [
             each for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)
         ]
@@ -152,32 +153,41 @@ def call(subject: Subject, request: Call) -> Returned:
         value = subject.encode(function(*args, **kwargs))
         again = subject.encode(function(*args, **kwargs)) if request.twice else None
         return Returned(value, changed=frame.changes(), again=again)
-    with CallCounter([subject.find(each) for each in request.counting]) as counter:
+    with LineCounter(subject.folder) as counter:
         result = function(*args, **kwargs)
-    return Returned(subject.encode(result), counter.calls)
+        if isinstance(result, Iterator):  # a generator has done nothing yet
+            result = list(result)
+    return Returned(subject.encode(result), counter.lines)
 
 
-class CallCounter:
-    """Counts how often any of some functions is called, by whatever name.
+class LineCounter:
+    """Counts the lines that run in the submission's files and in what stands in for its functions.
 
-    Functions are known by their code objects: replacing a name by a counting wrapper would miss
-    calls through another name, such as the one that `from contacts import collide` makes.
+    Lines are the same work whatever function they are in: calls of a function by name would say
+    nothing about a submission that has written the same into the caller.
     """
 
-    def __init__(self, functions: list[Any]) -> None:
-        self.codes = {getattr(each, "__code__", None) for each in functions}
-        self.calls = 0
+    def __init__(self, folder: Path) -> None:
+        self.places = (str(folder), REFERENCE)
+        self.lines = 0
 
-    def __enter__(self) -> "CallCounter":
-        sys.setprofile(self.count_call)
+    def __enter__(self) -> "LineCounter":
+        sys.settrace(self.trace)
         return self
 
     def __exit__(self, *_: object) -> None:
-        sys.setprofile(None)
+        sys.settrace(None)
 
-    def count_call(self, frame: FrameType, event: str, _: object) -> None:
-        """The profile function: Python calls it whenever a function begins."""
-        self.calls += event == "call" and frame.f_code in self.codes
+    def trace(self, frame: FrameType, event: str, _: object) -> "Trace | None":
+        """Python calls this whenever a function begins; what it returns hears of each line."""
+        return self.count_line if frame.f_code.co_filename.startswith(self.places) else None
+
+    def count_line(self, frame: FrameType, event: str, _: object) -> "Trace":
+        self.lines += event == "line"
+        return self.count_line
+
+
+Trace = Callable[[FrameType, str, object], Any]
 
 
 def own_copy(submission: Path, scratch: Path) -> Path:

@@ -17,6 +17,7 @@ LATEST = 12  # objects that are looked at beside those that a call is given
 CONSTANTS = (  # the lesson's
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
     *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
+    *("SLOW", "SLEEP_AFTER", "WAKING", "CELL"),
 )
 FIELDS = {  # by what marks an object as one of the lesson's
     "inv_mass": (
@@ -60,7 +61,7 @@ class Frame:
         """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
         after = self.state()
         return [
-            Change(ref, name)
+            Change(ref, name.rpartition(":")[2])
             for (ref, name), before in self.before.items()
             if not alike(before, after.get((ref, name), ()))
         ]

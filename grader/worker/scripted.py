@@ -25,6 +25,10 @@ MODIFIERS = {
     "left shift": pygame.KMOD_LSHIFT,
     "right shift": pygame.KMOD_RSHIFT,
     "left ctrl": pygame.KMOD_LCTRL,
+    "right ctrl": pygame.KMOD_RCTRL,
+    "left alt": pygame.KMOD_LALT,
+    "caps lock": pygame.KMOD_CAPS,
+    "numlock": pygame.KMOD_NUM,
 }
 
 
@@ -43,7 +47,7 @@ class ScriptedClock:
         self.now = START_MS  # ms
         self.reads = 0  # of the time, since the last frame or sleep
         self.clocks = 0  # that the program made, when it was imported or later
-        self.held = ""  # the key that is down
+        self.held = ""  # the keys that are down
         self.start([], [], lambda: None)
 
     def start(
@@ -181,7 +185,7 @@ class ScriptedClock:
         if frame >= len(self.frames):
             pygame.event.post(pygame.event.Event(pygame.QUIT))
         events = [event for event in self.events if event.frame == frame]
-        self._hold_key(next((event.held for event in events), ""))
+        self._hold_keys(next((event.held for event in events), ""))
         for event in events:
             if event.kind == "click":
                 pygame.mouse.set_pos(event.pos)
@@ -191,16 +195,19 @@ class ScriptedClock:
                 for kind in (pygame.KEYDOWN, pygame.KEYUP):
                     self._post_key(kind, event.key, event.key)
 
-    def _hold_key(self, key: str) -> None:
-        """Hold this key down from now on, and no other; an empty name for none."""
-        if key == self.held:
+    def _hold_keys(self, keys: str) -> None:
+        """Hold these keys down from now on, and no others; an empty text for none."""
+        if keys == self.held:
             return
-        released, self.held = self.held, key
-        pygame.key.set_mods(MODIFIERS.get(key, pygame.KMOD_NONE))
-        if released:
-            self._post_key(pygame.KEYUP, released)
-        if key:
-            self._post_key(pygame.KEYDOWN, key)
+        before, now = keys_in(self.held), keys_in(keys)
+        self.held = keys
+        pygame.key.set_mods(sum(MODIFIERS.get(key, pygame.KMOD_NONE) for key in now))
+        for key in before:
+            if key not in now:
+                self._post_key(pygame.KEYUP, key)
+        for key in now:
+            if key not in before:
+                self._post_key(pygame.KEYDOWN, key)
 
     def _post_key(self, kind: int, name: str, unicode: str = "") -> None:
         """Post one event of a key, with the modifiers held now."""
@@ -208,8 +215,13 @@ class ScriptedClock:
         pygame.event.post(pygame.event.Event(kind, key=key, mod=mod, unicode=unicode, scancode=0))
 
     def _pressed_keys(self, real: Callable[[], Any]) -> Callable[[], Any]:
-        """get_pressed(), with the key that the script holds down."""
+        """get_pressed(), with the keys that the script holds down."""
         return lambda: Pressed(real(), self.held)
+
+
+def keys_in(held: str) -> list[str]:
+    """The keys that are named, as in "left shift+left ctrl"."""
+    return held.split("+") if held else []
 
 
 class Pressed:
@@ -219,7 +231,7 @@ class Pressed:
         self.real, self.held = real, held
 
     def __getitem__(self, key: int) -> bool:
-        return bool(self.real[key]) or (self.held != "" and key == pygame.key.key_code(self.held))
+        return bool(self.real[key]) or key in map(pygame.key.key_code, keys_in(self.held))
 
 
 class FrameClock:

@@ -46,6 +46,7 @@ from grader.worker.standin import fitted, plain_function, put_in_place
 MAX_TEXT = 2000  # characters of an exception's message or a returned string
 MAX_ITEMS = 1000  # entries of a returned list
 LARGEST_INT = 2**53
+REFERENCE = "<reference>"  # the file name of functions that stand in
 
 
 class ContractError(Exception):
@@ -127,13 +128,13 @@ class Subject:
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
         """The reference's function, compiled to use the submission's classes and functions."""
         namespace: dict[str, Any] = {"__name__": "reference"}
-        exec(compile(piece.imports, "<reference>", "exec"), namespace)
-        exec(compile(piece.source, "<reference>", "exec"), namespace)
+        exec(compile(piece.imports, REFERENCE, "exec"), namespace)
+        exec(compile(piece.source, REFERENCE, "exec"), namespace)
         wanted = namespace[piece.target.rpartition(":")[2].rpartition(".")[2]]
         package = importlib.import_module(piece.target.partition(":")[0])
         names = set(piece.names) - set(namespace)
         for source in piece.given.values():
-            exec(compile(source, "<reference>", "exec"), namespace)
+            exec(compile(source, REFERENCE, "exec"), namespace)
         for place in (vars(package), original.__globals__):
             namespace |= {name: place[name] for name in names if name in place}
         if not names <= set(namespace):

@@ -1,4 +1,4 @@
-"""What the child adds for bonus tasks: keys that are held, and how often a function is called."""
+"""What the child adds for bonus tasks: keys that are held, and how many lines run."""
 
 from pathlib import Path
 
@@ -10,6 +10,9 @@ from grader.protocol import Event
 
 PROGRAM = """
 import pygame
+
+class World:
+    def step(self, dt): pass
 
 def seen():
     keys = pygame.key.get_pressed()
@@ -34,20 +37,30 @@ def main():
     print("end", *seen(), down)
 """
 
-CALLS = """
-def inner(): return 1
+LINES = """
+from textwrap import dedent
 
-other_name = inner
-
-def outer(n):
-    return sum(other_name() for _ in range(n))
+def inner():
+    return 1
 
 class Box:
-    def open(self, n): return outer(n) + self.shut()
-    def shut(self): return inner()
-    def quit(self): raise ValueError
+    def apart(self, n):
+        for _ in range(n):
+            inner()
 
-def make(): return Box()
+    def together(self, n):
+        for _ in range(n):
+            1
+
+    def nothing(self):
+        dedent('  a library works hard here')
+
+    def later(self, n):
+        for each in range(n):
+            yield each
+
+def make():
+    return Box()
 """
 
 
@@ -65,20 +78,27 @@ def test_a_held_key_is_down_for_the_events_of_its_frame_and_no_longer(lab: Lab):
         Event(3, "click", (5, 5), held="left shift"),
         Event(4, "click", (5, 5), held="right shift"),
         Event(5, "click", (5, 5)),
+        Event(6, "click", (5, 5), held="left ctrl+right shift"),
+        Event(7, "click", (5, 5), held="left ctrl"),
     ]
-    played = lab.play([17] * 8, clicks, physics=False)
+    played = lab.play([17] * 10, clicks, physics=False)
     assert played.lines == [
         "click (False, False) False True",
         "click (True, False) True False",
         "click (False, True) True False",
         "click (False, False) False True",
+        "click (False, True) True False",
+        "click (False, False) False False",
         "end (False, False) False set()",
     ]
 
 
-@pytest.mark.parametrize("lab", [CALLS], indirect=True)
-def test_calls_are_counted_by_whatever_name_and_only_while_asked(lab: Lab):
+@pytest.mark.parametrize("lab", [LINES], indirect=True)
+def test_lines_are_counted_in_whatever_function_they_are(lab: Lab):
     box = lab.thing(lab.call("make"))
-    assert lab.count(["inner"], box, "open", 5) == 6
-    assert lab.count(["inner", "Box.shut"], box, "open", 5) == 7
-    assert lab.count(["make"], box, "open", 5) == 0
+    once, twice = (lab.work(box, "apart", count) for count in (10, 20))
+    assert twice - once == 30  # the loop's own line, the call and what is called
+    once, twice = (lab.work(box, "together", count) for count in (10, 20))
+    assert twice - once == 20
+    assert lab.work(box, "nothing") == 1
+    assert lab.work(box, "later", 5) == 11

