@@ -15,7 +15,7 @@ Change = Callable[[Touch, Disc, Rect], Touch]
 
 known = partial(mistake, "1", "circle_box")
 
-FAR = 4096.0  # px, beyond every distance that a check asks about
+FAR = 65536.0  # px, beyond every distance that a check asks about
 
 
 def circle_first() -> tuple[bool, bool]:
