@@ -361,15 +361,4 @@ def plain(value: Any) -> Argument:
     return value  # type: ignore[no-any-return]
 
 
-__all__ = [
-    "NOTHING",
-    "Broke",
-    "Frame",
-    "Lab",
-    "Moment",
-    "NotYet",
-    "Observation",
-    "Pair",
-    "Run",
-    "Thing",
-]
+__all__ = ["NOTHING", "Broke", "Lab", "Moment", "NotYet", "Observation", "Pair", "Run", "Thing"]
