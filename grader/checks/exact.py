@@ -148,6 +148,13 @@ class Rod(NamedTuple):
         return self.mass_a * ax + self.mass_b * bx, self.mass_a * ay + self.mass_b * by
 
     @property
+    def turned(self) -> "Rod":
+        """The same rod with A for B and B for A."""
+        x, y = self.offset
+        ends = self.mass_b, self.mass_a, self.length, (-x, -y), self.vel_b, self.vel_a
+        return Rod(*ends, self.dt)
+
+    @property
     def bias(self) -> float:
         """The speed of B away from A that takes the share BETA of the error away, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)

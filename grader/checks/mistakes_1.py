@@ -15,7 +15,7 @@ Change = Callable[[Touch, Disc, Rect], Touch]
 
 known = partial(mistake, "1", "circle_box")
 
-FAR = 4096.0  # px, beyond every distance that a check asks about
+FAR = 65536.0  # px, beyond every distance that a check asks about
 
 
 def circle_first() -> tuple[bool, bool]:
@@ -148,6 +148,26 @@ known(
     "A centre inside always leaves by the top; it must take the nearest of the four faces.",
     top_face,
 )
+
+
+def face_by_share(disc: Disc, rect: Rect) -> Answer:
+    if not is_inside(disc, rect):
+        return right(disc, rect)
+    shares = [
+        (touch.depth - disc.r) / (rect.hx if touch.nx else rect.hy)
+        for touch in exact.ways_out(disc, rect)
+    ]
+    first, second = sorted(range(4), key=lambda each: shares[each])[:2]
+    if math.isclose(shares[first], shares[second], abs_tol=1e-9):
+        raise Undecided
+    return exact.ways_out(disc, rect)[first]
+
+
+known(
+    "face-by-share-of-the-half",
+    "The nearest face is taken by shares of the box, not by px: wrong unless the box is square.",
+    face_by_share,
+)
 known(
     "depth-is-the-distance",
     "The depth is the distance to the closest point; it must be radius - distance.",
@@ -169,6 +189,21 @@ known(
     "normal-points-at-the-centre-of-the-box",
     "The normal points at the centre of the box; it must point at the closest point.",
     outside(normal_to_centre),
+)
+
+
+def normal_along_an_axis(touch: Touch, disc: Disc, rect: Rect) -> Touch:
+    if abs(touch.nx) == abs(touch.ny):
+        raise Undecided
+    if abs(touch.nx) > abs(touch.ny):
+        return with_normal(touch, math.copysign(1.0, touch.nx), 0.0)
+    return with_normal(touch, 0.0, math.copysign(1.0, touch.ny))
+
+
+known(
+    "corner-normal-along-an-axis",
+    "The normal at a corner is level or upright; it must point at the corner itself.",
+    outside(normal_along_an_axis),
 )
 known(
     "point-lies-on-the-circle",

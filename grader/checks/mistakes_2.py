@@ -52,6 +52,11 @@ known(
     lambda a, b, axis: masses(a, b) + spin_term(b, axis),
 )
 known(
+    "one-term-is-enough",
+    "The second body's spin term is left out where the first one turns; both bodies turn.",
+    lambda a, b, axis: masses(a, b) + (spin_term(a, axis) if a.mass else spin_term(b, axis)),
+)
+known(
     "masses-forgotten",
     "The spin terms replace 1/m_a + 1/m_b; they must be added to them.",
     lambda a, b, axis: spin_term(a, axis) + spin_term(b, axis),

@@ -127,6 +127,20 @@ known(
 )
 
 
+def static_end_first(rod: Rod) -> Ends:
+    if rod.mass_b:
+        return exact.pushed(rod, right_impulse(rod))
+    by = right_impulse(rod) * exact.inverse(rod.mass_a)
+    return moved(rod.vel_a, rod.axis, by), rod.vel_b
+
+
+known(
+    "static-end-first",
+    "A moves the wrong way where B is static: A gets the opposite of what B would get.",
+    velocities(static_end_first),
+)
+
+
 def without_masses(rod: Rod) -> Ends:
     by = right_impulse(rod)
     return moved(rod.vel_a, rod.axis, -by), moved(rod.vel_b, rod.axis, by)

@@ -1,5 +1,7 @@
 """What hypothesis may draw: all strategies, on grids that make short counterexamples."""
 
+import math
+
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
@@ -44,9 +46,6 @@ units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.2
 velocities = st.tuples(speeds, speeds)
 
 arms = st.integers(-320, 320).map(lambda n: n / 8)  # px
-levers = st.builds(Lever, masses, radii, arms, arms)
-static_levers = st.builds(Lever, st.just(0.0), radii, arms, arms)
-rods = st.builds(Rod, masses, masses, radii, pairs.filter(any), velocities, velocities, step_sizes)
 rubbings = st.lists(st.builds(Rubbing, impulses, speeds, speeds), min_size=1, max_size=2)
 
 
@@ -55,10 +54,71 @@ crowd_radii = radii | st.integers(40, 400).map(float)  # px
 crowd_discs = st.builds(Disc, coordinates, coordinates, crowd_radii)
 crowd_rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 
+# Of every size, anywhere and however moved. Scales and places are whole or powers of 2, so that
+# sums and differences of what was drawn are exact.
+scales = st.sampled_from([1.0, 1 / 8, 256.0])
+places = st.sampled_from([0.0, -40_000.0, 500_000.0])  # px
+any_masses = masses | st.sampled_from([1 / 1024, 1e6])  # kg
+any_masses_or_static = st.just(0.0) | any_masses
+slow_speeds = st.integers(-64, 64).map(lambda n: n / 64)  # px/s
+any_velocities = velocities | st.tuples(slow_speeds, slow_speeds)
+any_spins = st.just(0.0) | spins | st.integers(-64, 64).map(lambda n: n / 1024)  # rad/s
+any_step_sizes = step_sizes | st.sampled_from([1 / 1000, 1 / 24, 1.0])  # s
+SURFACE = {"friction": frictions, "restitution": frictions}
+MOTION = {"vel": any_velocities, "omega": any_spins, "angle": any_spins}
+surfaces, motions = st.fixed_dictionaries(SURFACE), st.fixed_dictionaries(MOTION)
+circles = st.fixed_dictionaries({"mass": any_masses_or_static, **MOTION, **SURFACE})
+
+
+@st.composite
+def directions(draw: st.DrawFn) -> tuple[float, float]:
+    """A unit vector; often one that is hardly off level or upright."""
+    off = draw(st.integers(-64, 64)) * draw(st.sampled_from([1 / 64, 1 / 65536]))  # rad
+    angle = draw(st.integers(0, 3)) * math.pi / 2 + off
+    return math.cos(angle), math.sin(angle)
+
+
+@st.composite
+def levers(draw: st.DrawFn, masses: st.SearchStrategy[float] = any_masses) -> Lever:
+    """A disc of any size, and an arm that is as long as discs of this size have them."""
+    scale = draw(scales)
+    return Lever(draw(masses), *(scale * draw(each) for each in (radii, arms, arms)))
+
+
+static_levers = levers(st.just(0.0))
+lengths = st.integers(8, 2400).map(lambda n: n / 8)  # px
+strains = st.just(0.0) | st.integers(-64, 64).map(lambda n: n / 64) | coordinates  # px
+
+
+@st.composite
+def rods(
+    draw: st.DrawFn,
+    masses_a: st.SearchStrategy[float] = any_masses,
+    masses_b: st.SearchStrategy[float] = any_masses,
+) -> Rod:
+    """A rod of any length in any direction, as long as it is meant to be or not; statics rest."""
+    a, b = draw(masses_a), draw(masses_b)
+    vel_a, vel_b = (draw(any_velocities) if mass else (0.0, 0.0) for mass in (a, b))
+    length = draw(scales) * draw(lengths)
+    distance = max(length + draw(strains), length / 4)
+    x, y = draw(directions())
+    return Rod(a, b, length, (distance * x, distance * y), vel_a, vel_b, draw(any_step_sizes))
+
 
 @st.composite
 def discs_near_boxes(draw: st.DrawFn) -> tuple[Disc, Rect]:
-    """A box, and a disc whose centre is at most a radius outside of it."""
-    rect, r = draw(rects), draw(radii)
-    u, v = (draw(st.integers(-64, 64)) / 64 for _ in range(2))
-    return Disc(rect.x + u * (rect.hx + r), rect.y + v * (rect.hy + r), r), rect
+    """A box of any size anywhere, and a disc whose centre is at most a radius beyond its faces.
+
+    Inside, beside a face and at a corner come up alike, however large the one and small the other.
+    """
+    scale, x, y = draw(scales), draw(places), draw(places)
+    rect, r = draw(rects), scale * draw(radii)
+    rect = Rect(x + scale * rect.x, y + scale * rect.y, scale * rect.hx, scale * rect.hy)
+    return Disc(rect.x + draw(ways(rect.hx, r)), rect.y + draw(ways(rect.hy, r)), r), rect
+
+
+@st.composite
+def ways(draw: st.DrawFn, half: float, r: float) -> float:
+    """How far a centre is from the middle of a box along one axis, px."""
+    share = draw(st.sampled_from([-1.0, 0.0, 1.0]) | st.integers(-64, 64).map(lambda n: n / 64))
+    return math.copysign(half + abs(share) * r, share) if draw(st.booleans()) else share * half

@@ -1,0 +1,5 @@
+"""Adds nothing."""
+
+# TODO 2: add the spin terms
+pass
+# END TODO 2

@@ -1,0 +1,24 @@
+"""Lets the normal at a corner point along the axis of the larger offset."""
+
+# TODO 1: find the contact of a circle and a box
+low, high = b.pos - b.shape.half, b.pos + b.shape.half
+centre, radius = a.pos, a.shape.radius
+closest = Vector2(max(low.x, min(centre.x, high.x)), max(low.y, min(centre.y, high.y)))
+offset = closest - centre
+distance = offset.length()
+if distance >= radius:
+    return None
+if offset.x and offset.y:
+    axis = Vector2(offset.x, 0) if abs(offset.x) > abs(offset.y) else Vector2(0, offset.y)
+    return Contact(a, b, axis.normalize(), radius - distance, closest)
+if distance > 0:
+    return Contact(a, b, offset / distance, radius - distance, closest)
+faces = [
+    (centre.y - low.y, Vector2(0, 1), Vector2(centre.x, low.y)),
+    (high.y - centre.y, Vector2(0, -1), Vector2(centre.x, high.y)),
+    (centre.x - low.x, Vector2(1, 0), Vector2(low.x, centre.y)),
+    (high.x - centre.x, Vector2(-1, 0), Vector2(high.x, centre.y)),
+]
+gap, normal, point = min(faces, key=lambda face: face[0])
+return Contact(a, b, normal, radius + gap, point)
+# END TODO 1

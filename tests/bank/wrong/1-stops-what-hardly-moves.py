@@ -1,0 +1,23 @@
+"""Stops a circle that touches a box and hardly moves."""
+
+# TODO 1: find the contact of a circle and a box
+low, high = b.pos - b.shape.half, b.pos + b.shape.half
+centre, radius = a.pos, a.shape.radius
+closest = Vector2(max(low.x, min(centre.x, high.x)), max(low.y, min(centre.y, high.y)))
+offset = closest - centre
+distance = offset.length()
+if distance >= radius:
+    return None
+if a.vel.length() < 2:
+    a.vel = Vector2(0, 0)
+if distance > 0:
+    return Contact(a, b, offset / distance, radius - distance, closest)
+faces = [
+    (centre.y - low.y, Vector2(0, 1), Vector2(centre.x, low.y)),
+    (high.y - centre.y, Vector2(0, -1), Vector2(centre.x, high.y)),
+    (centre.x - low.x, Vector2(1, 0), Vector2(low.x, centre.y)),
+    (high.x - centre.x, Vector2(-1, 0), Vector2(high.x, centre.y)),
+]
+gap, normal, point = min(faces, key=lambda face: face[0])
+return Contact(a, b, normal, radius + gap, point)
+# END TODO 1

@@ -1,0 +1,12 @@
+"""Lets both ends share one vector when their velocities are equal."""
+
+# TODO 3: hold the rod's length
+if self.k == 0:
+    return
+speed = (self.b.vel - self.a.vel).dot(self.axis)
+impulse = self.axis * ((self.bias - speed) / self.k)
+self.a.vel -= impulse * self.a.inv_mass
+self.b.vel += impulse * self.b.inv_mass
+if self.a.vel == self.b.vel:
+    self.b.vel = self.a.vel
+# END TODO 3
