@@ -228,6 +228,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
     dt: float
     force: list[float]  # accel(x), a polynomial in x, lowest power first
     steps: int = 1
+    twice: bool = False  # ask again at once, and look at what is around it
 
 
 class Event(Struct, frozen=True):

@@ -103,6 +103,15 @@ def digits(value: float) -> str:
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
 
 
+def apart(first: float, second: float, least: int = 6) -> tuple[str, str]:
+    """Two numbers in as many digits as it takes to tell them apart."""
+    for count in range(least, 18):
+        texts = f"{first:.{count}g}", f"{second:.{count}g}"
+        if texts[0] != texts[1]:
+            break
+    return texts
+
+
 def about(value: float) -> str:
     """Three digits, or all before the point."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"

@@ -17,10 +17,16 @@ frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s, as in RATES
 step_sizes = st.sampled_from(STEP_SIZES)  # s
 
-states = st.tuples(*[st.integers(-32, 32).map(lambda n: n / 8)] * 2)  # x in px, v in px/s
+near_and_far = st.one_of(
+    st.integers(-32, 32).map(lambda n: n / 8),
+    st.integers(-8000, 8000).map(lambda n: n / 8),
+    st.sampled_from([0.0, 1 / 64, -1 / 64]),
+)
+states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
 forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
 seeds = st.integers(0, 999)  # of a random.Random
-long_steps = st.sampled_from([1 / 2, 1 / 4, 1 / 8, 1 / 16])  # s, to tell integrators apart
+# From long ones, by which integrators are told apart, to short ones that are no round numbers.
+time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
 
 # For properties that play a program: a play takes as long as hundreds of calls, so no shrinking.
 few = settings(

@@ -122,7 +122,7 @@ class Lab(Decoder):
         request = Call(f"#{thing.ref}.{method}", [plain(each) for each in args])
         return self._framed(method, request, changes)
 
-    def _framed(self, name: str, request: Call, changes: Frame | None) -> Value:
+    def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Value:
         returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
@@ -254,12 +254,22 @@ class Lab(Decoder):
     # ------------------------------------------------------------ pymunk, forces, programs
 
     def integrate(
-        self, method: str, start: Pair, dt: float, force: Sequence[float], steps: int = 1
+        self,
+        method: str,
+        start: Pair,
+        dt: float,
+        force: Sequence[float],
+        steps: int = 1,
+        twice: bool = False,
     ) -> list[Pair]:
-        """The states (x, v) after each step of an integrator under `force`, a polynomial in x."""
+        """The states (x, v) after each step of an integrator under `force`, a polynomial in x.
+
+        `twice`: the same question must get the same answer, and nothing else may change.
+        """
         target = f"{self.module}:{method}"
-        request = Integrate(target, *start, dt, list(force), steps)
-        answers = self.items(self._value(request), f"what {method} returns")
+        request = Integrate(target, *start, dt, list(force), steps, twice)
+        value = self._framed(method, request, NOTHING if twice else None)
+        answers = self.items(value, f"what {method} returns")
         states = [self.pair(each, f"what {method} returns") for each in answers]
         self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
         return states

@@ -132,6 +132,11 @@ def answer(
             return Returned(subject.encode(subject.make_world(request)))
         case Simulate():
             return simulate(subject, camera, request)
+        case Integrate(twice=True):
+            frame = Frame(subject, (), [])
+            answers = subject.integrate(request)
+            again = subject.integrate(request)
+            return Returned(answers, changed=frame.changes(), again=again)
         case Integrate():
             return Returned(subject.integrate(request))
         case Play():

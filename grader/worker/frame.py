@@ -14,7 +14,8 @@ from grader.worker.subject import Subject
 LATEST = 12  # objects that are looked at beside those that a call is given
 CONSTANTS = (  # the lesson's
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
-    *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
+    *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS", "MAX_FRAME"),
+    *("OMEGA", "X0", "DT", "SECONDS"),
 )
 FIELDS = {  # by what marks an object as one of the lesson's
     "inv_mass": (
