@@ -169,6 +169,7 @@ class Call(Struct, frozen=True, tag="call"):
     kwargs: dict[str, Argument] = {}
     counting: list[str] = []  # functions whose calls are counted meanwhile, as module:name
     twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
+    stepping: bool = False  # count the steps of the world that it is given; none of them is run
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -281,6 +282,7 @@ class Returned(Struct, frozen=True, tag="returned"):
     counted: int = 0
     changed: list[Change] = []
     again: Value = None  # the second answer, where two were asked for
+    dts: list[float] = []  # the different sizes of the steps that were counted
 
 
 class CodeLine(Struct, frozen=True):
@@ -330,6 +332,7 @@ class Played(Struct, frozen=True, tag="played"):
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
     pictures: list[int] = []  # a checksum of what the window showed when each frame ended
+    paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
 
 Reply = Returned | Raised | Missing | Simulated | Played

@@ -30,7 +30,7 @@ time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 /
 
 # For properties that play a program: a play takes as long as hundreds of calls, so no shrinking.
 few = settings(
-    max_examples=5,
+    max_examples=2,
     phases=[Phase.generate],
     deadline=None,
     database=None,
@@ -39,9 +39,25 @@ few = settings(
     print_blob=False,
     suppress_health_check=list(HealthCheck),
 )
-# Up to 58 ms stay below the cap whatever waits; from 500 ms on they are far above.
-frame_lengths = st.integers(1, 64).map(lambda n: n if n <= 58 else 500 * (n - 58))  # ms
-frame_lists = st.lists(frame_lengths, min_size=1, max_size=8)
+frame_rates = st.integers(24, 360)  # frames per second
+quick_frames = st.integers(1, 58)  # ms, below the cap whatever waits
+frame_lists = st.lists(quick_frames | st.integers(59, 2000), min_size=1, max_size=8)
+
+
+@st.composite
+def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
+    """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
+
+    Up to the cap each is a twelfth longer than another one, so that no range is left out.
+    """
+    shift = draw(st.integers(0, 15)) / 16
+    numbers = draw(st.permutations([*range(55), *range(55, 99, 7)]))
+    rests = draw(st.permutations(range(17)))
+    return [
+        (rests[place % len(rests)] / 2000, 0.001 * 1.08 ** (number + shift))
+        for place, number in enumerate(numbers)
+    ]
+
 
 pairs = st.tuples(coordinates, coordinates)
 discs = st.builds(Disc, coordinates, coordinates, radii)

@@ -46,7 +46,7 @@ from grader.worker.film import Camera
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.output import Output
-from grader.worker.play import play, simulate
+from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import ContractError, Subject
 
@@ -154,6 +154,9 @@ def call(subject: Subject, request: Call) -> Returned:
         ]
         own = [int(request.target[1:].partition(".")[0])] if request.target[0] == "#" else []
         frame = Frame(subject, [each.id for each in given] + own, args)
+        if request.stepping:
+            returned = call_stepping(subject, args[0], lambda: function(*args, **kwargs))
+            return msgspec.structs.replace(returned, changed=frame.changes())
         value = subject.encode(function(*args, **kwargs))
         again = subject.encode(function(*args, **kwargs)) if request.twice else None
         return Returned(value, changed=frame.changes(), again=again)

@@ -6,6 +6,7 @@ what may change is the judge's to say.
 
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import Any
 
 from grader.protocol import Change
@@ -18,6 +19,14 @@ CONSTANTS = (  # the lesson's
     *("OMEGA", "X0", "DT", "SECONDS"),
 )
 FIELDS = {  # by what marks an object as one of the lesson's
+    "angular_velocity": (  # pymunk's
+        *("position", "velocity", "angle", "angular_velocity"),
+        *("mass", "moment", "force", "torque", "body_type"),
+    ),
+    "collision_slop": (
+        *("gravity", "damping", "iterations", "bodies", "shapes", "constraints"),
+        *("collision_slop", "collision_bias", "sleep_time_threshold"),
+    ),
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
         *("restitution", "friction", "shape.radius", "shape.half"),
@@ -92,12 +101,10 @@ def plain(thing: Any, path: str) -> Numbers:
 def numbers_in(value: Any) -> Numbers:
     if value is None or isinstance(value, int | float):
         return (value,)
-    if isinstance(value, list):
-        return tuple(map(id, value))
-    try:
-        return tuple(map(float, value))
-    except TypeError:
-        return (id(value),)
+    for meaning in (float, id):  # a pair of numbers, a list or view of bodies
+        with suppress(TypeError, ValueError):
+            return tuple(map(meaning, value))
+    return (id(value),)
 
 
 def alike(before: Numbers, after: Numbers) -> bool:
