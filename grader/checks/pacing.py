@@ -25,6 +25,11 @@ def frames_at(rate: int, seconds: float) -> list[int]:
     return [end - begin for begin, end in pairwise(ends)]
 
 
+def ever_longer_frames(shortest: int) -> list[int]:
+    """Frames that are slower now and then, but never cut: 24 of each length, each 4 ms longer."""
+    return [length for length in range(shortest, 59, 4) for _ in range(24)]
+
+
 @dataclass
 class Pace:
     """What a program made of its frames, frame by frame."""
@@ -54,10 +59,13 @@ class Pace:
         """How much a program that is a frame behind may not have seen yet, ms."""
         return sum(self.lengths[-len(SETTLE) :])
 
-    def out_of_step(self) -> int | None:
-        """The first frame when more is simulated than has passed, or over a step less, or None."""
-        done = list(accumulate(self.steps))
-        ends = [0.0, *accumulate(self.lengths)]
+    def out_of_step(self, frames: int | None = None) -> int | None:
+        """The first frame when more is simulated than has passed, or over a step less, or None.
+
+        Only so many `frames` count, where a number is given.
+        """
+        done = list(accumulate(self.steps[:frames]))
+        ends = [0.0, *accumulate(self.lengths[:frames])]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
             if not end_before - STEP_MS <= done[frame] * self.step <= end + ROUNDING:
                 return frame

@@ -40,8 +40,14 @@ few = settings(
     suppress_health_check=list(HealthCheck),
 )
 frame_rates = st.integers(24, 360)  # frames per second
-quick_frames = st.integers(1, 58)  # ms, below the cap whatever waits
-frame_lists = st.lists(quick_frames | st.integers(59, 2000), min_size=1, max_size=8)
+frame_lengths = st.integers(1, 58) | st.integers(59, 2000)  # ms; some below the cap, some above
+frame_lists = st.builds(
+    lambda before, slow, after: [*before, slow, *after],
+    st.lists(frame_lengths, max_size=4),
+    st.integers(80, 2000),
+    st.lists(frame_lengths, min_size=1, max_size=4),
+)
+shortest_frames = st.integers(1, 4)  # ms
 
 
 @st.composite

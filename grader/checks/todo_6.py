@@ -8,6 +8,7 @@ from grader.checks.pacing import (
     MAX_STEPS,
     STEP_MS,
     Pace,
+    ever_longer_frames,
     fixed,
     frames_at,
     pace,
@@ -20,7 +21,7 @@ from grader.checks.strategies import (
     frame_lists,
     frame_rates,
     frames_to_advance,
-    quick_frames,
+    shortest_frames,
 )
 from grader.judge.lab import STEP, Lab
 
@@ -60,7 +61,11 @@ def the_remainder_waits_for_the_next_frame(lab: Lab) -> None:
     """Time too short for a step waits for the next frame"""
     lab.ran("the lab scene at 144 frames a second: frames of 7 ms, shorter than a step")
     paced = pace(lab, frames_at(144, 0.25))
-    frame = paced.out_of_step()
+    want_in_step(lab, paced, paced.out_of_step())
+
+
+def want_in_step(lab: Lab, paced: Pace, frame: int | None) -> None:
+    """There must be no frame that is out of step."""
     upto = slice(0 if frame is None else frame + 1)
     lab.want(
         frame is None,
@@ -106,16 +111,18 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 @few
-@given(rate=frame_rates, length=quick_frames, mixed=frame_lists, asked=frames_to_advance())
+@given(rate=frame_rates, shortest=shortest_frames, mixed=frame_lists, asked=frames_to_advance())
 def any_frames_lose_nothing_but_what_the_cap_cuts(
-    lab: Lab, rate: int, length: int, mixed: list[int], asked: list[tuple[float, float]]
+    lab: Lab, rate: int, shortest: int, mixed: list[int], asked: list[tuple[float, float]]
 ) -> None:
     """Any frames: steps of STEP, and nothing lost but what the cap cuts off"""
     lab.ran(
-        f"the lab scene at {rate} frames a second for 0.3 s, then 40 frames of {length} ms, "
-        f"then frames of {', '.join(map(str, mixed))} ms"
+        f"the lab scene at {rate} frames a second for 0.3 s, then with frames of {shortest}, "
+        f"{shortest + 4}, … up to 58 ms, 24 each, then of {', '.join(map(str, mixed))} ms"
     )
-    paced = pace(lab, [*frames_at(rate, 0.3), *[length] * 40, *mixed])
+    quick = [*frames_at(rate, 0.3), *ever_longer_frames(shortest)]
+    paced = pace(lab, [*quick, *mixed])
+    want_in_step(lab, paced, paced.out_of_step(len(quick)))
     most = MAX_STEPS * STEP_MS
     cut = sum(min(length, most) for length in paced.lengths)
     slow = sum(length > most - STEP_MS for length in paced.lengths)  # may lose a remainder as well
