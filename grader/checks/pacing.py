@@ -26,8 +26,8 @@ def frames_at(rate: int, seconds: float) -> list[int]:
 
 
 def ever_longer_frames(shortest: int) -> list[int]:
-    """Frames that are slower now and then, but never cut: 24 of each length, each 4 ms longer."""
-    return [length for length in range(shortest, 59, 4) for _ in range(24)]
+    """Frames of all lengths below the cap, 16 of each: a length that is taken for another shows."""
+    return [length for length in range(shortest, 59, 2) for _ in range(16)]
 
 
 @dataclass
@@ -117,8 +117,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"advance with {1000 * accumulator:g} ms in the accumulator "
         f"and a frame of {1000 * seconds:.6g} ms"
     )
-    rest, said, steps, sizes = lab.advance(world, accumulator, seconds)
-    lab.want(said == steps, f"{steps} as the number of steps, for so many ran", f"{said:g}")
+    rest, steps, sizes = lab.advance(world, accumulator, seconds)
     lab.want(
         fixed(sizes),
         f"steps of STEP = {STEP:.9f} s",

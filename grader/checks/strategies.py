@@ -47,7 +47,7 @@ frame_lists = st.builds(
     st.integers(80, 2000),
     st.lists(frame_lengths, min_size=1, max_size=4),
 )
-shortest_frames = st.integers(1, 4)  # ms
+shortest_frames = st.integers(1, 2)  # ms
 
 
 @st.composite

@@ -174,11 +174,8 @@ class Lab(Decoder):
         returned = self._framed("advance", request, NOTHING)
         answer = self.items(returned.value, "what advance returns")
         self.want(len(answer) == 2, "(accumulator, steps)", self.describe(returned.value))
-        rest, said = (
-            self.number(each, name)
-            for each, name in zip(answer, ("accumulator", "steps"), strict=True)
-        )
-        return Advance(rest, said, returned.counted, returned.dts)
+        rest = self.number(answer[0], "the accumulator")
+        return Advance(rest, returned.counted, returned.dts)
 
     def count(self, functions: Sequence[str], thing: Thing, method: str, *args: Any) -> int:
         """How many calls of these functions of the TODO's module a method of an object makes."""
@@ -343,8 +340,7 @@ class Advance(NamedTuple):
     """What `advance` made of a frame."""
 
     rest: float  # s, the accumulator that it returned
-    said: float  # how many steps it said
-    steps: int  # that it ran
+    steps: int  # that ran
     sizes: list[float]  # s, the different step sizes
 
 
