@@ -26,8 +26,8 @@ def frames_at(rate: int, seconds: float) -> list[int]:
 
 
 def ever_longer_frames(shortest: int) -> list[int]:
-    """Frames of all lengths below the cap, 16 of each: a length that is taken for another shows."""
-    return [length for length in range(shortest, 59, 2) for _ in range(16)]
+    """Frames of all lengths below the cap, 10 of each: a length that is taken for another shows."""
+    return [length for length in range(shortest, 59, 2) for _ in range(10)]
 
 
 @dataclass

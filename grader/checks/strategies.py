@@ -54,13 +54,13 @@ shortest_frames = st.integers(1, 2)  # ms
 def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
     """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
-    Up to the cap each is a twelfth longer than another one, so that no range is left out.
+    Up to the cap each is a tenth longer than another one, so that no range is left out.
     """
     shift = draw(st.integers(0, 15)) / 16
-    numbers = draw(st.permutations([*range(55), *range(55, 99, 7)]))
+    numbers = draw(st.permutations([*range(45), *range(45, 80, 6)]))
     rests = draw(st.permutations(range(17)))
     return [
-        (rests[place % len(rests)] / 2000, 0.001 * 1.08 ** (number + shift))
+        (rests[place % len(rests)] / 2000, 0.001 * 1.1 ** (number + shift))
         for place, number in enumerate(numbers)
     ]
 

@@ -118,7 +118,7 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(
     """Any frames: steps of STEP, and nothing lost but what the cap cuts off"""
     lab.ran(
         f"the lab scene at {rate} frames a second for 0.3 s, then with frames of {shortest}, "
-        f"{shortest + 2}, … up to 58 ms, 16 each, then of {', '.join(map(str, mixed))} ms"
+        f"{shortest + 2}, … up to 58 ms, 10 each, then of {', '.join(map(str, mixed))} ms"
     )
     quick = [*frames_at(rate, 0.3), *ever_longer_frames(shortest)]
     paced = pace(lab, [*quick, *mixed])

@@ -56,7 +56,7 @@ def want_steps(
     So an answer that comes from what was asked before shows, be it kept for the place, the speed,
     the step or the end of the last one. In the third question no force acts where the step begins.
     """
-    want_step(lab, method, start, dt, force)
+    want_step(lab, method, start, dt, force, twice=True)
     want_step(lab, method, start, dt, other)
     centred = (force[0] - exact.polynomial(force)(elsewhere), *force[1:])
     end = want_step(lab, method, (elsewhere, start[1]), dt, centred)
@@ -64,14 +64,16 @@ def want_steps(
         want_step(lab, method, end, dt, other)
 
 
-def want_step(lab: Lab, method: Method, state: State, dt: float, force: Polynomial) -> State:
+def want_step(
+    lab: Lab, method: Method, state: State, dt: float, force: Polynomial, twice: bool = False
+) -> State:
     """One step, which must give the right state but for rounding; returns what it gave."""
     x, v = state
     lab.ran(
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
         f"with accel(x) = {formula(force)}"
     )
-    (answer,) = lab.integrate(method.name, state, dt, force, twice=True)
+    (answer,) = lab.integrate(method.name, state, dt, force, twice=twice)
     lab.saw(method.name, (x, v, dt, force), answer)
     right = RIGHT[method](x, v, dt, exact.polynomial(force))
     # Every order of adding up is right: rounding is a share of the terms, whatever their signs.

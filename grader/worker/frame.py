@@ -47,6 +47,7 @@ class Frame:
         latest = range(max(1, len(subject.objects) - LATEST + 1), len(subject.objects) + 1)
         self.refs = sorted({*refs, *latest})
         self.arguments = arguments
+        self.constants = self.modules()
         self.before = self.state()
 
     def state(self) -> dict[tuple[int, str], Numbers]:
@@ -58,16 +59,20 @@ class Frame:
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
-        for module in self.modules():
+        for module in self.constants:
             for name in CONSTANTS:
                 if name in module:
                     found[0, name] = (module[name],)
         return found
 
     def modules(self) -> list[dict[str, Any]]:
-        folder = str(self.subject.folder)
-        found = (vars(module) for module in list(sys.modules.values()) if type(module) is MODULE)
-        return [names for names in found if str(names.get("__file__")).startswith(folder)]
+        """The names of the submission's modules; few were imported since the last call."""
+        folder, known = str(self.subject.folder), self.subject.modules
+        if len(sys.modules) != known.count:
+            found = (vars(each) for each in list(sys.modules.values()) if type(each) is MODULE)
+            known.names = [n for n in found if str(n.get("__file__")).startswith(folder)]
+            known.count = len(sys.modules)
+        return known.names
 
     def changes(self) -> list[Change]:
         """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""

@@ -15,6 +15,8 @@ import sys
 import traceback
 import types
 from collections.abc import Callable
+from dataclasses import dataclass
+from dataclasses import field as field_of
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +57,14 @@ class ContractError(Exception):
     """
 
 
+@dataclass
+class Modules:
+    """The submission's own modules, as they were when so many had been imported in all."""
+
+    count: int = 0
+    names: list[dict[str, Any]] = field_of(default_factory=list)
+
+
 class Subject:
     """Imports the submission and hands out numbered references to its objects.
 
@@ -66,6 +76,7 @@ class Subject:
         self.folder = folder
         self.objects: dict[int, Any] = {}  # by reference number
         self.refs: dict[int, int] = {}  # reference numbers by id() of the object
+        self.modules = Modules()
         self.counters: dict[type, Any] = {}  # of the steps of worlds that are not to be run
         # What the submission's functions take for a pair of numbers.
         self.pair_type: Callable[[float, float], Any] = pygame.Vector2
