@@ -169,6 +169,7 @@ class Call(Struct, frozen=True, tag="call"):
     kwargs: dict[str, Argument] = {}
     work: bool = False  # count the lines of the submission that run meanwhile
     twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
+    stepping: bool = False  # count the steps of the world that it is given; none of them is run
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -228,6 +229,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
     dt: float
     force: list[float]  # accel(x), a polynomial in x, lowest power first
     steps: int = 1
+    twice: bool = False  # ask again at once, and look at what is around it
 
 
 class Event(Struct, frozen=True):
@@ -280,6 +282,8 @@ class Returned(Struct, frozen=True, tag="returned"):
     lines: int = 0  # that ran, where they were to be counted; one that ran twice counts twice
     changed: list[Change] = []
     again: Value = None  # the second answer, where two were asked for
+    steps: int = 0  # of worlds, where they were to be counted
+    dts: list[float] = []  # their different sizes
 
 
 class CodeLine(Struct, frozen=True):
@@ -329,6 +333,7 @@ class Played(Struct, frozen=True, tag="played"):
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
     pictures: list[int] = []  # a checksum of what the window showed when each frame ended
+    paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
 
 Reply = Returned | Raised | Missing | Simulated | Played

@@ -116,6 +116,11 @@ known(
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 8 * SECOND))),
 )
 known(
+    "cap-is-a-quarter-second",
+    "The cap is 0.25 s, as in many other programs; here it is MAX_STEPS * STEP.",
+    lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, SECOND // 4))),
+)
+known(
     "cap-counts-frames",
     "The cap is 8 frames of 1/60 s; MAX_STEPS counts steps, so it is MAX_STEPS * STEP.",
     lambda frames: counted(accumulated(frames, lambda frame: min(3 * frame, 2 * CAP))),

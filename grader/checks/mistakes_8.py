@@ -1,11 +1,12 @@
 """Known mistakes in TODO 8a to 8c, as models of what one step then returns."""
 
+import math
 from collections.abc import Sequence
 from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import mistake, right, truth
 
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 Force = Sequence[float]
@@ -24,6 +25,17 @@ truth(SEMI_IMPLICIT, right_semi_implicit)
 truth(VERLET, lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)))
 
 truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)))
+
+
+SPRING = (0.0, -((2 * math.pi) ** 2))  # the lesson's
+for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
+    mistake(
+        todo,
+        about,
+        "the-spring-itself",
+        "The acceleration of the lesson's spring is used, whatever force is asked about: accel(x).",
+        lambda x, v, dt, force, about=about: right[about](x, v, dt, SPRING),
+    )
 
 
 # ---------------------------------------------------------------- 8a
@@ -196,6 +208,20 @@ known_8b(
 )
 
 
+def acceleration_at_the_mean_place(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    end = parabola(x, v, dt, accel)
+    return end, v + accel((x + end) / 2) * dt
+
+
+known_8b(
+    "force-at-the-mean-place",
+    "v uses the acceleration at the mean place; it needs the mean of the accelerations at both "
+    "ends. For a spring the two are the same.",
+    acceleration_at_the_mean_place,
+)
+
+
 def midpoint(x: float, v: float, dt: float, force: Force) -> State:
     return four_samples(x, v, dt, force, weights=(0, 6, 0, 0))
 
@@ -291,4 +317,21 @@ known_8c(
     "step-stays-halved",
     "dt is halved for the samples and stays so: the step covers only half of its time.",
     lambda x, v, dt, force: four_samples(x, v, dt / 2, force, reach=(1.0, 1.0, 1.0)),
+)
+
+
+def three_eighths(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    v1, a1 = v, accel(x)
+    v2, a2 = v + dt * a1 / 3, accel(x + dt * v1 / 3)
+    v3, a3 = v + dt * (a2 - a1 / 3), accel(x + dt * (v2 - v1 / 3))
+    v4, a4 = v + dt * (a1 - a2 + a3), accel(x + dt * (v1 - v2 + v3))
+    return x + dt / 8 * (v1 + 3 * v2 + 3 * v3 + v4), v + dt / 8 * (a1 + 3 * a2 + 3 * a3 + a4)
+
+
+known_8c(
+    "three-eighths",
+    "This is the 3/8 rule, as good a method but another: RK4 samples the middle twice and weighs "
+    "1, 2, 2, 1.",
+    three_eighths,
 )

@@ -4,15 +4,17 @@ A program may read the time as it likes, and may simulate a frame's time in that
 next one. Frames are whole milliseconds, as pygame's are.
 """
 
+import math
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
-from grader.judge.lab import STEP, Lab
+from grader.judge.lab import STEP, Lab, Thing
 from grader.protocol import RUNAWAY, Played
 
 STEP_MS = 1000 * STEP
 MAX_STEPS = 8
 ROUNDING = 1e-6  # ms
+TINY = 1e-8  # s: who counts in nanoseconds, or keeps clear of rounding, is right
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
 
@@ -23,6 +25,11 @@ def frames_at(rate: int, seconds: float) -> list[int]:
     return [end - begin for begin, end in pairwise(ends)]
 
 
+def ever_longer_frames(shortest: int) -> list[int]:
+    """Frames of all lengths below the cap, 10 of each: a length that is taken for another shows."""
+    return [length for length in range(shortest, 59, 2) for _ in range(10)]
+
+
 @dataclass
 class Pace:
     """What a program made of its frames, frame by frame."""
@@ -30,6 +37,7 @@ class Pace:
     lengths: list[float]  # ms, as scripted, or longer where the program slept longer
     steps: list[int]  # that ran once this frame was over, and before the next one was
     sizes: list[float]  # s, the different step sizes
+    by_advance: bool  # every step ran in a function advance as the lab sheet has it
 
     @property
     def time(self) -> float:
@@ -51,10 +59,13 @@ class Pace:
         """How much a program that is a frame behind may not have seen yet, ms."""
         return sum(self.lengths[-len(SETTLE) :])
 
-    def out_of_step(self) -> int | None:
-        """The first frame when more is simulated than has passed, or over a step less, or None."""
-        done = list(accumulate(self.steps))
-        ends = [0.0, *accumulate(self.lengths)]
+    def out_of_step(self, frames: int | None = None) -> int | None:
+        """The first frame when more is simulated than has passed, or over a step less, or None.
+
+        Only so many `frames` count, where a number is given.
+        """
+        done = list(accumulate(self.steps[:frames]))
+        ends = [0.0, *accumulate(self.lengths[:frames])]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
             if not end_before - STEP_MS <= done[frame] * self.step <= end + ROUNDING:
                 return frame
@@ -73,7 +84,57 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
     lab.saw("frames", (tuple(frames),), (steps, sizes))
     want_a_proper_end(lab, played, count)
     lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
-    return Pace(lengths, played.steps[1 : count + 1], played.dts)
+    return Pace(lengths, played.steps[1 : count + 1], played.dts, played.paced)
+
+
+def fixed(sizes: list[float]) -> bool:
+    """Whether all steps are STEP long."""
+    return all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes)
+
+
+def standing_still(lab: Lab) -> Thing:
+    """A world or space in the middle of something, with a body far below the window."""
+    if lab.module == "pymunk_scene":
+        space = lab.thing(lab.call("pymunk:Space"), "a Space")
+        for pos, spin in (((450.0, 300.0), 0.005), ((100.0, 9000.0), 0.0), ((460.0, 90.0), -3.0)):
+            body = lab.thing(lab.call("pymunk:Body", 1.0, 100.0), "a Body")
+            lab.put(body, position=pos, velocity=(0.25, -2.0), angular_velocity=spin)
+            lab.tell(space, "add", body)
+        return space
+    world = lab.world(
+        lab.circle((450, 300), 10, vel=(0.25, -2.0), omega=0.005),
+        lab.circle((100, 9000), 20),
+        lab.circle((460, 310), 10, vel=(30.0, 5.0), omega=-3.0),
+        lab.box((450, 580), (450, 20)),
+    )
+    lab.tell(world, "step", STEP)  # so that there is a contact
+    return world
+
+
+def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float) -> None:
+    """What `advance` is given it must spend on whole steps, and return the rest."""
+    lab.ran(
+        f"advance with {1000 * accumulator:g} ms in the accumulator "
+        f"and a frame of {1000 * seconds:.6g} ms"
+    )
+    rest, steps, sizes = lab.advance(world, accumulator, seconds)
+    lab.want(
+        fixed(sizes),
+        f"steps of STEP = {STEP:.9f} s",
+        f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
+    )
+    owed, most = accumulator + seconds, MAX_STEPS * STEP
+    due = min(owed, most)
+    beyond = steps * STEP + rest - due
+    # A frame that is cut may keep what was in the accumulator, or lose it. Above MAX_STEPS steps
+    # it is main that cuts, if anything does.
+    right = abs(beyond) <= TINY if owed <= most else beyond >= -TINY or steps > MAX_STEPS
+    lab.want(
+        right and -TINY <= rest <= STEP + TINY,
+        f"{1000 * due:.6g} ms, in whole steps and a rest shorter than a step",
+        f"{steps} steps and a rest of {1000 * rest:.6g} ms: "
+        f"{abs(1000 * beyond):.3g} ms too {'much' if beyond > 0 else 'little'}",
+    )
 
 
 def want_a_proper_end(lab: Lab, played: Played, frames: int) -> None:

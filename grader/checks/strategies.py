@@ -19,14 +19,20 @@ frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s, as in RATES
 step_sizes = st.sampled_from(STEP_SIZES)  # s
 
-states = st.tuples(*[st.integers(-32, 32).map(lambda n: n / 8)] * 2)  # x in px, v in px/s
+near_and_far = st.one_of(
+    st.integers(-32, 32).map(lambda n: n / 8),
+    st.integers(-8000, 8000).map(lambda n: n / 8),
+    st.sampled_from([0.0, 1 / 64, -1 / 64]),
+)
+states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
 forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
 seeds = st.integers(0, 999)  # of a random.Random
-long_steps = st.sampled_from([1 / 2, 1 / 4, 1 / 8, 1 / 16])  # s, to tell integrators apart
+# From long ones, by which integrators are told apart, to short ones that are no round numbers.
+time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
 
 # For properties that play a program: a play takes as long as hundreds of calls, so no shrinking.
 few = settings(
-    max_examples=5,
+    max_examples=2,
     phases=[Phase.generate],
     deadline=None,
     database=None,
@@ -35,9 +41,31 @@ few = settings(
     print_blob=False,
     suppress_health_check=list(HealthCheck),
 )
-# Up to 58 ms stay below the cap whatever waits; from 500 ms on they are far above.
-frame_lengths = st.integers(1, 64).map(lambda n: n if n <= 58 else 500 * (n - 58))  # ms
-frame_lists = st.lists(frame_lengths, min_size=1, max_size=8)
+frame_rates = st.integers(24, 360)  # frames per second
+frame_lengths = st.integers(1, 58) | st.integers(59, 2000)  # ms; some below the cap, some above
+frame_lists = st.builds(
+    lambda before, slow, after: [*before, slow, *after],
+    st.lists(frame_lengths, max_size=4),
+    st.integers(80, 2000),
+    st.lists(frame_lengths, min_size=1, max_size=4),
+)
+shortest_frames = st.integers(1, 2)  # ms
+
+
+@st.composite
+def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
+    """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
+
+    Up to the cap each is a tenth longer than another one, so that no range is left out.
+    """
+    shift = draw(st.integers(0, 15)) / 16
+    numbers = draw(st.permutations([*range(45), *range(45, 80, 6)]))
+    rests = draw(st.permutations(range(17)))
+    return [
+        (rests[place % len(rests)] / 2000, 0.001 * 1.1 ** (number + shift))
+        for place, number in enumerate(numbers)
+    ]
+
 
 pairs = st.tuples(coordinates, coordinates)
 discs = st.builds(Disc, coordinates, coordinates, radii)

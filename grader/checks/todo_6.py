@@ -1,6 +1,5 @@
 """TODO 6 and TODO 7d: fixed steps, whatever the frames."""
 
-import math
 import re
 
 from hypothesis import given
@@ -9,11 +8,21 @@ from grader.checks.pacing import (
     MAX_STEPS,
     STEP_MS,
     Pace,
+    ever_longer_frames,
+    fixed,
     frames_at,
     pace,
+    standing_still,
     want_a_proper_end,
+    want_whole_steps,
 )
-from grader.checks.strategies import few, frame_lists
+from grader.checks.strategies import (
+    few,
+    frame_lists,
+    frame_rates,
+    frames_to_advance,
+    shortest_frames,
+)
 from grader.judge.lab import STEP, Lab
 
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
@@ -42,9 +51,9 @@ def every_step_is_one_step_long(lab: Lab) -> None:
     lab.ran("the lab scene with frames of 5, 40, 21 and 160 ms")
     sizes = pace(lab, [5, 40, 21, 160]).sizes
     lab.want(
-        bool(sizes) and all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes),
-        f"steps of STEP = {STEP:.6f} s, and no others",
-        f"steps of {', '.join(f'{size:.6f}' for size in sizes[:4])} s" if sizes else "no step",
+        bool(sizes) and fixed(sizes),
+        f"steps of STEP = {STEP:.9f} s, and no others",
+        f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s" if sizes else "no step",
     )
 
 
@@ -52,7 +61,11 @@ def the_remainder_waits_for_the_next_frame(lab: Lab) -> None:
     """Time too short for a step waits for the next frame"""
     lab.ran("the lab scene at 144 frames a second: frames of 7 ms, shorter than a step")
     paced = pace(lab, frames_at(144, 0.25))
-    frame = paced.out_of_step()
+    want_in_step(lab, paced, paced.out_of_step())
+
+
+def want_in_step(lab: Lab, paced: Pace, frame: int | None) -> None:
+    """There must be no frame that is out of step."""
     upto = slice(0 if frame is None else frame + 1)
     lab.want(
         frame is None,
@@ -98,11 +111,18 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 @few
-@given(frames=frame_lists)
-def any_frames_lose_nothing_but_what_the_cap_cuts(lab: Lab, frames: list[int]) -> None:
-    """Any frames: nothing is lost but what the cap cuts off"""
-    lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
-    paced = pace(lab, frames)
+@given(rate=frame_rates, shortest=shortest_frames, mixed=frame_lists, asked=frames_to_advance())
+def any_frames_lose_nothing_but_what_the_cap_cuts(
+    lab: Lab, rate: int, shortest: int, mixed: list[int], asked: list[tuple[float, float]]
+) -> None:
+    """Any frames: steps of STEP, and nothing lost but what the cap cuts off"""
+    lab.ran(
+        f"the lab scene at {rate} frames a second for 0.3 s, then with frames of {shortest}, "
+        f"{shortest + 2}, … up to 58 ms, 10 each, then of {', '.join(map(str, mixed))} ms"
+    )
+    quick = [*frames_at(rate, 0.3), *ever_longer_frames(shortest)]
+    paced = pace(lab, [*quick, *mixed])
+    want_in_step(lab, paced, paced.out_of_step(len(quick)))
     most = MAX_STEPS * STEP_MS
     cut = sum(min(length, most) for length in paced.lengths)
     slow = sum(length > most - STEP_MS for length in paced.lengths)  # may lose a remainder as well
@@ -112,3 +132,13 @@ def any_frames_lose_nothing_but_what_the_cap_cuts(lab: Lab, frames: list[int]) -
         f"{cut / STEP_MS:.0f} steps or up to {1 + slow} less, and {MAX_STEPS} a frame at the most",
         f"{sum(paced.steps)} steps, and up to {max(paced.steps)} a frame",
     )
+    lab.want(
+        fixed(paced.sizes),
+        f"steps of STEP = {STEP:.9f} s, and no others",
+        f"steps of {', '.join(f'{size:.9f}' for size in paced.sizes[:4])} s",
+    )
+    if paced.by_advance:
+        lab.start_anew()
+        world = standing_still(lab)
+        for accumulator, seconds in asked:
+            want_whole_steps(lab, world, accumulator, seconds)

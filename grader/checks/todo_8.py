@@ -9,13 +9,15 @@ from hypothesis import given
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State
-from grader.checks.strategies import forces, long_steps, states
+from grader.checks.strategies import forces, near_and_far, states, time_steps
 from grader.judge.lab import Lab
+from grader.words import told_apart
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
 SPRING = (0.0, -(OMEGA**2))
 X0 = 100.0  # px
 TELLING = 4  # first steps on the spring, by which mistakes can be told apart
+FAR = 1e6  # px or px/s, from where a cubic force leads out of all numbers
 
 Polynomial = tuple[float, ...]  # lowest power first
 
@@ -40,31 +42,56 @@ RIGHT: dict[Method, Callable[[float, float, float, Accel], State]] = {
 }
 
 
-def want_step(lab: Lab, method: Method, state: State, dt: float, force: Polynomial) -> None:
+def want_steps(
+    lab: Lab,
+    method: Method,
+    start: State,
+    dt: float,
+    force: Polynomial,
+    other: Polynomial,
+    elsewhere: float,
+) -> None:
+    """Several questions, each like the one before but for a thing or two.
+
+    So an answer that comes from what was asked before shows, be it kept for the place, the speed,
+    the step or the end of the last one. In the third question no force acts where the step begins.
+    """
+    want_step(lab, method, start, dt, force, twice=True)
+    want_step(lab, method, start, dt, other)
+    centred = (force[0] - exact.polynomial(force)(elsewhere), *force[1:])
+    end = want_step(lab, method, (elsewhere, start[1]), dt, centred)
+    if max(map(abs, end)) <= FAR:
+        want_step(lab, method, end, dt, other)
+
+
+def want_step(
+    lab: Lab, method: Method, state: State, dt: float, force: Polynomial, twice: bool = False
+) -> State:
+    """One step, which must give the right state but for rounding; returns what it gave."""
     x, v = state
     lab.ran(
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
         f"with accel(x) = {formula(force)}"
     )
-    (answer,) = lab.integrate(method.name, state, dt, force)
+    (answer,) = lab.integrate(method.name, state, dt, force, twice=twice)
     lab.saw(method.name, (x, v, dt, force), answer)
     right = RIGHT[method](x, v, dt, exact.polynomial(force))
     # Every order of adding up is right: rounding is a share of the terms, whatever their signs.
     sizes = RIGHT[method](abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
     lab.want(
         all(abs(a - b) <= 1e-12 * size for a, b, size in zip(answer, right, sizes, strict=True)),
-        say(right),
-        say(answer),
+        *told_apart(say, right, answer, digits=6),
     )
+    return answer
+
+
+def say(state: State, digits: int) -> str:
+    return f"x = {state[0]:.{digits}g} px, v = {state[1]:.{digits}g} px/s"
 
 
 def formula(force: Polynomial) -> str:
     powers = zip(force, ("", "·x", "·x²", "·x³"), strict=True)
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
-
-
-def say(state: State) -> str:
-    return f"x = {state[0]:.8g} px, v = {state[1]:.8g} px/s"
 
 
 def swing(lab: Lab, method: Method, steps: int, seconds: float) -> State:
@@ -102,12 +129,12 @@ def want_figures(lab: Lab, method: Method) -> None:
     )
 
 
-@given(state=states, dt=long_steps, force=forces)
+@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
 def semi_implicit_euler_moves_with_the_new_velocity(
-    lab: Lab, state: State, dt: float, force: Polynomial
+    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
 ) -> None:
     """A step changes the velocity first, then moves with the new one"""
-    want_step(lab, SEMI_IMPLICIT_EULER, state, dt, force)
+    want_steps(lab, SEMI_IMPLICIT_EULER, start, dt, force, other, elsewhere)
 
 
 def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
@@ -116,12 +143,12 @@ def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
     want_figures(lab, SEMI_IMPLICIT_EULER)
 
 
-@given(state=states, dt=long_steps, force=forces)
+@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
 def velocity_verlet_uses_the_accelerations_at_both_ends(
-    lab: Lab, state: State, dt: float, force: Polynomial
+    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
 ) -> None:
     """A step uses the accelerations at both of its ends"""
-    want_step(lab, VELOCITY_VERLET, state, dt, force)
+    want_steps(lab, VELOCITY_VERLET, start, dt, force, other, elsewhere)
 
 
 def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
@@ -130,10 +157,12 @@ def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
     want_figures(lab, VELOCITY_VERLET)
 
 
-@given(state=states, dt=long_steps, force=forces)
-def rk4_weighs_four_samples(lab: Lab, state: State, dt: float, force: Polynomial) -> None:
+@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
+def rk4_weighs_four_samples(
+    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
+) -> None:
     """A step weighs four samples of velocity and acceleration"""
-    want_step(lab, RK4, state, dt, force)
+    want_steps(lab, RK4, start, dt, force, other, elsewhere)
 
 
 def rk4_keeps_the_spring_swinging(lab: Lab) -> None:

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import msgspec
 
@@ -115,14 +115,15 @@ class Lab(Decoder):
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
         request = Call(target, [plain(each) for each in args], named, twice=twice)
-        return self._framed(name, request, changes)
+        return self._framed(name, request, changes).value
 
     def tell(self, thing: Thing, method: str, *args: Any, changes: Frame | None = None) -> Value:
         """Call a method of an object that lives in the child; `changes` as in `call`."""
         request = Call(f"#{thing.ref}.{method}", [plain(each) for each in args])
-        return self._framed(method, request, changes)
+        return self._framed(method, request, changes).value
 
-    def _framed(self, name: str, request: Call, changes: Frame | None) -> Value:
+    def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
+        """The answer; what was overstepped is kept for the end of the check."""
         returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
@@ -138,7 +139,7 @@ class Lab(Decoder):
                 f"first {self.describe(returned.value)}, then {self.describe(returned.again)}",
                 f"{name} may go by nothing but what it is given.",
             )
-        return returned.value
+        return returned
 
     def _trespass(self, name: str, changes: Frame, beyond: list[Change]) -> NotYet | None:
         """What a function changed that is none of its business, or None."""
@@ -161,6 +162,20 @@ class Lab(Decoder):
         if change.ref == 0:
             return f"the constant {change.name}"
         return f"the {in_words(change.name)} of {self.names.get(change.ref, 'another object')}"
+
+    def advance(self, world: Thing, accumulator: float, seconds: float) -> "Advance":
+        """Call the program's `advance` for a frame of so many seconds; no step is run.
+
+        It may change nothing but what the steps do, and none of them does anything here.
+        """
+        request = Call(
+            f"{self.module}:advance", [plain(world), accumulator, seconds], stepping=True
+        )
+        returned = self._framed("advance", request, NOTHING)
+        answer = self.items(returned.value, "what advance returns")
+        self.want(len(answer) == 2, "(accumulator, steps)", self.describe(returned.value))
+        rest = self.number(answer[0], "the accumulator")
+        return Advance(rest, returned.steps, returned.dts)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
         """How many lines of the submission run in a method of an object, however it is written."""
@@ -253,12 +268,22 @@ class Lab(Decoder):
     # ------------------------------------------------------------ pymunk, forces, programs
 
     def integrate(
-        self, method: str, start: Pair, dt: float, force: Sequence[float], steps: int = 1
+        self,
+        method: str,
+        start: Pair,
+        dt: float,
+        force: Sequence[float],
+        steps: int = 1,
+        twice: bool = False,
     ) -> list[Pair]:
-        """The states (x, v) after each step of an integrator under `force`, a polynomial in x."""
+        """The states (x, v) after each step of an integrator under `force`, a polynomial in x.
+
+        `twice`: the same question must get the same answer, and nothing else may change.
+        """
         target = f"{self.module}:{method}"
-        request = Integrate(target, *start, dt, list(force), steps)
-        answers = self.items(self._value(request), f"what {method} returns")
+        request = Integrate(target, *start, dt, list(force), steps, twice)
+        value = self._framed(method, request, NOTHING if twice else None).value
+        answers = self.items(value, f"what {method} returns")
         states = [self.pair(each, f"what {method} returns") for each in answers]
         self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
         return states
@@ -278,13 +303,18 @@ class Lab(Decoder):
         A second run has a process of its own: main() may count on being run once.
         """
         if self.played:
-            self.connection.restart()
+            self.start_anew()
         self.played = True
         request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
         return reply
+
+    def start_anew(self) -> None:
+        """Ask a new process from now on: in this one a program has run."""
+        self.connection.restart()
+        self.played = False
 
     # ------------------------------------------------------------ the replies
 
@@ -303,6 +333,14 @@ class Lab(Decoder):
         except (Broke, NotYet) as failure:
             self.remember(failure)
             raise
+
+
+class Advance(NamedTuple):
+    """What `advance` made of a frame."""
+
+    rest: float  # s, the accumulator that it returned
+    steps: int  # that ran
+    sizes: list[float]  # s, the different step sizes
 
 
 class Run:

@@ -37,6 +37,7 @@ class Entry(Struct, frozen=True, forbid_unknown_fields=True):
     base: Base = "solution"
     points: int | None = None  # exactly; None: all of them
     transform: str = ""
+    single_file: bool = True  # whether a wrong member is wrong as a single file as well
     seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
 
 
@@ -143,7 +144,7 @@ def members(kit: Path) -> Iterator[Member]:
         entry = book.wrong.get(path.stem, Entry())
         member = Member("wrong", path.stem, "package", entry, path)
         yield member
-        if member.todos <= set("123456"):
+        if entry.single_file and member.todos <= set("123456"):
             yield Member("wrong", path.stem, "single file", Entry(), path)
     kinds: list[tuple[Kind, dict[str, Entry]]] = [("right", book.right), ("hostile", book.hostile)]
     for kind, entries in kinds:

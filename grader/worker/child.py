@@ -47,7 +47,7 @@ from grader.worker.film import Camera
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.output import Output
-from grader.worker.play import play, simulate
+from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import REFERENCE, ContractError, Subject
 
@@ -133,6 +133,11 @@ def answer(
             return Returned(subject.encode(subject.make_world(request)))
         case Simulate():
             return simulate(subject, camera, request)
+        case Integrate(twice=True):
+            frame = Frame(subject, (), [])
+            answers = subject.integrate(request)
+            again = subject.integrate(request)
+            return Returned(answers, changed=frame.changes(), again=again)
         case Integrate():
             return Returned(subject.integrate(request))
         case Play():
@@ -150,6 +155,9 @@ def call(subject: Subject, request: Call) -> Returned:
         ]
         own = [int(request.target[1:].partition(".")[0])] if request.target[0] == "#" else []
         frame = Frame(subject, [each.id for each in given] + own, args)
+        if request.stepping:
+            returned = call_stepping(subject, args[0], lambda: function(*args, **kwargs))
+            return msgspec.structs.replace(returned, changed=frame.changes())
         value = subject.encode(function(*args, **kwargs))
         again = subject.encode(function(*args, **kwargs)) if request.twice else None
         return Returned(value, changed=frame.changes(), again=again)

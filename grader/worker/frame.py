@@ -6,6 +6,7 @@ what may change is the judge's to say.
 
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -16,10 +17,19 @@ from grader.worker.subject import Subject
 LATEST = 12  # objects that are looked at beside those that a call is given
 CONSTANTS = (  # the lesson's
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
-    *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
+    *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS", "MAX_FRAME"),
     *("SLOW", "SLEEP_AFTER", "WAKING", "CELL"),
+    *("OMEGA", "X0", "DT", "SECONDS"),
 )
 FIELDS = {  # by what marks an object as one of the lesson's
+    "angular_velocity": (  # pymunk's
+        *("position", "velocity", "angle", "angular_velocity"),
+        *("mass", "moment", "force", "torque", "body_type"),
+    ),
+    "collision_slop": (
+        *("gravity", "damping", "iterations", "bodies", "shapes", "constraints"),
+        *("collision_slop", "collision_bias", "sleep_time_threshold"),
+    ),
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
         *("restitution", "friction", "shape.radius", "shape.half"),
@@ -40,6 +50,7 @@ class Frame:
         latest = range(max(1, len(subject.objects) - LATEST + 1), len(subject.objects) + 1)
         self.refs = sorted({*refs, *latest})
         self.arguments = arguments
+        self.modules = own_modules(str(subject.folder), len(sys.modules))  # those of before
         self.before = self.state()
 
     def state(self) -> dict[tuple[int, str], Numbers]:
@@ -51,7 +62,7 @@ class Frame:
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
-        for names in own_modules(str(self.subject.folder), len(sys.modules)):
+        for names in self.modules:
             for name in CONSTANTS:
                 if name in names:  # in each module that has it
                     found[0, name] = (*found.get((0, name), ()), names[name])
@@ -61,7 +72,7 @@ class Frame:
         """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
         after = self.state()
         return [
-            Change(ref, name.rpartition(":")[2])
+            Change(ref, name)
             for (ref, name), before in self.before.items()
             if not alike(before, after.get((ref, name), ()))
         ]
@@ -93,12 +104,10 @@ def plain(thing: Any, path: str) -> Numbers:
 def numbers_in(value: Any) -> Numbers:
     if value is None or isinstance(value, int | float):
         return (value,)
-    if isinstance(value, list):
-        return tuple(map(id, value))
-    try:
-        return tuple(map(float, value))
-    except TypeError:
-        return (id(value),)
+    for meaning in (float, id):  # a pair of numbers, a list or view of bodies
+        with suppress(TypeError, ValueError):
+            return tuple(map(meaning, value))
+    return (id(value),)
 
 
 def alike(before: Numbers, after: Numbers) -> bool:

@@ -3,6 +3,7 @@
 A run is the same on every machine: it is counted in frames and steps, and its clock is scripted.
 """
 
+import inspect
 import math
 import os
 import zlib
@@ -13,7 +14,16 @@ from typing import Any, Literal
 import pygame
 import pymunk
 
-from grader.protocol import RUNAWAY, ContactRow, Play, Played, Simulate, Simulated, SpaceBody
+from grader.protocol import (
+    RUNAWAY,
+    ContactRow,
+    Play,
+    Played,
+    Returned,
+    Simulate,
+    Simulated,
+    SpaceBody,
+)
 from grader.worker.film import Camera, lesson_state
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
@@ -37,33 +47,50 @@ class StepCounter:
     """
 
     def __init__(self, owner: type, physics: bool, trail_every: int):
-        self.physics, self.trail_every = physics, trail_every
-        self.in_frame = self.total = 0
+        self.trail_every = trail_every
+        self.in_frame = self.total = self.elsewhere = 0
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
         self.inside = False  # a derived class may call the step that it overrides
+        self.in_advance = False
         for function in steps_of(owner):
-            self.watch(function)
+            self.watch(function, physics or function is not plain_function(owner.step))  # type: ignore[attr-defined]
 
-    def watch(self, function: FunctionType) -> None:
+    def watch(self, function: FunctionType, runs: bool) -> None:
+        """Count the calls of a step; that of a derived class runs in any case: it may count too."""
+
         def step(world: Any, dt: float, *rest: Any, **more: Any) -> Any:
-            if self.inside:
-                return real(world, dt, *rest, **more)
-            return self.count(world, dt, lambda: real(world, dt, *rest, **more))
+            def run() -> Any:
+                return real(world, dt, *rest, **more) if runs else None
+
+            return run() if self.inside else self.count(world, dt, run)
 
         real = put_in_place(function, step)
+
+    def watch_advance(self, function: FunctionType) -> None:
+        """Know from now on which steps run inside of this function."""
+
+        def advance(*args: Any, **kwargs: Any) -> Any:
+            outside, self.in_advance = self.in_advance, True
+            try:
+                return real(*args, **kwargs)
+            finally:
+                self.in_advance = outside
+
+        real = put_in_place(function, advance)
 
     def count(self, world: Any, dt: float, run: Callable[[], Any]) -> Any:
         """Record one step of `dt` seconds; raises Runaway when a frame has had too many."""
         self.last = world
         self.in_frame += 1
         self.total += 1
+        self.elsewhere += not self.in_advance
         if len(self.dts) < MAX_STEP_SIZES and not any(math.isclose(dt, each) for each in self.dts):
             self.dts.append(float(dt))
         self.inside = True
         try:
-            result = run() if self.physics else None
+            result = run()
         finally:
             self.inside = False
         if self.trail_every and self.total % self.trail_every == 0:
@@ -83,6 +110,30 @@ def steps_of(owner: type) -> list[FunctionType]:
     return list(dict.fromkeys(each for each in found if each is not None))
 
 
+def advance_of(subject: Subject, module: str) -> FunctionType | None:
+    """A program's `advance`, if it takes what the lab sheet says and not, say, milliseconds."""
+    try:
+        function = plain_function(subject.find(f"{module}:advance"))
+    except ContractError:
+        return None
+    names = list(inspect.signature(function).parameters) if function else []
+    return function if names[1:3] == ["accumulator", "frame_seconds"] else None
+
+
+def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Returned:
+    """The answer of a call that steps a world, and the steps, which are counted and not run."""
+    kind = type(world)
+    if kind not in subject.counters:
+        subject.counters[kind] = StepCounter(kind, physics=False, trail_every=0)
+    counter: StepCounter = subject.counters[kind]
+    counter.in_frame, counter.dts = 0, []
+    try:
+        value = subject.encode(call())
+    except Runaway:
+        raise ContractError(f"{RUNAWAY} steps in one frame, and more to come") from None
+    return Returned(value, counter.in_frame, dts=counter.dts)
+
+
 def play(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
 ) -> Played:
@@ -96,6 +147,9 @@ def play(
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
+    advance = advance_of(subject, request.module)
+    if advance is not None:
+        counter.watch_advance(advance)
     steps: list[int] = []
     times: list[float] = []
 
@@ -134,6 +188,7 @@ def play(
         rods=rod_lengths(counter.last),
         trail=counter.trail,
         pictures=window.pictures,
+        paced=advance is not None and counter.elsewhere == 0 < counter.total,
     )
 
 

@@ -67,6 +67,7 @@ class Subject:
         self.folder = folder
         self.objects: dict[int, Any] = {}  # by reference number
         self.refs: dict[int, int] = {}  # reference numbers by id() of the object
+        self.counters: dict[type, Any] = {}  # of the steps of worlds that are not to be run
         # What the submission's functions take for a pair of numbers.
         self.pair_type: Callable[[float, float], Any] = pygame.Vector2
         sys.path.insert(0, str(folder))

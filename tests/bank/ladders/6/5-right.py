@@ -1,0 +1,10 @@
+"""All of it."""
+
+# TODO 6: run whole steps from the accumulator
+accumulator += min(frame_seconds, MAX_STEPS * STEP)
+steps = 0
+while accumulator >= STEP:
+    world.step(STEP)
+    accumulator -= STEP
+    steps += 1
+# END TODO 6
