@@ -236,6 +236,7 @@ class Event(Struct, frozen=True):
     frame: int
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
+    button: int = 1  # of the mouse: 1 is the left one, 4 a turn of the wheel
     key: str = ""
     held: str = ""  # a key that is held meanwhile, such as "left shift"
 
