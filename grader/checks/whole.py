@@ -1,12 +1,31 @@
-"""The whole: the student's own programs, as they are, from the first frame to the last."""
+"""The whole: the student's own programs, as they are, from the first frame to the last.
+
+Each check holds some of what the lab sheet and the lesson promise about the scene and the step, so
+that a promise broken costs a point or two, and the rest of the program keeps its points.
+"""
 
 import math
 import re
 from collections.abc import Sequence
+from typing import NamedTuple
 
+from grader.checks.lab_scene import (
+    BALLS,
+    BOB,
+    FIXED,
+    SEED,
+    STACK,
+    moving_parts,
+    pymunk_scene,
+    space_parts,
+    turning_as_a_disc,
+    want_parts,
+    world_parts,
+)
 from grader.checks.pacing import frames_at, want_a_proper_end
+from grader.judge.decode import Pair, Thing
 from grader.judge.lab import STEP, Lab, Moment
-from grader.protocol import BodyValue, Event, Played, SpaceBody
+from grader.protocol import BodyValue, Event, Played, Rng, SpaceBody
 
 WIDTH = 900.0  # px
 LEDGE_TOP, FLOOR_TOP = 250.0, 560.0  # px
@@ -15,13 +34,11 @@ BOB_RADIUS = 24.0  # px; the balls are smaller
 ROD = 140.0  # px
 MAX_BALLS = 40
 HOOK = (700.0, 90.0)  # px
-STATIC = {  # where the bodies stand that never move
-    *((450.0, 580.0), (-20.0, 300.0), (920.0, 300.0), (200.0, 260.0), HOOK),
-    *((375.0 + 60 * number, 400.0) for number in range(5)),
-}
 RESTING = 3.0  # px, for what lies on something
 LANDING = 9.0  # px: how deep a ball at 1000 px/s gets within one step
 WITHIN_A_ROUNDING = 0.0051  # px, of a number printed with two digits
+EXACT = 1e-6  # px and px/s: what a few steps of rounding may change
+TIPPED = 0.2  # rad
 
 
 def run(lab: Lab, seconds: float, rate: int = 20, every: int = 12) -> Played:
@@ -73,17 +90,244 @@ def movers(played: Played) -> list[Mover]:
 # ---------------------------------------------------------------- the mini engine
 
 
+def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
+    """The scene holds what the lesson says, and the program begins with it"""
+    lab.ran(f"make_world(random.Random({SEED}))")
+    want_parts(lab, world_parts(lab), [turning_as_a_disc(part) for part in [*FIXED, BOB]])
+    lab.ran("the program without running its steps, and what there is in its world")
+    frames = frames_at(60, 0.2)
+    played = lab.play(frames, physics=False)
+    want_a_proper_end(lab, played, len(frames))
+    want_the_first_scene(lab, played, "at the start")
+
+
+def want_the_first_scene(lab: Lab, played: Played, when: str) -> None:
+    """Insist that a program of the mini engine shows what make_world makes."""
+    expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab) if p.mass}
+    found = moving_parts(played)
+    lab.want(
+        {rounded(row) for row in expected} == {rounded(row) for row in found},
+        f"{when} the moving bodies of make_world(random.Random({SEED}))",
+        f"{len(found)} moving bodies, not all with the place, size and mass of those",
+    )
+
+
+def rounded(row: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(round(number, 6) for number in row)
+
+
+class Impact(NamedTuple):
+    """A disc meets a static one, and leaves it at the larger speed of bounce and push-out."""
+
+    restitution: Pair
+    closing: float  # px/s
+    depth: float  # px
+    leaves: float  # px/s
+
+
+IMPACTS = [  # the push-out is 24/s of the depth beyond half a pixel
+    Impact((0.9, 0.3), 200, 0.4, 60),
+    Impact((0.1, 0.3), 200, 0.4, 20),
+    Impact((0.5, 0.8), 20, 0.4, 0),  # slower than RESTING_SPEED
+    Impact((0.3, 0.3), 0, 0.4, 0),  # within SLOP
+    Impact((0.3, 0.3), 0, 5.0, 108),
+    Impact((0.3, 0.3), 200, 2.0, 60),  # the bounce is larger
+    Impact((0.3, 0.3), 40, 3.0, 60),  # the push-out is larger
+]
+
+
+def contacts_bounce_part_and_rub_as_the_lesson_says(lab: Lab) -> None:
+    """Contacts bounce, push out and rub by the lesson's rules"""
+    for impact in IMPACTS:
+        want_impact(lab, impact)
+    want_one_pass(lab)
+    want_a_total_that_is_clamped(lab)
+    lab.ran("circle_circle of two discs with one centre")
+    discs = lab.circle((3, 4), 10), lab.circle((3, 4), 6)
+    contact = lab.contact_or_none(lab.call("circle_circle", *discs))
+    lab.want(contact is not None, "a contact", "None")
+    if contact is not None:
+        normal = lab.pair(contact.normal, "the normal")
+        lab.want(
+            math.dist(normal, (0, 1)) < EXACT and abs(contact.depth - 16) < EXACT,
+            "the normal (0, 1) and a depth of 16 px",
+            f"({normal[0]:.6g}, {normal[1]:.6g}) and {contact.depth:.6g} px",
+        )
+
+
+def want_impact(lab: Lab, impact: Impact) -> None:
+    """One step with one contact, straight from above."""
+    first, second = impact.restitution
+    lab.ran(
+        f"a disc {impact.depth:g} px deep in a static one, closing at {impact.closing:g} px/s, "
+        f"restitution {first:g} on {second:g}, one step"
+    )
+    anchor = lab.circle((0, 0), 50, 0, restitution=second)
+    disc = lab.circle((0, impact.depth - 60), 10, 2, restitution=first, vel=(0, impact.closing))
+    done = lab.simulate(lab.world(anchor, disc), [disc], 1, contacts=True)
+    after, touching = done.body(0)[0], done.contacts[0]
+    lab.want(
+        abs(after.vy + impact.leaves) < EXACT,
+        f"it leaves at {impact.leaves:g} px/s",
+        f"it leaves at {-after.vy:.6g} px/s",
+        "The larger of bounce (the smaller restitution, above 30 px/s) and push-out counts.",
+    )
+    pushed = 2 * (impact.closing + impact.leaves)
+    lab.want(
+        len(touching) == 1 and abs(touching[0].jn - pushed) < EXACT,
+        f"one contact, with jn {pushed:g} kg px/s in the end",
+        f"jn {touching[0].jn:.6g}" if len(touching) == 1 else f"{len(touching)} contacts",
+    )
+
+
+def pressed_discs(lab: Lab, friction: Pair, vel: Pair, jn: float) -> tuple[Thing, Thing, Thing]:
+    """Two discs of 1 kg that touch, B above A, and their contact."""
+    a = lab.circle((0, 0), 10, friction=friction[0])
+    b = lab.circle((0, -20), 10, friction=friction[1], vel=vel)
+    made = lab.call("Contact", a, b, (0, -1), 0.0, (0, -10))
+    contact = lab.thing(made, "a Contact")
+    lab.put(contact, target=0.0, jn=jn)
+    lab.tell(lab.world(a, b), "solve_contact", contact, STEP)
+    return a, b, contact
+
+
+def want_one_pass(lab: Lab) -> None:
+    """The pressure first, then the friction that it limits; both turn both bodies."""
+    lab.ran(
+        "one pass over two discs of 1 kg, friction 0.9 on 0.4, sliding at 300 px/s and closing at "
+        "20 px/s"
+    )
+    a, b = map(lab.state, pressed_discs(lab, (0.9, 0.4), (300, 20), 0.0)[:2])
+    # jn = 20 / (1/1 + 1/1) = 10, and the friction is sqrt(0.9 * 0.4) of it: 6. Inertia 50.
+    expected = (6, 10, 1.2, 294, 10, 1.2)
+    lab.want(
+        math.dist(expected, (*a.vel, a.omega, *b.vel, b.omega)) < EXACT,
+        "A at (6, 10) px/s with spin 1.2, B at (294, 10) px/s with spin 1.2",
+        f"A at {say(a)}, B at {say(b)}",
+    )
+
+
+def say(body: BodyValue) -> str:
+    return f"({body.vel.x:.6g}, {body.vel.y:.6g}) px/s with spin {body.omega:.6g}"
+
+
+def want_a_total_that_is_clamped(lab: Lab) -> None:
+    """What an earlier pass gave too much is taken back."""
+    lab.ran("one pass over two discs of 1 kg that part at 5 px/s, with jn 3 from earlier passes")
+    a, b, contact = pressed_discs(lab, (0, 0), (0, -5), 3.0)
+    speeds = lab.state(a).vel.y, lab.state(b).vel.y
+    jn = lab.number(lab.get(contact, "jn"), "jn")
+    lab.want(
+        math.dist((-2.5, -2.5, 0.5), (*speeds, jn)) < EXACT,
+        "both at 2.5 px/s, and jn 0.5: the total is clamped, not the change",
+        f"{-speeds[0]:.6g} and {-speeds[1]:.6g} px/s, and jn {jn:.6g}",
+    )
+
+
+KEPT = 0.6065306597126334  # share of the speed after 0.1 s at 5 per second
+PASSES = 8
+LEAN = 0.9  # cosine of the angle from a rod to the normal of a contact
+
+
+def a_step_keeps_its_stages_and_its_passes(lab: Lab) -> None:
+    """A step has the lesson's stages in their order, and eight passes"""
+    lab.ran("a disc that falls from rest, damped at 5 per second, one step of 0.1 s")
+    disc = lab.circle((0, 0))
+    world = lab.world(disc, gravity=(0, 980), linear_damping=5.0)
+    want_state(lab, lab.simulate(world, [disc], 1, 0.1).body(0)[0], (0, 9.8 * KEPT, 0, 98 * KEPT))
+    lab.ran("a disc at 5000 px/s that meets nothing, one step")
+    disc = lab.circle((0, 0), vel=(3000, -4000))
+    after = lab.simulate(lab.world(disc), [disc], 1).body(0)[0]
+    want_state(lab, after, (3000 * STEP, -4000 * STEP, 3000, -4000))
+    want_fresh_contacts(lab)
+    want_eight_passes(lab)
+    lab.ran("a disc on a rod 10 px too long, at rest, one step of 1/60 s")
+    hook, disc = lab.circle((0, 0), mass=0), lab.circle((0, 100))
+    rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
+    lab.put(disc, pos=(0, 110))
+    world = lab.world(hook, disc, joints=[rod])
+    want_state(lab, lab.simulate(world, [disc], 1, 1 / 60).body(0)[0], (0, 108, 0, -120))
+    want_the_same_pile(lab)
+
+
+def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float]) -> None:
+    """Insist on a place (px) and a velocity (px/s)."""
+    lab.want(
+        math.dist(expected, (got.x, got.y, got.vx, got.vy)) < EXACT * max(map(abs, expected)),
+        "({:.6g}, {:.6g}) px, at ({:.6g}, {:.6g}) px/s".format(*expected),
+        f"({got.x:.6g}, {got.y:.6g}) px, at ({got.vx:.6g}, {got.vy:.6g}) px/s",
+    )
+
+
+def want_fresh_contacts(lab: Lab) -> None:
+    """Contacts are those of where the bodies are, not of where they were."""
+    lab.ran("a disc on a static one for a step; then it is put far away, and another step")
+    anchor, disc = lab.circle((0, 0), 50, 0), lab.circle((0, -59))
+    world = lab.world(anchor, disc)
+    counts = []
+    for place in ((0, -59), (0, -500)):
+        lab.put(disc, pos=place, vel=(0, 0))
+        counts.append(len(lab.simulate(world, [disc], 1, contacts=True).contacts[0]))
+    lab.want(counts == [1, 0], "1 contact, then none", f"{counts[0]}, then {counts[1]}")
+
+
+def want_eight_passes(lab: Lab) -> None:
+    """A disc that may move neither into a surface nor along its rod.
+
+    Solving the one spoils the other. Each time the speed shrinks by the cosine between the two, so
+    that it tells how many passes there were, and the rod is right as the last one solved.
+    """
+    lab.ran("a disc on a static one and on a slanting rod, pushed at 100 px/s, one step")
+    along = math.sqrt(1 - LEAN**2), -LEAN  # the rod, from its hook
+    anchor, place = lab.circle((0, 0), 50, 0, friction=0.0), (0.0, 1e-9 - 60)
+    disc = lab.circle(place, restitution=0.0, friction=0.0, vel=(100, 0))
+    hook = lab.circle((-100 * along[0], place[1] - 100 * along[1]), 6, 0, friction=0.0)
+    rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
+    after = lab.simulate(lab.world(anchor, hook, disc, joints=[rod]), [disc], 1).body(0)[0]
+    left = 100 * LEAN ** (2 * PASSES - 1)
+    slip = after.vx * along[0] + after.vy * along[1]
+    lab.want(
+        abs(slip) < EXACT and abs(after.speed - left) < EXACT,
+        f"no speed along the rod and {left:.4f} px/s across it, after 8 passes over contacts, then "
+        "joints",
+        f"{abs(slip):.4f} px/s along it, {after.speed:.4f} px/s in all",
+    )
+
+
+def want_the_same_pile(lab: Lab) -> None:
+    """Bit for bit: on one machine and build nothing may hang on chance."""
+    lab.ran("a pile of 9 discs between three large ones for a quarter of a second, twice")
+    runs = []
+    for _ in range(2):
+        ground = [lab.circle(pos, 400, 0) for pos in ((0, 400), (-430, 100), (430, 100))]
+        pile = [
+            lab.circle((19.5 * (number % 3) - 20, -12 - 19.5 * (number // 3)), 10, 1 + number / 9)
+            for number in range(9)
+        ]
+        world = lab.world(*ground, *pile, gravity=(0, 980))
+        runs.append(lab.simulate(world, pile, 30).frames)
+    lab.want(runs[0] == runs[1], "the same numbers, bit for bit", "other numbers")
+
+
 def the_rod_swings_and_keeps_its_length(lab: Lab) -> None:
     """The pendulum swings, and its length error on exit is below 1 px"""
-    played = run(lab, 1.6)
+    played = run(lab, 1.6, every=1)
     bobs = [body for body in movers(played) if body.radius == BOB_RADIUS]
     lab.want(bool(bobs and played.rods), "a bob of radius 24 px on a rod", "no such bob, or no rod")
     leftmost = min(moment.x for moment in bobs[0].trail)
     lab.want(
         leftmost < 600.0, "a bob that swings over to x = 560", f"its leftmost x is {leftmost:.0f}"
     )
+    last = bobs[0].trail[-1]
+    ends = [b.pos for b in played.bodies if isinstance(b, BodyValue) and b.radius == BOB_RADIUS]
+    lab.want(
+        (last.x, last.y) == (ends[0].x, ends[0].y),
+        "the bob where its last step left it",
+        f"moved by {math.dist((last.x, last.y), tuple(ends[0])):.2g} px after that",
+    )
     distance, length = played.rods[0]
     error = abs(distance - length)
+    want_line_with(lab, played, sum(played.steps), "the number of fixed steps that ran")
     lab.want(
         error < 1.0 and abs(length - ROD) < 1.0,
         f"a rod of {ROD:.0f} px, less than 1 px off",
@@ -97,9 +341,20 @@ def the_rod_swings_and_keeps_its_length(lab: Lab) -> None:
     )
 
 
+def want_line_with(lab: Lab, played: Played, number: int, what: str) -> None:
+    """Insist on a printed line with this number, in whatever words."""
+    lab.want(
+        any(re.search(rf"(?<![\d.]){number}(?![\d.]*\d)", line) for line in played.lines),
+        f"a line on exit with {what}, {number}",
+        "no such line",
+    )
+
+
 def balls_come_to_rest_on_the_ledge_and_roll_on_the_floor(lab: Lab) -> None:
-    """Balls come to rest on the ledge and roll on the floor"""
-    balls = [body for body in movers(run(lab, 5.0)) if body.radius != BOB_RADIUS]
+    """Balls come to rest on the ledge and roll on the floor, and nothing escapes"""
+    played = run(lab, 5.0)
+    want_all_inside(lab, played)
+    balls = [body for body in movers(played) if body.radius != BOB_RADIUS]
     lab.want(len(balls) >= 8, "8 balls", f"{len(balls)}")
     restless = max(abs(moment.vy) for ball in balls for moment in ball.trail[-5:])
     lab.want(
@@ -125,9 +380,8 @@ def balls_come_to_rest_on_the_ledge_and_roll_on_the_floor(lab: Lab) -> None:
             )
 
 
-def nothing_escapes_and_nothing_static_moves(lab: Lab) -> None:
-    """Nothing sinks or escapes, and static bodies stay where they are"""
-    played = run(lab, 1.6, every=6)
+def want_all_inside(lab: Lab, played: Played) -> None:
+    """Nothing sinks or escapes, and static bodies stay where they are."""
     for body in movers(played):
         for moment in body.trail:
             lab.want(
@@ -137,12 +391,13 @@ def nothing_escapes_and_nothing_static_moves(lab: Lab) -> None:
                 f"one of radius {body.radius:g} px at ({moment.x:.0f}, {moment.y:.0f})",
             )
     static = [body for body in played.bodies if isinstance(body, BodyValue) and not body.inv_mass]
-    places = {tuple(body.pos) for body in static}
+    places = {(body.pos.x, body.pos.y) for body in static}
+    began = {part.pos for part in world_parts(lab) if not part.mass}
     still = all((*body.vel, body.angle, body.omega) == (0, 0, 0, 0) for body in static)
     lab.want(
-        places >= STATIC and still,
-        "floor, walls, ledge, pegs and the pendulum's hook exactly where they were, at rest",
-        f"{len(STATIC - places)} of them moved" if still else "one that has speed or spin",
+        places == began and still,
+        "all that is static exactly where make_world puts it, at rest",
+        f"{len(began - places)} of them moved" if still else "one that has speed or spin",
     )
 
 
@@ -174,21 +429,20 @@ def first_difference(trails: list[list[list[float]]]) -> int | None:
     return None
 
 
+REPEATED = 75  # steps, fewer than before the click; by then balls have met
+
+
 def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
-    """A click drops a ball, never more than MAX_BALLS, and R starts anew"""
-    lab.ran("the program with 40 clicks at (450, 300), one in each frame, and R at the end")
+    """A click drops a ball, never more than MAX_BALLS, and R brings back the same scene"""
+    lab.ran("a turn of the wheel, 40 clicks at (450, 300), one in each frame, and R at the end")
+    wheel = [Event(3, "click", (300, 100), button=4), Event(4, "click", (300, 100), button=5)]
     clicks = [Event(frame, "click", (450, 300)) for frame in range(5, 45)]
     reset = Event(48, "key", key="r")
-    played = lab.play([17] * 52, [*clicks, reset], physics=False, trail_every=1)
+    played = lab.play([17] * 52, [*wheel, *clicks, reset], physics=False, trail_every=1)
     want_a_proper_end(lab, played, 52)
     rows = list(map(moments, played.trail))
     lab.want(bool(rows), "fixed steps", "none")
-    more = next((row for row in rows if len(row) > len(rows[0])), [])
-    lab.want(
-        any((each.x, each.y) == (450.0, 300.0) for each in more),
-        "a ball at (450, 300) after the first click",
-        "no ball there",
-    )
+    want_a_first_ball(lab, rows)
     most = max(map(len, rows))
     lab.want(most == MAX_BALLS, f"{MAX_BALLS} moving bodies in the end", f"{most}")
     lab.want(
@@ -196,13 +450,46 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
         f"after R the {len(rows[0])} moving bodies of the beginning",
         f"{len(rows[-1])} moving bodies, not all where they began",
     )
+    want_the_first_scene(lab, played, "after R")
+    lab.ran("the program for 0.7 s, a click, R, and 0.7 s more")
+    events = [Event(40, "click", (300, 200)), Event(42, "key", key="r")]
+    trail = lab.play([17] * 84, events, trail_every=1).trail
+    again = [number for number, row in enumerate(trail) if number and row == trail[0]]
+    lab.want(
+        bool(again) and trail[again[-1] :][:REPEATED] == trail[:REPEATED],
+        "after R the first run once more, bit for bit",
+        "other positions and speeds",
+    )
+
+
+def want_a_first_ball(lab: Lab, rows: list[list[Moment]]) -> None:
+    """Insist that the first click, and nothing before it, drops one ball where it is."""
+    more = next((row for row in rows if len(row) > len(rows[0])), [])
+    lab.want(
+        len(more) == len(rows[0]) + 1,
+        "one ball more after the first click",
+        f"{max(len(more) - len(rows[0]), 0)} more",
+    )
+    lab.want(
+        any((each.x, each.y) == (450.0, 300.0) for each in more),
+        "a ball at (450, 300) after the first click",
+        "no ball there",
+    )
 
 
 # ---------------------------------------------------------------- the pymunk scene
 
 
 def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
-    """In pymunk the stack stands, the rod holds and the balls roll to rest"""
+    """In pymunk it is the same scene: the stack stands, the rod holds, the balls roll to rest"""
+    lab.ran(f"make_space(random.Random({SEED}))")
+    space, _ = pymunk_scene(lab)
+    lab.want(
+        abs(space.damping - 0.95) < EXACT,
+        "damping 0.95, the share of the speed kept per second",
+        f"{space.damping:.6g}",
+    )
+    want_parts(lab, space_parts(space), [*FIXED, BOB, *STACK])
     bodies = [body for body in run(lab, 5.0).bodies if isinstance(body, SpaceBody)]
     moving = [body for body in bodies if body.kind == "dynamic" and body.shapes]
     bobs = [body for body in moving if body.shapes[0].radius == BOB_RADIUS]
@@ -237,8 +524,104 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
     )
     most = max(abs(ball.angle) for ball in balls)
     lab.want(most > 1.0, "balls that have rolled", f"none has turned by more than {most:.2f} rad")
-
-
-def frame_rates_do_not_change_the_pymunk_motion(lab: Lab) -> None:
-    """In pymunk the same motion at 30 and 144 frames a second"""
     want_the_same_motion(lab, (30, 144))
+
+
+def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
+    """In pymunk the stack's boxes are free, and the program says whether the stack stands"""
+    for level in (0, 3):
+        want_a_free_box(lab, level)
+    lab.ran("the pymunk program, with 8 balls dropped into the right edge of the top box")
+    clicks = [Event(40 + number, "click", (785, 430)) for number in range(8)]
+    knocked = lab.play(frames_at(20, 4.5), clicks)
+    want_a_proper_end(lab, knocked, 90)
+    tipped = max(abs(box.angle) for box in boxes_of(knocked))
+    lab.want(tipped >= TIPPED, "a box that tips over", f"none turned by more than {tipped:.2g} rad")
+    lab.ran("the same, and R afterwards")
+    reset = lab.play(frames_at(20, 4.5), [*clicks, Event(80, "key", key="r")])
+    want_a_proper_end(lab, reset, 90)
+    before, after = (
+        [line for line in played.lines if "stack" in line.lower()] for played in (knocked, reset)
+    )
+    lab.want(bool(before and after), "a line on exit about the stack", "no such line")
+    lab.want(
+        before != after,
+        "another line for the stack that fell than for the one that stands after R",
+        f"both times “{after[0]}”",
+    )
+    count = sum(isinstance(b, SpaceBody) and b.kind == "dynamic" for b in reset.bodies)
+    want_line_with(lab, reset, count, "the number of bodies")
+
+
+def boxes_of(played: Played) -> list[SpaceBody]:
+    bodies = [body for body in played.bodies if isinstance(body, SpaceBody)]
+    moving = [body for body in bodies if body.kind == "dynamic" and body.shapes]
+    return [body for body in moving if body.shapes[0].kind == "Poly"]
+
+
+def want_a_free_box(lab: Lab, level: int) -> None:
+    """A ball hits one box of the stack: that one moves, and leaves the lowest or the top one."""
+    lab.ran(f"make_space, and a ball at 3000 px/s against the box on level {level} of the stack")
+    space, stack = pymunk_scene(lab)
+    lab.want(len(stack) == 4, "a stack of 4 boxes", f"{len(stack)}")
+    thing = lab.thing(space)
+    ball = lab.thing(lab.call("add_ball", thing, Rng(1), (650, 542 - 36 * level)), "a ball")
+    lab.put(ball, velocity=(3000, 0))
+    last = lab.simulate(thing, stack, 60, every=60)
+    hit, other = last.body(level)[-1], last.body(3 - level)[-1]
+    lab.want(
+        hit.x - 760 > 50 and hit.x - other.x > 30,
+        "the box that was hit far to the right, and the rest of the stack left behind",
+        f"it moved by {hit.x - 760:.0f} px, and the other end of the stack by {other.x - 760:.0f}",
+    )
+
+
+def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
+    """In pymunk a click drops a ball, B a box, never too many, and R brings back the scene"""
+    lab.ran("the pymunk program: B four times, a click, B in 50 frames, R, and B once more")
+    keys = [Event(frame, "key", key="b") for frame in (*range(5, 9), *range(14, 64), 72)]
+    events = [*keys, Event(11, "click", (450, 300)), Event(68, "key", key="r")]
+    events += [Event(3, "click", (300, 100), button=4)]
+    played = lab.play([17] * 76, events, physics=False, trail_every=1)
+    want_a_proper_end(lab, played, 76)
+    rows = list(map(moments, played.trail))
+    lab.want(bool(rows), "fixed steps", "none")
+    begin = len(rows[0])
+    lab.want(begin == len(BALLS) + len(STACK) + 1, "13 moving bodies at first", f"{begin}")
+    first = set(rows[0])
+    boxes = [each for each in row_of(rows, begin + 4) if each not in first]
+    lab.want(
+        len(boxes) == 4 and all(420 <= box.x <= 700 for box in boxes),
+        "4 boxes from x = 420 to 700 after B four times",
+        ", ".join(f"one at x = {box.x:.0f}" for box in boxes) or "none, or not one at a time",
+    )
+    lab.want(
+        len({box.x for box in boxes}) > 1,
+        "boxes at a random x",
+        f"all of them at x = {boxes[0].x:.0f}",
+    )
+    lab.want(
+        any((each.x, each.y) == (450.0, 300.0) for each in row_of(rows, begin + 5)),
+        "a ball at (450, 300) after the click",
+        "no ball there",
+    )
+    most = max(map(len, rows))
+    lab.want(most == MAX_BALLS, f"{MAX_BALLS} moving bodies in the end", f"{most}")
+    lab.want(
+        len(rows[-1]) == begin + 1 and first <= set(rows[-1]),
+        f"after R the {begin} moving bodies of the beginning, and 1 box from the B after that",
+        f"{len(rows[-1])} moving bodies, not all where they began",
+    )
+    lab.ran(f"R in the pymunk program, and make_space(random.Random({SEED}))")
+    expected = {(*p.pos, p.mass) for p in space_parts(pymunk_scene(lab)[0]) if p.mass}
+    found = {(*b.pos, b.mass) for b in played.bodies if isinstance(b, SpaceBody) and b.mass}
+    lab.want(
+        {rounded(row) for row in expected} <= {rounded(row) for row in found},
+        "after R the balls of make_space, each with its mass",
+        "balls of other masses",
+    )
+
+
+def row_of(rows: list[list[Moment]], count: int) -> list[Moment]:
+    """The bodies when there were first so many."""
+    return next((row for row in rows if len(row) == count), [])
