@@ -92,9 +92,9 @@ def want_part(lab: Lab, found: list[Part], part: Part) -> None:
         *(("half size", a, b) for a, b in zip(part.shape, here[0].shape, strict=True)),
     ]
     for name, wanted, got in pairs:
-        if wanted is not None and (got is None or not math.isclose(wanted, got, rel_tol=1e-9)):
+        if wanted is not None and (got is None or not math.isclose(wanted, got, rel_tol=1e-6)):
             lab.fail(
-                f"{part.named}, its {name} {wanted:g}",
+                f"{part.named}, its {name} {wanted:.9g}",
                 f"its {name} is {'infinite' if got is None else f'{got:.9g}'}",
             )
 
