@@ -9,7 +9,6 @@ import re
 from collections.abc import Sequence
 
 from grader.checks.lab_scene import (
-    BALLS,
     BOB,
     FIXED,
     SEED,
@@ -424,7 +423,6 @@ def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
     rows = list(map(moments, played.trail))
     lab.want(bool(rows), "fixed steps", "none")
     begin = len(rows[0])
-    lab.want(begin == len(BALLS) + len(STACK) + 1, "13 moving bodies at first", f"{begin}")
     first = set(rows[0])
     boxes = [each for each in row_of(rows, begin + 4) if each not in first]
     lab.want(
