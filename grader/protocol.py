@@ -238,6 +238,7 @@ class Event(Struct, frozen=True):
     frame: int
     kind: Literal["click", "key"]
     pos: tuple[int, int] = (0, 0)
+    button: int = 1  # of the mouse: 1 is the left one, 4 a turn of the wheel
     key: str = ""
     held: str = ""  # keys that are held meanwhile, such as "left shift" or "left shift+left ctrl"
 

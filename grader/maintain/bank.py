@@ -3,6 +3,11 @@
 - `tests/bank/wrong/4-clamps-the-increment.py`: the solution with this one region put in; TODO 4
   must lose points and no other TODO may. Graded as a package and as a single file. The name is the
   mistake's; `+` and more follow where the same one is made in another way.
+- `tests/bank/wrong/whole-one-pass.toml`: the solution with some of its given text replaced, so that
+  a promise of the lesson's is broken. The program as a whole must lose points, and no TODO may, but
+  for those whose checks need that very text.
+- `tests/bank/ladders/6/2-keeps-the-rest.py`: a rung of a ladder, graded on its TODO alone. Rung 0
+  earns nothing, the last one all, and none less than the one before. See ladders.py.
 - `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
 - `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
 - `tests/bank/old_package/`: the package as it was handed out before its bonus tasks had a folder.
@@ -25,9 +30,13 @@ from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
 from grader.todo_regions import python_files, read_source, regions_in, replaced
 
-Kind = Literal["wrong", "right", "hostile"]
+Kind = Literal["wrong", "right", "hostile", "ladder"]
 Form = Literal["package", "single file"]
 Base = Literal["solution", "starter", "old package", "empty"]
+
+
+CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
+MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
 
 
 class Entry(Struct, frozen=True, forbid_unknown_fields=True):
@@ -47,6 +56,25 @@ class Book(Struct, frozen=True, forbid_unknown_fields=True):
     hostile: dict[str, Entry] = {}
 
 
+class Replacement(Struct, frozen=True, forbid_unknown_fields=True):
+    file: str
+    old: str  # stands there once
+    new: str
+
+
+class Breach(Struct, frozen=True, forbid_unknown_fields=True):
+    """What the file of a wrong member holds that breaks a promise of the lesson's."""
+
+    breaks: str  # the promise
+    replace: list[Replacement]
+    also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
+
+    @property
+    def modules(self) -> set[str]:
+        """The programs it is made in."""
+        return {each.file.partition("/")[0].removesuffix(".py") for each in self.replace}
+
+
 @dataclass(frozen=True)
 class Member:
     """One submission of the bank in one form."""
@@ -55,12 +83,25 @@ class Member:
     name: str
     form: Form
     entry: Entry
-    source: Path | None  # a patch, a folder to lay over the base, or nothing but a transform
+    source: Path | None  # a patch, a breach, a folder to lay over, or nothing but a transform
+
+    @property
+    def is_patch(self) -> bool:
+        """Whether it replaces the regions of TODOs and nothing else."""
+        return self.source is not None and self.source.suffix == ".py"
+
+    @property
+    def breach(self) -> Breach | None:
+        if self.source is None or self.source.suffix != ".toml":
+            return None
+        return msgspec.toml.decode(self.source.read_bytes(), type=Breach)
 
     @property
     def todos(self) -> frozenset[str]:
-        """The TODOs whose regions a patch replaces."""
-        if self.source is None or self.source.suffix != ".py":
+        """What it is about: the TODOs whose regions a patch replaces, or the program as a whole."""
+        if self.breach is not None:
+            return frozenset({"whole"})
+        if self.source is None or not self.is_patch:
             return frozenset()
         return frozenset(region.id for region in regions_in(read_source(self.source)))
 
@@ -77,9 +118,14 @@ class Member:
         the solution's, letter by letter. The whole may suffer from a wrong member or not, so it is
         left out; from a bonus task it must not suffer.
         """
+        if self.kind == "ladder":
+            return self.todos
         if self.kind == "hostile" or not self.todos:
             return frozenset()
         todos = [todo for todo in load_rubric().todos if todo.function]
+        if self.breach is not None:
+            near = {t.id for t in todos if t.module in self.breach.modules and not t.bonus}
+            return frozenset(near | {"whole"})
         touched = {todo.module for todo in todos if todo.id in self.todos}
         wanted = {
             todo.id
@@ -102,8 +148,13 @@ class Member:
             use_old_package(kit, folder)
         if self.form == "single file":
             use_single_file(kit, folder)
-        if self.source is not None and self.source.is_dir():
+        if self.kind == "ladder" and self.source is not None and self.source.is_dir():
+            for rung in constants(self.source):
+                patch(rung, folder)
+        elif self.source is not None and self.source.is_dir():
             lay_over(self.source, folder)
+        elif self.breach is not None:
+            replace_text(self.breach, folder)
         elif self.source is not None:
             patch(self.source, folder)
         if self.entry.transform:
@@ -112,9 +163,13 @@ class Member:
     def complaint(self, result: Result, seconds: float) -> str:
         """What is wrong with the marks this member got; empty when they are what they must be."""
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
+        if self.kind == "ladder":  # a rung is held against the others of its ladder
+            many = not self.is_patch and result.points > MOST_FOR_CONSTANTS
+            return f"{result.points} points, more than {MOST_FOR_CONSTANTS}" if many else ""
         if self.kind == "wrong":
+            allowed = self.todos.union(self.breach.also if self.breach else ())
             unharmed = sorted(self.todos - set(lost))
-            others = sorted(set(lost) - self.todos)
+            others = sorted(set(lost) - allowed)
             if unharmed:
                 return f"TODO {', '.join(unharmed)} loses nothing"
             return f"TODO {', '.join(others)} must not lose anything" if others else ""
@@ -146,12 +201,28 @@ def members(kit: Path) -> Iterator[Member]:
         yield member
         if entry.single_file and member.todos <= set("123456"):
             yield Member("wrong", path.stem, "single file", Entry(), path)
+    for path in sorted((bank / "wrong").glob("whole-*.toml")):
+        yield Member("wrong", path.stem, "package", Entry(), path)
     kinds: list[tuple[Kind, dict[str, Entry]]] = [("right", book.right), ("hostile", book.hostile)]
     for kind, entries in kinds:
         files = {path.stem: path for path in sorted((bank / kind).glob("*"))}
         for name in sorted(files | entries):
             yield Member(kind, name, "package", entries.get(name, Entry()), files.get(name))
     yield Member("right", "single-file", "single file", Entry(), None)
+    yield from rungs(bank / "ladders")
+
+
+def rungs(folder: Path) -> Iterator[Member]:
+    """Each rung of each ladder, lowest first, and all of their constants in one submission."""
+    for path in sorted(folder.glob("*/*.py")):
+        yield Member("ladder", f"{path.parent.name}-{path.stem}", "package", Entry(), path)
+    if any(constants(folder)):
+        yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), folder)
+
+
+def constants(ladders: Path) -> Iterator[Path]:
+    """The rungs that answer the same to every question."""
+    yield from sorted(ladders.glob("*/*-constant*.py"))
 
 
 def use_single_file(kit: Path, folder: Path) -> None:
@@ -172,6 +243,18 @@ def lay_over(source: Path, folder: Path) -> None:
     if (source / "mini_engine.py").exists():
         shutil.rmtree(folder / "mini_engine", ignore_errors=True)
     shutil.copytree(source, folder, dirs_exist_ok=True)
+
+
+def replace_text(breach: Breach, folder: Path) -> None:
+    """Break a promise in the files of `folder`; ValueError where the old text is not there once."""
+    for each in breach.replace:
+        path = folder / each.file
+        text = read_source(path)
+        if text.count(each.old) != 1:
+            raise ValueError(
+                f"{each.file} holds {each.old!r} {text.count(each.old)} times, not once"
+            )
+        path.write_text(text.replace(each.old, each.new), encoding="utf-8")
 
 
 def patch(source: Path, folder: Path) -> None:

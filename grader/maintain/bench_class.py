@@ -42,7 +42,7 @@ class Measured:
 
 def make_class(folder: Path, numbers: range) -> None:
     """As many students as wanted: wrong and right members of the bank in turns."""
-    chosen = [each for each in members(KIT) if each.kind != "hostile"]
+    chosen = [each for each in members(KIT) if each.kind in ("wrong", "right")]
     wanted = islice(cycle(chosen), numbers.start, numbers.stop)
     for number, member in zip(numbers, wanted, strict=True):
         member.build(KIT, folder / f"{number:04}-{member.name}")

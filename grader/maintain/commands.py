@@ -36,7 +36,7 @@ def verify_command(
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
 ) -> None:
-    """Grade the bank of wrong, right and hostile submissions: the grader is graded.
+    """Grade the bank of wrong, right and hostile submissions and ladders: the grader is graded.
 
     What build/verify holds of an earlier run is not graded again, unless something changed.
     """

@@ -59,7 +59,7 @@ def release(out: Path, jobs: int, console: Console, fresh: bool = False) -> list
 def wrong_submissions(folder: Path) -> Iterator[Tree]:
     """The bank's wrong members, each written when it is its turn."""
     for member in members(KIT):
-        if member.kind == "wrong" and member.form == "package":
+        if member.kind == "wrong" and member.form == "package" and member.is_patch:
             member.build(KIT, folder / member.name)
             yield folder / member.name, member.todos
 

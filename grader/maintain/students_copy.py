@@ -26,7 +26,12 @@ from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.maintain.cut import asked_of, pruned, with_bodies
 
 NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
-HELPERS = ("pacing", "strategies", "exact")  # of the checks; each uses only those after it
+HELPERS = (
+    "lab_scene",
+    "pacing",
+    "strategies",
+    "exact",
+)  # of the checks; each uses only those after it
 Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all
 
 

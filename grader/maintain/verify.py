@@ -26,6 +26,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Entry, Member, members
 from grader.maintain.kept import Kept
+from grader.maintain.ladders import Ladder, ladders
 from grader.maintain.sync import sync
 from grader.maintain.traces import watched
 
@@ -49,8 +50,13 @@ class Report:
     complaints: list[str] = field(default_factory=list)  # about the kit itself
 
     @property
+    def ladders(self) -> list[Ladder]:
+        return ladders((each.member, each.result) for each in self.verdicts)
+
+    @property
     def sound(self) -> bool:
-        return not self.complaints and not any(each.complaint for each in self.verdicts)
+        of_members = [each.complaint for each in self.verdicts]
+        return not any([*self.complaints, *of_members, *(each.complaint for each in self.ladders)])
 
 
 def verify(jobs: int, only: str, console: Console, fresh: bool = False) -> Report:
@@ -162,7 +168,12 @@ def shared_worker() -> Worker:
 def show(report: Report, console: Console) -> None:
     table = Table("member", "form", "points", "lost in", "named", "s", "verdict")
     for each in report.verdicts:
-        table.add_row(*row(each))
+        if not is_rung(each) or each.complaint:
+            table.add_row(*row(each))
+    for ladder in report.ladders:
+        points = " ".join(map(str, ladder.points.values()))
+        verdict = ladder.complaint or "as it must"
+        table.add_row(f"ladder/{ladder.name}", "package", points, "", "", "", verdict)
     console.print(table)
     for line in summary(report.verdicts):
         console.print(line)
@@ -170,10 +181,21 @@ def show(report: Report, console: Console) -> None:
         console.print(f"the kit: {complaint}")
 
 
+def is_rung(verdict: Verdict) -> bool:
+    return verdict.member.kind == "ladder" and verdict.member.is_patch
+
+
 def summary(verdicts: list[Verdict]) -> Iterator[str]:
-    """How many of each kind there were, how many are as they must, and what was not graded now."""
-    all_of = Count(each.member.kind for each in verdicts)
-    bad = Count(each.member.kind for each in verdicts if each.complaint)
+    """How many of each kind there were, how many are as they must, and what was not graded now.
+
+    A ladder counts as one, whatever the number of its rungs.
+    """
+    single = [(each.member.kind, each.complaint) for each in verdicts if not is_rung(each)]
+    rungs = [each for each in verdicts if is_rung(each)]
+    single += [("ladder", each.complaint) for each in rungs if each.result is None]
+    single += [("ladder", each.complaint) for each in ladders((r.member, r.result) for r in rungs)]
+    all_of = Count(kind for kind, _ in single)
+    bad = Count(kind for kind, complaint in single if complaint)
     for kind, count in all_of.items():
         yield f"{kind}: {count}, of which {bad[kind]} with a complaint"
     named = Count(

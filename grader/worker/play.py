@@ -131,7 +131,7 @@ def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Retu
         value = subject.encode(call())
     except Runaway:
         raise ContractError(f"{RUNAWAY} steps in one frame, and more to come") from None
-    return Returned(value, counter.in_frame, dts=counter.dts)
+    return Returned(value, steps=counter.in_frame, dts=counter.dts)
 
 
 def play(

@@ -190,7 +190,7 @@ class ScriptedClock:
             if event.kind == "click":
                 pygame.mouse.set_pos(event.pos)
                 for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
-                    pygame.event.post(pygame.event.Event(kind, pos=event.pos, button=1))
+                    pygame.event.post(pygame.event.Event(kind, pos=event.pos, button=event.button))
             else:
                 for kind in (pygame.KEYDOWN, pygame.KEYUP):
                     self._post_key(kind, event.key, event.key)

@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 from hashlib import sha256
+from pathlib import Path
 
 import pytest
 from msgspec.structs import replace as replace_in
@@ -10,11 +11,14 @@ from msgspec.structs import replace as replace_in
 from grader.judge.grade import KIT
 from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
-from grader.maintain.bank import Member, members
+from grader.maintain.bank import CONSTANTS, Breach, Member, Replacement, members, replace_text
+from grader.maintain.ladders import ladders
 from grader.maintain.verify import grade_member, kit_complaints
 from grader.todo_regions import python_files, read_source, regions_in
 
-MEMBERS = [*members(KIT)]
+EVERY = [*members(KIT)]
+MEMBERS = [member for member in EVERY if member.kind != "ladder"]
+RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
 MOST = {"wrong": 2, "right": 6, "hostile": 6}  # of a group of this kind
 MOST_OF_ANOTHER = 8
 SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
@@ -74,6 +78,41 @@ def test_a_member_gets_the_marks_it_must(member: Member):
     assert not grade_member(*briefly(patient)).complaint
 
 
+def test_the_rungs_of_a_ladder_rise_to_all_points():
+    """One ladder in full; `make verify` climbs them all."""
+    drawn = min(RUNGS, key=draw).todos
+    verdicts = [grade_member(rung) for rung in RUNGS if rung.todos == drawn]
+    (ladder,) = ladders((each.member, each.result) for each in verdicts)
+    assert not ladder.complaint and len(set(ladder.points.values())) > 2
+
+
+def test_constants_in_the_place_of_every_todo_earn_next_to_nothing():
+    (constants,) = [each for each in EVERY if each.name == CONSTANTS]
+    assert not grade_member(constants).complaint
+
+
+def test_a_breach_replaces_what_stands_there_once(tmp_path: Path):
+    (tmp_path / "a.py").write_text("ITERATIONS = 8\nMAX_STEPS = 8\n", encoding="utf-8")
+    replace_text(Breach("eight", [Replacement("a.py", "IONS = 8", "IONS = 1")]), tmp_path)
+    assert (tmp_path / "a.py").read_text(encoding="utf-8") == "ITERATIONS = 1\nMAX_STEPS = 8\n"
+    for old in ("S = ", "nowhere"):
+        with pytest.raises(ValueError, match="times, not once"):
+            replace_text(Breach("eight", [Replacement("a.py", old, "")]), tmp_path)
+
+
+def test_every_breach_can_be_made_and_breaks_what_is_given(tmp_path: Path):
+    """Outside the TODO regions: a TODO's own mistakes are patches."""
+    breaches = [member for member in MEMBERS if member.breach is not None]
+    assert len(breaches) >= 25
+    for member in breaches:
+        member.build(KIT, tmp_path / member.name)
+        for path in python_files(tmp_path / member.name):
+            original = KIT / "solution" / path.relative_to(tmp_path / member.name)
+            texts = [read_source(each) for each in (path, original)]
+            ours, theirs = ([r.lines for r in regions_in(text)] for text in texts)
+            assert ours == theirs, member.name
+
+
 def test_a_new_member_changes_little_of_what_is_drawn():
     before = set(chosen(MEMBERS))
     more = [replace(member, name=f"{member.name}-again") for member in MEMBERS]
@@ -120,7 +159,7 @@ def test_the_bank_is_as_large_as_it_must_be():
 
 def test_every_todo_has_wrong_submissions():
     spoiled = {todo for member in MEMBERS if member.kind == "wrong" for todo in member.todos}
-    assert spoiled == {todo.id for todo in load_rubric().todos if todo.function}
+    assert spoiled == {todo.id for todo in load_rubric().todos}
 
 
 def test_trees_and_rubric_have_nothing_to_complain_of():

@@ -37,6 +37,25 @@ def main():
     print("end", *seen(), down)
 """
 
+BUTTONS = """
+import pygame
+
+class World:
+    def step(self, dt): pass
+
+def main():
+    pygame.init()
+    pygame.display.set_mode((50, 50))
+    clock, running = pygame.time.Clock(), True
+    words = {pygame.MOUSEBUTTONDOWN: "down", pygame.MOUSEBUTTONUP: "up"}
+    while running:
+        clock.tick(60)
+        for event in pygame.event.get():
+            running = running and event.type != pygame.QUIT
+            if event.type in words:
+                print(words[event.type], event.button, event.pos)
+"""
+
 LINES = """
 from textwrap import dedent
 
@@ -91,6 +110,13 @@ def test_a_held_key_is_down_for_the_events_of_its_frame_and_no_longer(lab: Lab):
         "click (False, False) False False",
         "end (False, False) False set()",
     ]
+
+
+@pytest.mark.parametrize("lab", [BUTTONS], indirect=True)
+def test_a_click_is_of_the_button_it_says(lab: Lab):
+    events = [Event(2, "click", (5, 5)), Event(3, "click", (6, 7), button=4)]
+    played = lab.play([17] * 5, events, physics=False)
+    assert played.lines == ["down 1 (5, 5)", "up 1 (5, 5)", "down 4 (6, 7)", "up 4 (6, 7)"]
 
 
 @pytest.mark.parametrize("lab", [LINES], indirect=True)

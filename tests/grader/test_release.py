@@ -33,7 +33,7 @@ from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, vi
 from grader.maintain.sync import students_files
 from grader.maintain.verify import Report, shared_worker
 
-WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package"]
+WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" and m.is_patch]
 REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
 LESSON = [member for member in WRONG if not member.bonus]
 SAMPLE = list({REGIONS[min(member.todos)]: member for member in LESSON}.values())  # one a file

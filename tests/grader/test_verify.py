@@ -19,7 +19,7 @@ from grader.judge.result import Result, TodoResult
 from grader.maintain import kept, traces, verify
 from grader.maintain.bank import Entry, Member, members
 from grader.maintain.kept import Kept, key_of
-from grader.maintain.verify import Verdict, complaint_of, grade_member, summary, verdicts
+from grader.maintain.verify import Report, Verdict, complaint_of, grade_member, summary, verdicts
 
 RIGHT = Result(1, "ann", 100, 100, 16, [], [])
 BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "c", "d")]
@@ -196,6 +196,37 @@ def test_a_wrong_name_for_a_mistake_is_a_complaint():
     assert complaint_of(member, result, 1.0) == ""
     other = replace(member, name="5-rates-are-swapped")
     assert complaint_of(other, result, 1.0) == "its mistake is named spin-is-not-damped"
+
+
+def rung(path: Path, points: int) -> Verdict:
+    member = Member("ladder", f"5-{path.stem}", "package", Entry(), path)
+    todo = TodoResult("5", "Damping", "not yet", points, 8, None, [])
+    return Verdict(member, replace_in(RIGHT, points=points, todos=[todo]), 1.0, "")
+
+
+@pytest.mark.parametrize(
+    ("points", "complaint"),
+    [
+        ((0, 0, 5, 8), ""),
+        ((0, 5, 4, 8), "2-c earns less than 1-b"),
+        ((1, 2, 3, 8), "0-a earns 1 points for nothing"),
+        ((0, 2, 3, 7), "3-d earns 7 of 8 points"),
+    ],
+)
+def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complaint: str):
+    paths = [tmp_path / "5" / f"{name}.py" for name in ("0-a", "1-b", "2-c", "3-d")]
+    paths[0].parent.mkdir()
+    for path in paths:
+        path.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
+    report = Report([rung(*each) for each in zip(paths, points, strict=True)])
+    (ladder,) = report.ladders
+    assert ladder.complaint == complaint
+    assert report.sound == (not complaint)
+    assert (
+        next(summary(report.verdicts))
+        == f"ladder: 1, of which {int(not report.sound)} with a complaint"
+    )
+    assert not Report(report.verdicts[1:2]).ladders[0].complaint  # as `--only` may have it
 
 
 # ---------------------------------------------------------------- traces

@@ -1,0 +1,160 @@
+"""The lab scene as the lesson describes it, part by part, for the mini engine and for pymunk.
+
+The lesson draws each ball's colour after its radius and says no more of colours. So of the radii
+that come from random.Random(12) only the first is known.
+"""
+
+import math
+import random
+from typing import NamedTuple
+
+from grader.judge.decode import Pair
+from grader.judge.lab import Lab, Thing
+from grader.protocol import BodyValue, Played, Rng, SpaceBody, SpaceValue
+
+SEED = 12
+RADII = range(10, 23)  # px
+FIRST_RADIUS = random.Random(SEED).randint(10, 22)  # px
+
+
+class Part(NamedTuple):
+    """A body of the scene."""
+
+    pos: Pair
+    shape: tuple[float, ...]  # half extents of a box, or the radius of a disc; px
+    mass: float = 0.0  # kg, 0 = static
+    restitution: float = 0.3
+    friction: float = 0.6
+    moment: float | None = None  # kg px²; None where that is a TODO's business, or static
+
+    @property
+    def named(self) -> str:
+        x, y = self.pos
+        size = " x ".join(f"{2 * half:g}" for half in self.shape)
+        what = f"disc {size} px wide" if len(self.shape) == 1 else f"box of {size} px"
+        return f"a {'moving' if self.mass else 'static'} {what} at ({x:g}, {y:g})"
+
+
+FIXED = [
+    Part((450, 580), (450, 20)),  # the floor
+    Part((-20, 300), (20, 300)),
+    Part((920, 300), (20, 300)),
+    Part((200, 260), (150, 10)),  # the ledge
+    *(Part((375 + 60 * number, 400), (8,)) for number in range(5)),  # pegs
+    Part((700, 90), (6,)),  # the pendulum's hook
+]
+BOB = Part((840, 90), (24,), 6, 0.2)
+STACK = [
+    Part((760, 542 - 36 * level), (25, 18), 1.8, 0.1, 0.7, 1.8 * (50**2 + 36**2) / 12)
+    for level in range(4)
+]
+BALLS = [(120.0 + 70 * number, 60.0 + 40 * (number % 3)) for number in range(8)]
+
+
+def ball(pos: Pair, radius: float) -> Part:
+    return Part(pos, (radius,), radius**2 / 100, 0.4)
+
+
+def turning_as_a_disc(part: Part) -> Part:
+    """With the moment of a full disc, where the engine and not the student gives it."""
+    return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
+
+
+def want_parts(lab: Lab, found: list[Part], expected: list[Part]) -> None:
+    """Insist on these parts, on eight balls, and on nothing else."""
+    for part in expected:
+        want_part(lab, found, part)
+    own_moments = any(part.moment for part in expected if len(part.shape) == 1)
+    for number, pos in enumerate(BALLS):
+        radius = next((p.shape[0] for p in found if len(p.shape) == 1 and close(p.pos, pos)), 0.0)
+        allowed = [FIRST_RADIUS] if number == 0 else RADII
+        lab.want(
+            radius in allowed,
+            f"a ball at ({pos[0]:g}, {pos[1]:g}) with a radius "
+            + (
+                f"of {FIRST_RADIUS} px, the first number drawn" if number == 0 else "of 10 to 22 px"
+            ),
+            f"a radius of {radius:g} px" if radius else "no ball there",
+            f"random.Random({SEED}) draws the balls, each radius before its colour.",
+        )
+        like = ball(pos, radius)
+        want_part(lab, found, turning_as_a_disc(like) if own_moments else like)
+    count = len(expected) + len(BALLS)
+    lab.want(len(found) == count, f"{count} bodies and static shapes", f"{len(found)}")
+
+
+def want_part(lab: Lab, found: list[Part], part: Part) -> None:
+    """Insist on one part, and say in which number the one in its place differs."""
+    here = [p for p in found if close(p.pos, part.pos) and len(p.shape) == len(part.shape)]
+    lab.want(bool(here), part.named, "nothing there")
+    pairs = [
+        *((name, getattr(part, name), getattr(here[0], name)) for name in NUMBERS),
+        *(("half size", a, b) for a, b in zip(part.shape, here[0].shape, strict=True)),
+    ]
+    for name, wanted, got in pairs:
+        if wanted is not None and (got is None or not math.isclose(wanted, got, rel_tol=1e-6)):
+            lab.fail(
+                f"{part.named}, its {name} {wanted:.9g}",
+                f"its {name} is {'infinite' if got is None else f'{got:.9g}'}",
+            )
+
+
+NUMBERS = ("mass", "restitution", "friction", "moment")
+
+
+def close(first: Pair, second: Pair) -> bool:
+    return math.dist(first, second) <= 1e-6
+
+
+# ---------------------------------------------------------------- what the submission has
+
+
+def world_parts(lab: Lab) -> list[Part]:
+    """The bodies that make_world(random.Random(12)) puts into the mini engine's world."""
+    world = lab.thing(lab.call("make_world", Rng(SEED)), "a World")
+    bodies = lab.items(lab.get(world, "bodies"), "the bodies of the scene")
+    return [body_part(lab, lab.body(each)) for each in bodies]
+
+
+def body_part(lab: Lab, body: BodyValue) -> Part:
+    thing = Thing(body.ref)
+    shape = (body.radius,) if body.radius else lab.pair(lab.get(thing, "shape.half"), "half")
+    still = (*body.vel, body.angle, body.omega) == (0, 0, 0, 0)
+    lab.want(still, "a scene in which nothing moves yet", "a body with speed or spin")
+    return Part(
+        (body.pos.x, body.pos.y),
+        shape,
+        1 / body.inv_mass if body.inv_mass else 0.0,
+        lab.number(lab.get(thing, "restitution"), "the restitution"),
+        lab.number(lab.get(thing, "friction"), "the friction"),
+        1 / body.inv_inertia if body.inv_inertia else None,
+    )
+
+
+def pymunk_scene(lab: Lab) -> tuple[SpaceValue, list[Thing]]:
+    """The space that make_space(random.Random(12)) returns, and the boxes of its stack."""
+    items = lab.items(lab.call("make_space", Rng(SEED)), "what make_space returns")
+    lab.want(len(items) == 2, "make_space to return (space, stack)", f"{len(items)} things")
+    boxes = lab.items(items[1], "the stack")
+    return lab.space(items[0]), [lab.thing(box, "a box of the stack") for box in boxes]
+
+
+def space_parts(space: SpaceValue) -> list[Part]:
+    """Each moving body with its shape, and each static shape."""
+    return [part for body in space.bodies for part in shapes_of(body)]
+
+
+def shapes_of(body: SpaceBody) -> list[Part]:
+    parts = []
+    for shape in body.shapes:
+        left, low, right, high = shape.box
+        size = (shape.radius,) if shape.kind == "Circle" else ((right - left) / 2, (high - low) / 2)
+        rest = (shape.elasticity, shape.friction, body.moment)
+        parts.append(Part(((left + right) / 2, (low + high) / 2), size, body.mass, *rest))
+    return parts
+
+
+def moving_parts(played: Played) -> set[tuple[float, ...]]:
+    """Place, size and mass of what can move when a program of the mini engine ends."""
+    bodies = [body for body in played.bodies if isinstance(body, BodyValue)]
+    return {(*body.pos, body.radius, 1 / body.inv_mass) for body in bodies if body.inv_mass}

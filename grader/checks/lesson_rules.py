@@ -1,0 +1,212 @@
+"""The rules of contacts and of the step, as the lesson says them, one small experiment each.
+
+What is expected is worked out by hand from the lesson's numbers: BETA 0.2, SLOP 0.5 px, eight
+passes, no bounce below 30 px/s.
+"""
+
+import math
+from typing import NamedTuple
+
+from grader.judge.decode import Pair, Thing
+from grader.judge.lab import STEP, Lab, Moment
+from grader.protocol import BodyValue
+
+EXACT = 1e-6  # px and px/s: what a few steps of rounding may change
+KEPT = 0.6065306597126334  # share of the speed after 0.1 s at 5 per second
+PASSES = 8
+LEAN = 0.9  # cosine of the angle from a rod to the normal of a contact
+
+
+# ---------------------------------------------------------------- contacts
+
+
+class Impact(NamedTuple):
+    """A disc meets a static one, and leaves it at the larger speed of bounce and push-out."""
+
+    restitution: Pair
+    closing: float  # px/s
+    depth: float  # px
+    leaves: float  # px/s
+
+
+IMPACTS = [  # the push-out is 24/s of the depth beyond half a pixel
+    Impact((0.9, 0.3), 200, 0.4, 60),
+    Impact((0.1, 0.3), 200, 0.4, 20),
+    Impact((0.5, 0.8), 20, 0.4, 0),  # slower than RESTING_SPEED
+    Impact((0.3, 0.3), 0, 0.4, 0),  # within SLOP
+    Impact((0.3, 0.3), 0, 5.0, 108),
+    Impact((0.3, 0.3), 200, 2.0, 60),  # the bounce is larger
+    Impact((0.3, 0.3), 40, 3.0, 60),  # the push-out is larger
+]
+
+
+def want_impact(lab: Lab, impact: Impact) -> None:
+    """One step with one contact, straight from above."""
+    first, second = impact.restitution
+    lab.ran(
+        f"a disc {impact.depth:g} px deep in a static one, closing at {impact.closing:g} px/s, "
+        f"restitution {first:g} on {second:g}, one step"
+    )
+    anchor = lab.circle((0, 0), 50, 0, restitution=second)
+    disc = lab.circle((0, impact.depth - 60), 10, 2, restitution=first, vel=(0, impact.closing))
+    done = lab.simulate(lab.world(anchor, disc), [disc], 1, contacts=True)
+    after, touching = done.body(0)[0], done.contacts[0]
+    lab.want(
+        abs(after.vy + impact.leaves) < EXACT,
+        f"it leaves at {impact.leaves:g} px/s",
+        f"it leaves at {-after.vy:.9g} px/s",
+        "The larger of bounce (the smaller restitution, above 30 px/s) and push-out counts.",
+    )
+    pushed = 2 * (impact.closing + impact.leaves)
+    lab.want(
+        len(touching) == 1 and abs(touching[0].jn - pushed) < EXACT,
+        f"one contact, with jn {pushed:g} kg px/s in the end",
+        f"jn {touching[0].jn:.9g}" if len(touching) == 1 else f"{len(touching)} contacts",
+    )
+
+
+def pressed_discs(lab: Lab, friction: Pair, vel: Pair, jn: float) -> tuple[Thing, Thing, Thing]:
+    """Two discs of 1 kg that touch, B above A, and their contact."""
+    a = lab.circle((0, 0), 10, friction=friction[0])
+    b = lab.circle((0, -20), 10, friction=friction[1], vel=vel)
+    made = lab.call("Contact", a, b, (0, -1), 0.0, (0, -10))
+    contact = lab.thing(made, "a Contact")
+    lab.put(contact, target=0.0, jn=jn)
+    lab.tell(lab.world(a, b), "solve_contact", contact, STEP)
+    return a, b, contact
+
+
+def want_one_pass(lab: Lab) -> None:
+    """The pressure first, then the friction that it limits; both turn both bodies."""
+    lab.ran(
+        "one pass over two discs of 1 kg, friction 0.9 on 0.4, sliding at 300 px/s and closing at "
+        "20 px/s"
+    )
+    a, b = map(lab.state, pressed_discs(lab, (0.9, 0.4), (300, 20), 0.0)[:2])
+    # jn = 20 / (1/1 + 1/1) = 10, and the friction is sqrt(0.9 * 0.4) of it: 6. Inertia 50.
+    expected = (6, 10, 1.2, 294, 10, 1.2)
+    lab.want(
+        math.dist(expected, (*a.vel, a.omega, *b.vel, b.omega)) < EXACT,
+        "A at (6, 10) px/s with spin 1.2, B at (294, 10) px/s with spin 1.2",
+        f"A at {say(a)}, B at {say(b)}",
+    )
+
+
+def say(body: BodyValue) -> str:
+    return f"({body.vel.x:.9g}, {body.vel.y:.9g}) px/s with spin {body.omega:.9g}"
+
+
+def want_a_total_that_is_clamped(lab: Lab) -> None:
+    """What an earlier pass gave too much is taken back."""
+    lab.ran("one pass over two discs of 1 kg that part at 5 px/s, with jn 3 from earlier passes")
+    a, b, contact = pressed_discs(lab, (0, 0), (0, -5), 3.0)
+    speeds = lab.state(a).vel.y, lab.state(b).vel.y
+    jn = lab.number(lab.get(contact, "jn"), "jn")
+    lab.want(
+        math.dist((-2.5, -2.5, 0.5), (*speeds, jn)) < EXACT,
+        "both at 2.5 px/s, and jn 0.5: the total is clamped, not the change",
+        f"{-speeds[0]:.9g} and {-speeds[1]:.9g} px/s, and jn {jn:.9g}",
+    )
+
+
+def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
+    """There is no direction from one centre to the other, so the lesson gives one."""
+    lab.ran("circle_circle of two discs with one centre")
+    discs = lab.circle((3, 4), 10), lab.circle((3, 4), 6)
+    contact = lab.contact_or_none(lab.call("circle_circle", *discs))
+    lab.want(contact is not None, "a contact", "None")
+    if contact is not None:
+        normal = lab.pair(contact.normal, "the normal")
+        lab.want(
+            math.dist(normal, (0, 1)) < EXACT and abs(contact.depth - 16) < EXACT,
+            "the normal (0, 1) and a depth of 16 px",
+            f"({normal[0]:.9g}, {normal[1]:.9g}) and {contact.depth:.9g} px",
+        )
+
+
+# ---------------------------------------------------------------- the step
+
+
+def want_gravity_then_damping(lab: Lab) -> None:
+    """And then a move with the new velocity."""
+    lab.ran("a disc that falls from rest, damped at 5 per second, one step of 0.1 s")
+    disc = lab.circle((0, 0))
+    world = lab.world(disc, gravity=(0, 980), linear_damping=5.0)
+    want_state(lab, lab.simulate(world, [disc], 1, 0.1).body(0)[0], (0, 9.8 * KEPT, 0, 98 * KEPT))
+
+
+def want_a_free_flight(lab: Lab) -> None:
+    """What meets nothing and is not damped keeps its velocity, however large."""
+    lab.ran("a disc at 5000 px/s that meets nothing, one step")
+    disc = lab.circle((0, 0), vel=(3000, -4000))
+    after = lab.simulate(lab.world(disc), [disc], 1).body(0)[0]
+    want_state(lab, after, (3000 * STEP, -4000 * STEP, 3000, -4000))
+
+
+def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float]) -> None:
+    """Insist on a place (px) and a velocity (px/s)."""
+    lab.want(
+        math.dist(expected, (got.x, got.y, got.vx, got.vy)) < EXACT * max(map(abs, expected)),
+        "({:.9g}, {:.9g}) px, at ({:.9g}, {:.9g}) px/s".format(*expected),
+        f"({got.x:.9g}, {got.y:.9g}) px, at ({got.vx:.9g}, {got.vy:.9g}) px/s",
+    )
+
+
+def want_fresh_contacts(lab: Lab) -> None:
+    """Contacts are those of where the bodies are, not of where they were."""
+    lab.ran("a disc on a static one for a step; then it is put far away, and another step")
+    anchor, disc = lab.circle((0, 0), 50, 0), lab.circle((0, -59))
+    world = lab.world(anchor, disc)
+    counts = []
+    for place in ((0, -59), (0, -500)):
+        lab.put(disc, pos=place, vel=(0, 0))
+        counts.append(len(lab.simulate(world, [disc], 1, contacts=True).contacts[0]))
+    lab.want(counts == [1, 0], "1 contact, then none", f"{counts[0]}, then {counts[1]}")
+
+
+def want_eight_passes(lab: Lab) -> None:
+    """A disc that may move neither into a surface nor along its rod.
+
+    Solving the one spoils the other. Each time the speed shrinks by the cosine between the two, so
+    that it tells how many passes there were, and the rod is right as the last one solved.
+    """
+    lab.ran("a disc on a static one and on a slanting rod, pushed at 100 px/s, one step")
+    along = math.sqrt(1 - LEAN**2), -LEAN  # the rod, from its hook
+    anchor, place = lab.circle((0, 0), 50, 0, friction=0.0), (0.0, 1e-9 - 60)
+    disc = lab.circle(place, restitution=0.0, friction=0.0, vel=(100, 0))
+    hook = lab.circle((-100 * along[0], place[1] - 100 * along[1]), 6, 0, friction=0.0)
+    rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
+    after = lab.simulate(lab.world(anchor, hook, disc, joints=[rod]), [disc], 1).body(0)[0]
+    left = 100 * LEAN ** (2 * PASSES - 1)
+    slip = after.vx * along[0] + after.vy * along[1]
+    lab.want(
+        abs(slip) < EXACT and abs(after.speed - left) < EXACT,
+        f"no speed along the rod and {left:.7f} px/s across it, after 8 passes over contacts, then "
+        "joints",
+        f"{abs(slip):.7f} px/s along it, {after.speed:.7f} px/s in all",
+    )
+
+
+def want_the_same_pile(lab: Lab) -> None:
+    """Bit for bit: on one machine and build nothing may hang on chance."""
+    lab.ran("a pile of 9 discs between three large ones for a quarter of a second, twice")
+    runs = []
+    for _ in range(2):
+        ground = [lab.circle(pos, 400, 0) for pos in ((0, 400), (-430, 100), (430, 100))]
+        pile = [
+            lab.circle((19.5 * (number % 3) - 20, -12 - 19.5 * (number // 3)), 10, 1 + number / 9)
+            for number in range(9)
+        ]
+        world = lab.world(*ground, *pile, gravity=(0, 980))
+        runs.append(lab.simulate(world, pile, 30).frames)
+    lab.want(runs[0] == runs[1], "the same numbers, bit for bit", "other numbers")
+
+
+def want_a_rod_put_right(lab: Lab) -> None:
+    """A fifth of its error in a step, however long the step is."""
+    lab.ran("a disc on a rod 10 px too long, at rest, one step of 1/60 s")
+    hook, disc = lab.circle((0, 0), mass=0), lab.circle((0, 100))
+    rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
+    lab.put(disc, pos=(0, 110))
+    world = lab.world(hook, disc, joints=[rod])
+    want_state(lab, lab.simulate(world, [disc], 1, 1 / 60).body(0)[0], (0, 108, 0, -120))
