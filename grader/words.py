@@ -6,6 +6,7 @@ The terminal, pages, tables, exports and replays all take it from here, so that 
 import math
 import os
 import sys
+from collections.abc import Iterable
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
@@ -101,6 +102,12 @@ def plural(number: int, noun: str) -> str:
 def digits(value: float) -> str:
     """Six digits, without the noise that rounding leaves around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
+
+
+def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
+    """So many decimals that *Expected* and *Got* look different: `least`, or up to 15."""
+    off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
+    return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least
 
 
 def about(value: float) -> str:
