@@ -5,7 +5,7 @@ what may change is the judge's to say.
 """
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, KeysView
 from typing import Any
 
 from grader.protocol import Change
@@ -16,7 +16,12 @@ CONSTANTS = (  # the lesson's
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
     *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS"),
 )
-FIELDS = {  # by what marks an object as one of the lesson's
+FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
+    "collision_slop": (
+        *("gravity", "damping", "iterations", "sleep_time_threshold", "idle_speed_threshold"),
+        *("collision_slop", "collision_bias", "bodies", "shapes", "constraints"),
+    ),
+    "moment": ("position", "velocity", "angle", "angular_velocity", "mass", "moment"),
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
         *("restitution", "friction", "shape.radius", "shape.half"),
@@ -91,7 +96,7 @@ def plain(thing: Any, path: str) -> Numbers:
 def numbers_in(value: Any) -> Numbers:
     if value is None or isinstance(value, int | float):
         return (value,)
-    if isinstance(value, list):
+    if isinstance(value, list | KeysView):  # pymunk gives views
         return tuple(map(id, value))
     try:
         return tuple(map(float, value))

@@ -303,6 +303,7 @@ class Subject:
             anchor_a,
             anchor_b,
             getattr(joint, "distance", None),
+            (joint.min, joint.max) if isinstance(joint, pymunk.SlideJoint) else None,
         )
 
     # ------------------------------------------------------------ what went wrong
