@@ -18,7 +18,9 @@ from grader.words import decimals_to_tell
 GRAVITY = (0.0, 980.0)  # px/s²
 PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px
 LENGTH = 140.0  # px
-AT_REST = 0.02  # px; a rod at rest has nothing to put right, and only rounding moves it
+AT_REST = (
+    0.1  # px; a rod at rest has nothing to put right, and a slide joint of one length gives 0.07
+)
 STRETCH = 3.0  # px; pymunk's own rod gives way by 1.2 px here, or for a step by what it is pushed
 
 
