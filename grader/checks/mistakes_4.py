@@ -70,12 +70,12 @@ known(
     with_limit(lambda mu, jn: min(mu) * jn),
 )
 known(
-    "mu-of-the-lab-scene",
+    "six-tenths",
     "The limit has 0.6 for every body's friction; it takes sqrt(mu_a mu_b).",
     with_limit(lambda mu, jn: 0.6 * jn),
 )
 known(
-    "no-mu-above-one",
+    "rough-is-one",
     "Frictions above 1 count as 1; rubber may have more, and the limit takes it as it is.",
     with_limit(lambda mu, jn: math.sqrt(min(mu[0], 1.0) * min(mu[1], 1.0)) * jn),
 )
@@ -144,7 +144,7 @@ def against_the_slip(total: float, wanted: float, limit: float) -> float:
 
 
 known(
-    "sign-of-the-present-slip",
+    "against-the-slip",
     "The total has the sign of this pass's slip; a pass may take back a part and leave the rest.",
     with_clamp(against_the_slip),
 )

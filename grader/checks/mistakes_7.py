@@ -204,7 +204,7 @@ known_7c(
     held_by(("SlideJoint", PIVOT, BOB, False)),
 )
 known_7c(
-    "slide-joint-with-slack",
+    "slack-of-two",
     "Between its min and max a SlideJoint holds nothing; a rod has one length.",
     held_by(("SlideJoint with slack", PIVOT, BOB, False)),
 )
