@@ -108,6 +108,7 @@ class SpaceJoint(Struct, frozen=True):
     anchor_a: Vec | None  # in world coordinates
     anchor_b: Vec | None
     distance: float | None
+    reach: tuple[float, float] | None = None  # px, between which a slide joint keeps its ends
 
 
 class SpaceValue(Struct, frozen=True, tag="space"):

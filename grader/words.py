@@ -6,7 +6,7 @@ The terminal, pages, tables, exports and replays all take it from here, so that 
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
@@ -115,6 +115,12 @@ def told_apart(
     if told[0] == told[1] and digits < MAX_DIGITS:
         return told_apart(say, right, got, digits + 1)
     return told
+
+
+def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
+    """So many decimals that *Expected* and *Got* look different: `least`, or up to 15."""
+    off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
+    return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least
 
 
 def about(value: float) -> str:

@@ -71,11 +71,13 @@ def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
     ]
 
 
-RATES = [number / 16 for number in range(49)]  # 1/s, what properties ask about
 STEP_SIZES = [1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480]  # s
+# What properties ask about damping: rates per second, and steps in s.
+RATES = [0.001, 0.05, *(number / 8 for number in range(25)), *map(float, range(4, 21))]
+DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 100, 1 / 1000, 0.1, 0.25]
 
 
-@recorded.oracle(RATES, STEP_SIZES)
+@recorded.oracle(RATES, DAMPED_STEPS)
 def damped(rate: float, seconds: float) -> float:
     """The share of a speed that is left after so many seconds at a rate per second."""
     return math.exp(-rate * seconds)
@@ -195,6 +197,34 @@ def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
 
 
 DEPTH = 0.25  # px, the overlap of every contact that is rubbed
+
+
+class Discs(NamedTuple):
+    """Two discs that touch; the normal leads from A to B, and a mass of 0 is a static body's."""
+
+    mu: Pair
+    mass: Pair  # kg
+    normal: Pair = (0.0, 1.0)
+    radius: Pair = (10.0, 10.0)  # px
+    drift: Pair = (0.0, 0.0)  # px/s, of both together, where both can move
+    spin: Pair = (0.0, 0.0)  # rad/s, of each that can move
+    turning: bool = False  # whether an impulse turns them; else their inertia is infinite
+
+    @property
+    def k(self) -> float:
+        """How much an impulse along the normal changes the speed along it, 1/kg."""
+        return inverse(self.mass[0]) + inverse(self.mass[1])
+
+    @property
+    def arms(self) -> Pair:
+        """How far the point of contact is from each centre, px."""
+        return self.radius[0], self.radius[1] - DEPTH
+
+    @property
+    def inverse_inertias(self) -> Pair:
+        """In 1/(kg px²)."""
+        a, b = (inverse(0.5 * m * r**2) for m, r in zip(self.mass, self.radius, strict=True))
+        return (a, b) if self.turning else (0.0, 0.0)
 
 
 class Rubbing(NamedTuple):

@@ -70,6 +70,16 @@ known(
     with_limit(lambda mu, jn: min(mu) * jn),
 )
 known(
+    "six-tenths",
+    "The limit has 0.6 for every body's friction; it takes sqrt(mu_a mu_b).",
+    with_limit(lambda mu, jn: 0.6 * jn),
+)
+known(
+    "rough-is-one",
+    "Frictions above 1 count as 1; rubber may have more, and the limit takes it as it is.",
+    with_limit(lambda mu, jn: math.sqrt(min(mu[0], 1.0) * min(mu[1], 1.0)) * jn),
+)
+known(
     "limit-without-mu",
     "The limit is jn itself: ice would grip as well as rubber.",
     with_limit(lambda mu, jn: jn),
@@ -124,6 +134,19 @@ known(
     "always-at-the-limit",
     "Friction is always as large as its limit; less may end the slip.",
     with_clamp(at_the_limit),
+)
+
+
+def against_the_slip(total: float, wanted: float, limit: float) -> float:
+    if math.isclose(wanted, total, rel_tol=1e-9, abs_tol=1e-9):
+        raise Undecided  # no slip: either way
+    return math.copysign(min(abs(wanted), limit), wanted - total)
+
+
+known(
+    "against-the-slip",
+    "The total has the sign of this pass's slip; a pass may take back a part and leave the rest.",
+    with_clamp(against_the_slip),
 )
 known(
     "lets-go-beyond-the-limit",

@@ -204,6 +204,11 @@ known_7c(
     held_by(("SlideJoint", PIVOT, BOB, False)),
 )
 known_7c(
+    "slack-of-two",
+    "Between its min and max a SlideJoint holds nothing; a rod has one length.",
+    held_by(("SlideJoint with slack", PIVOT, BOB, False)),
+)
+known_7c(
     "spring-instead-of-rod",
     "A DampedSpring gives way; a rod keeps its length.",
     held_by(("DampedSpring", PIVOT, BOB, False)),

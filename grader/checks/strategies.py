@@ -5,7 +5,17 @@ import math
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
-from grader.checks.exact import STEP_SIZES, Disc, Lever, Rect, Rod, Rubbing
+from grader.checks.exact import (
+    DAMPED_STEPS,
+    RATES,
+    STEP_SIZES,
+    Disc,
+    Discs,
+    Lever,
+    Rect,
+    Rod,
+    Rubbing,
+)
 
 coordinates = st.integers(-1600, 1600).map(lambda n: n / 8)  # px
 radii = st.integers(8, 320).map(lambda n: n / 8)  # px
@@ -16,8 +26,9 @@ masses = st.integers(1, 400).map(lambda n: n / 8)  # kg
 masses_or_static = st.just(0.0) | masses
 impulses = st.integers(0, 800).map(lambda n: n / 8)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
-rates = st.integers(0, 48).map(lambda n: n / 16)  # 1/s, as in RATES
+rates = st.sampled_from(RATES)  # 1/s
 step_sizes = st.sampled_from(STEP_SIZES)  # s
+damped_steps = st.sampled_from(DAMPED_STEPS)  # s
 
 near_and_far = st.one_of(
     st.integers(-32, 32).map(lambda n: n / 8),
@@ -74,7 +85,32 @@ units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.2
 velocities = st.tuples(speeds, speeds)
 
 arms = st.integers(-320, 320).map(lambda n: n / 8)  # px
-rubbings = st.lists(st.builds(Rubbing, impulses, speeds, speeds), min_size=1, max_size=2)
+
+# TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
+low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
+any_speeds = speeds | low_speeds | st.sampled_from([-2e4, 2e4])
+wide_velocities = st.tuples(any_speeds, any_speeds) | st.tuples(low_speeds, low_speeds)
+wide_masses = masses | st.sampled_from([1e-3, 0.05, 1e3, 1e6])
+any_radii = radii | st.sampled_from([0.5, 1e4])
+any_frictions = frictions | st.sampled_from([1.5, 3.0])
+any_impulses = impulses | st.sampled_from([3e3, 5e4])
+mass_pairs = (
+    st.tuples(wide_masses, wide_masses)
+    | st.tuples(st.just(0.0), wide_masses)
+    | st.tuples(wide_masses, st.just(0.0))
+)
+touching = st.builds(
+    Discs,
+    mu=st.tuples(any_frictions, any_frictions),
+    mass=mass_pairs,
+    normal=units,
+    radius=st.tuples(any_radii, any_radii),
+    drift=velocities,
+    spin=st.tuples(spins, spins),
+    turning=st.booleans(),
+)
+rubbings = st.lists(st.builds(Rubbing, any_impulses, any_speeds, speeds), min_size=1, max_size=3)
+pulls = st.sampled_from([(0.0, 0.0), (0.0, 980.0), (-120.0, 35.5)])  # px/s², gravity
 
 
 # For a broad phase: bodies in and around the window, most of them small.

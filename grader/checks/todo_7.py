@@ -4,18 +4,23 @@
 """
 
 import math
+import random
 from typing import Any, NamedTuple
 
 from hypothesis import given
 
 from grader.checks import exact
-from grader.checks.strategies import seeds
-from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
-from grader.protocol import Rng, SpaceBody, SpaceValue, Vec
+from grader.checks.strategies import coordinates, seeds
+from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
+from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
+from grader.words import decimals_to_tell
 
 GRAVITY = (0.0, 980.0)  # px/s²
 PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px
 LENGTH = 140.0  # px
+AT_REST = (
+    0.1  # px; a rod at rest has nothing to put right, and a slide joint of one length gives 0.07
+)
 STRETCH = 3.0  # px; pymunk's own rod gives way by 1.2 px here, or for a step by what it is pushed
 
 
@@ -29,14 +34,36 @@ def scene(lab: Lab) -> SpaceValue:
 
 def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
     """The space has the mini engine's gravity"""
-    lab.ran("make_space(random.Random(12)), and looked at the space's gravity")
-    gravity = lab.pair(scene(lab).gravity, "the gravity")
-    lab.saw("gravity", (), gravity)
-    lab.want(
-        near(gravity, GRAVITY, 1e-9),
-        "gravity (0, 980) px/s², as in the mini engine",
-        f"gravity ({gravity[0]:g}, {gravity[1]:g})",
-    )
+    for words in ("make_space(random.Random(12))", "make_space once more, as R does"):
+        lab.ran(f"{words}, and looked at the space's gravity")
+        gravity = lab.pair(scene(lab).gravity, "the gravity")
+        lab.saw("gravity", (), gravity)
+        lab.want(
+            near(gravity, GRAVITY, 1e-9),
+            "gravity (0, 980) px/s², as in the mini engine",
+            f"gravity ({gravity[0]:g}, {gravity[1]:g})",
+        )
+
+
+SETTINGS = (
+    *("iterations", "sleep_time_threshold", "idle_speed_threshold"),
+    *("collision_slop", "collision_bias"),
+)
+
+
+def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
+    """The space is otherwise as it was given: damping 0.95, and pymunk's own settings"""
+    lab.ran("make_space(random.Random(12)), and looked at the space's settings")
+    space = scene(lab)
+    lab.want(space.damping == 0.95, "damping 0.95", f"damping {space.damping:g}")
+    want_usual_settings(lab, lab.thing(space))
+
+
+def want_usual_settings(lab: Lab, space: Thing) -> None:
+    usual = lab.thing(lab.call("pymunk:Space"))
+    for name in SETTINGS:
+        right, answer = lab.get(usual, name), lab.get(space, name)
+        lab.want(answer == right, f"{name} {right}, as pymunk has it", f"{name} {answer}")
 
 
 def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
@@ -64,6 +91,9 @@ def near(first: Pair | None, second: Pair, distance: float) -> bool:
 # ---------------------------------------------------------------- 7b
 
 
+FRICTION, ELASTICITY = 0.6, 0.4  # of a ball
+
+
 class Ball(NamedTuple):
     """What add_ball put into a space."""
 
@@ -71,19 +101,26 @@ class Ball(NamedTuple):
     radius: float  # px
     mass: float
     moment: float
+    surface: Pair  # friction and elasticity
 
 
-def drop(lab: Lab, space: Thing, seed: int, pos: Pair) -> Ball:
+def drop(lab: Lab, space: Thing, rng: Rng | Thing, pos: Pair, changes: Frame | None = None) -> Ball:
     """Add a ball to a space; add_ball may return what it likes."""
     before = {body.ref for body in bodies_in(lab, space)}
-    lab.call("add_ball", space, Rng(seed), pos)
+    lab.call("add_ball", space, rng, pos, changes=changes)
     new = [body for body in bodies_in(lab, space) if body.ref not in before]
     lab.want(len(new) == 1, "one more body in the space", f"{len(new)} more")
     lab.want(bool(new[0].shapes), "a body with a circle around it", "a body without a shape")
     moment = math.inf if new[0].moment is None else new[0].moment
-    radius = max(shape.radius for shape in new[0].shapes)
-    ball = Ball(lab.thing(new[0]), radius, new[0].mass, moment)
+    shape = max(new[0].shapes, key=lambda shape: shape.radius)
+    surface = shape.friction, shape.elasticity
+    ball = Ball(lab.thing(new[0], "a ball"), shape.radius, new[0].mass, moment, surface)
     lab.saw("moment", (ball.radius, ball.mass), moment)
+    lab.want(
+        near(pair(new[0].pos), pos, 1e-9) and not any((*new[0].vel, new[0].omega)),
+        f"a ball at rest at ({pos[0]:g}, {pos[1]:g})",
+        f"one at ({new[0].pos.x:g}, {new[0].pos.y:g}), {tuple(new[0].vel)} px/s",
+    )
     return ball
 
 
@@ -93,10 +130,11 @@ def bodies_in(lab: Lab, space: Thing) -> list[SpaceBody]:
 
 def want_full_disc(lab: Lab, ball: Ball) -> None:
     right = exact.disc_moment(ball.mass, ball.radius)
+    n = decimals_to_tell([right], [ball.moment], 2)
     lab.want(
         math.isclose(ball.moment, right, rel_tol=1e-9),
-        f"a moment of {right:.2f} for radius {ball.radius:g} px and mass {ball.mass:g}",
-        f"{ball.moment:.2f}",
+        f"a moment of {right:.{n}f} for radius {ball.radius:g} px and mass {ball.mass:g}",
+        f"{ball.moment:.{n}f}",
     )
 
 
@@ -105,16 +143,30 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     for seed in (1, 12, 15):
         lab.ran(f"add_ball with random.Random({seed}) in an empty space")
         space = lab.thing(lab.call("pymunk:Space"))
-        want_full_disc(lab, drop(lab, space, seed, (450.0, 300.0)))
+        want_full_disc(lab, drop(lab, space, Rng(seed), (450.0, 300.0)))
 
 
-@given(first=seeds, second=seeds)
-def every_ball_has_the_moment_of_its_own_size(lab: Lab, first: int, second: int) -> None:
-    """Every ball has the moment of its own size"""
-    lab.ran(f"add_ball with random.Random({first}) and random.Random({second}) in one space")
-    space = lab.thing(lab.call("pymunk:Space"))
-    want_full_disc(lab, drop(lab, space, first, (150.0, 300.0)))
-    want_full_disc(lab, drop(lab, space, second, (350.0, 300.0)))
+@given(seed=seeds, x=coordinates, y=coordinates)
+def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
+    """Every ball has the moment of its own size, and is else as it was given"""
+    lab.ran(f"add_ball three times with random.Random({seed}), beginning at ({x:g}, {y:g})")
+    space = lab.thing(lab.call("pymunk:Space"), "the space")
+    rng = lab.thing(lab.call("random:Random", seed))
+    given_rng = random.Random(seed)
+    for number in range(3):
+        radius = given_rng.randint(10, 22)
+        for _ in range(3):
+            given_rng.randint(90, 240)  # the colour
+        ball = drop(lab, space, rng, (x + 50.0 * number, y), changes={space: "bodies shapes"})
+        want_full_disc(lab, ball)
+        lab.want(
+            (ball.radius, ball.surface) == (radius, (FRICTION, ELASTICITY))
+            and math.isclose(ball.mass, radius**2 / 100, rel_tol=1e-9),
+            f"radius {radius} px and mass {radius**2 / 100:g} (ball number {number + 1} of this "
+            f"Random), friction {FRICTION:g}, elasticity {ELASTICITY:g}",
+            f"radius {ball.radius:g} px, mass {ball.mass:g}, "
+            f"friction {ball.surface[0]:g}, elasticity {ball.surface[1]:g}",
+        )
 
 
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
@@ -123,7 +175,7 @@ def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
     space = lab.thing(lab.call("pymunk:Space"))
     lab.put(space, gravity=GRAVITY)
     lab.call("add_static_box", space, (450.0, 580.0), (900.0, 40.0))
-    ball = drop(lab, space, 12, (200.0, 300.0))
+    ball = drop(lab, space, Rng(12), (200.0, 300.0))
     lab.put(ball.body, position=(200.0, 560.0 - ball.radius), velocity=(300.0, 0.0))
     last = lab.simulate(space, [ball.body], 120, every=120).body(0)[-1]
     right = exact.rolling_speed(300.0)
@@ -163,7 +215,7 @@ def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
 
 def off(length: float) -> int:
     """Whether a rod is too short (-1), too long (1), or neither (0)."""
-    return 0 if math.isclose(length, LENGTH, abs_tol=STRETCH) else 1 if length > LENGTH else -1
+    return 0 if math.isclose(length, LENGTH, abs_tol=AT_REST) else 1 if length > LENGTH else -1
 
 
 def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
@@ -174,8 +226,14 @@ def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
             ends.reverse()
         (other, far_end), (held, bob_end) = ends
         if held == bob:
-            rods.append(Rod(joint.kind, far_end, bob_end, other in moving))
+            rods.append(Rod(kind_of(joint), far_end, bob_end, other in moving))
     return rods
+
+
+def kind_of(joint: SpaceJoint) -> str:
+    """What it is; a slide joint that cannot get much shorter is no rope."""
+    slack = joint.reach is not None and 1.0 < joint.reach[0] < joint.reach[1]
+    return joint.kind + " with slack" * slack
 
 
 def pair(place: Vec | None) -> Pair | None:
@@ -190,12 +248,12 @@ def watch_bob(lab: Lab, gravity: float, seconds: float, **start: Any) -> list[Mo
     return lab.simulate(space, [bob], round(seconds / STEP)).body(0)
 
 
-def want_the_length(lab: Lab, moments: list[Moment]) -> None:
+def want_the_length(lab: Lab, moments: list[Moment], within: float = STRETCH) -> None:
     lengths = [math.dist((each.x, each.y), PIVOT) for each in moments]
     lab.want(
-        all(abs(length - LENGTH) <= STRETCH for length in lengths),
-        f"the bob {LENGTH:.0f} px from (700, 90) all the time, give or take {STRETCH:.0f} px",
-        f"it is between {min(lengths):.1f} and {max(lengths):.1f} px away",
+        all(abs(length - LENGTH) <= within for length in lengths),
+        f"the bob {LENGTH:.0f} px from (700, 90) all the time, give or take {within:g} px",
+        f"it is between {min(lengths):.2f} and {max(lengths):.2f} px away",
     )
 
 
@@ -213,6 +271,31 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
     )
 
 
+def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
+    """The bob is as it was given: 6 kg, a disc of 24 px, at rest, in a space with usual settings"""
+    lab.ran("make_space(random.Random(12)), and looked at the bob")
+    space = scene(lab)
+    found = [each for each in space.bodies if each.kind == "dynamic" and of_bob(each)]
+    lab.want(len(found) == 1, "one disc of 24 px at rest at (840, 90)", f"{len(found)} of them")
+    bob = found[0]
+    surfaces = [(each.friction, each.elasticity) for each in bob.shapes]
+    lab.want(surfaces == [(0.6, 0.2)], "friction 0.6, elasticity 0.2", f"{surfaces}")
+    right = exact.disc_moment(6.0, 24.0)
+    moment = math.inf if bob.moment is None else bob.moment
+    lab.want(
+        math.isclose(bob.mass, 6.0) and math.isclose(moment, right),
+        f"mass 6, and the moment of a full disc: {right:g}",
+        f"mass {bob.mass:g}, moment {moment:g}",
+    )
+    want_usual_settings(lab, lab.thing(space))
+
+
+def of_bob(body: SpaceBody) -> bool:
+    """Whether a body is a disc of 24 px at the bob's place, at rest."""
+    at_rest = near(pair(body.pos), BOB, 1e-6) and not any((*body.vel, body.omega))
+    return at_rest and [each.radius for each in body.shapes] == [24.0]
+
+
 def say_rod(rod: Rod) -> str:
     ends = [f"({end[0]:g}, {end[1]:g})" for end in (rod.far_end, rod.bob_end) if end]
     joint = f"a {rod.kind} with ends at {' and '.join(ends) or 'no point'}"
@@ -224,6 +307,10 @@ def the_rod_pushes_and_pulls(lab: Lab) -> None:
     for push in ((-200.0, 0.0), (200.0, 0.0), (0.0, -200.0), (0.0, 200.0)):
         lab.ran(f"the bob pushed at ({push[0]:g}, {push[1]:g}) px/s, no gravity, half a second")
         want_the_length(lab, watch_bob(lab, 0.0, 0.5, velocity=push))
+    for words, y in (("hangs", PIVOT[1] + LENGTH), ("stands", PIVOT[1] - LENGTH)):
+        lab.ran(f"the bob {words} at rest on its rod under gravity (0, 980), half a second")
+        moments = watch_bob(lab, GRAVITY[1], 0.5, position=(PIVOT[0], y))
+        want_the_length(lab, moments, AT_REST)
 
 
 def the_bob_swings_through_to_the_other_side(lab: Lab) -> None:

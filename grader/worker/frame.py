@@ -21,14 +21,14 @@ CONSTANTS = (  # the lesson's
     *("SLOW", "SLEEP_AFTER", "WAKING", "CELL"),
     *("OMEGA", "X0", "DT", "SECONDS"),
 )
-FIELDS = {  # by what marks an object as one of the lesson's
-    "angular_velocity": (  # pymunk's
+FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
+    "angular_velocity": (
         *("position", "velocity", "angle", "angular_velocity"),
         *("mass", "moment", "force", "torque", "body_type"),
     ),
     "collision_slop": (
-        *("gravity", "damping", "iterations", "bodies", "shapes", "constraints"),
-        *("collision_slop", "collision_bias", "sleep_time_threshold"),
+        *("gravity", "damping", "iterations", "sleep_time_threshold", "idle_speed_threshold"),
+        *("collision_slop", "collision_bias", "bodies", "shapes", "constraints"),
     ),
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),

@@ -305,6 +305,7 @@ class Subject:
             anchor_a,
             anchor_b,
             getattr(joint, "distance", None),
+            (joint.min, joint.max) if isinstance(joint, pymunk.SlideJoint) else None,
         )
 
     # ------------------------------------------------------------ what went wrong

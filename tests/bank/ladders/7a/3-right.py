@@ -1,0 +1,5 @@
+"""As it should be."""
+
+# TODO 7a: gravity
+space.gravity = (0, 980)
+# END TODO 7a
