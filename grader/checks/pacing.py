@@ -37,6 +37,7 @@ class Pace:
     lengths: list[float]  # ms, as scripted, or longer where the program slept longer
     steps: list[int]  # that ran once this frame was over, and before the next one was
     sizes: list[float]  # s, the different step sizes
+    waiting: float  # ms that had passed before the first of these frames and were not simulated
     by_advance: bool  # every step ran in a function advance as the lab sheet has it
 
     @property
@@ -67,7 +68,8 @@ class Pace:
         done = list(accumulate(self.steps[:frames]))
         ends = [0.0, *accumulate(self.lengths[:frames])]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
-            if not end_before - STEP_MS <= done[frame] * self.step <= end + ROUNDING:
+            latest = end + self.waiting + ROUNDING
+            if not end_before - STEP_MS <= done[frame] * self.step <= latest:
                 return frame
         return None
 
@@ -84,7 +86,9 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
     lab.saw("frames", (tuple(frames),), (steps, sizes))
     want_a_proper_end(lab, played, count)
     lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
-    return Pace(lengths, played.steps[1 : count + 1], played.dts, played.paced)
+    # A program that sleeps before its first steps may have part of a step left.
+    waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), STEP_MS)
+    return Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
 
 
 def fixed(sizes: list[float]) -> bool:
