@@ -169,6 +169,7 @@ class Call(Struct, frozen=True, tag="call"):
     args: list[Argument] = []
     kwargs: dict[str, Argument] = {}
     work: bool = False  # count the lines of the submission that run meanwhile
+    framed: bool = False  # tell what it changed of what is around it
     twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
     stepping: bool = False  # count the steps of the world that it is given; none of them is run
 

@@ -114,12 +114,14 @@ class Lab(Decoder):
         """
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
-        request = Call(target, [plain(each) for each in args], named, twice=twice)
+        framed = changes is not None
+        request = Call(target, [plain(each) for each in args], named, framed=framed, twice=twice)
         return self._framed(name, request, changes).value
 
     def tell(self, thing: Thing, method: str, *args: Any, changes: Frame | None = None) -> Value:
         """Call a method of an object that lives in the child; `changes` as in `call`."""
-        request = Call(f"#{thing.ref}.{method}", [plain(each) for each in args])
+        target, framed = f"#{thing.ref}.{method}", changes is not None
+        request = Call(target, [plain(each) for each in args], framed=framed)
         return self._framed(method, request, changes).value
 
     def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
@@ -168,9 +170,8 @@ class Lab(Decoder):
 
         It may change nothing but what the steps do, and none of them does anything here.
         """
-        request = Call(
-            f"{self.module}:advance", [plain(world), accumulator, seconds], stepping=True
-        )
+        target, args = f"{self.module}:advance", [plain(world), accumulator, seconds]
+        request = Call(target, args, framed=True, stepping=True)
         returned = self._framed("advance", request, NOTHING)
         answer = self.items(returned.value, "what advance returns")
         self.want(len(answer) == 2, "(accumulator, steps)", self.describe(returned.value))

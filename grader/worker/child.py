@@ -150,22 +150,28 @@ def call(subject: Subject, request: Call) -> Returned:
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
     if not request.work:
-        given = [
-            each for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)
-        ]
-        own = [int(request.target[1:].partition(".")[0])] if request.target[0] == "#" else []
-        frame = Frame(subject, [each.id for each in given] + own, args)
+        frame = Frame(subject, refs_in(request), args) if request.framed else None
         if request.stepping:
             returned = call_stepping(subject, args[0], lambda: function(*args, **kwargs))
-            return msgspec.structs.replace(returned, changed=frame.changes())
-        value = subject.encode(function(*args, **kwargs))
-        again = subject.encode(function(*args, **kwargs)) if request.twice else None
-        return Returned(value, changed=frame.changes(), again=again)
+        else:
+            returned = Returned(subject.encode(function(*args, **kwargs)))
+            if request.twice:
+                again = subject.encode(function(*args, **kwargs))
+                returned = msgspec.structs.replace(returned, again=again)
+        changed = frame.changes() if frame else []
+        return msgspec.structs.replace(returned, changed=changed)
     with LineCounter(subject.folder) as counter:
         result = function(*args, **kwargs)
         if isinstance(result, Iterator):  # a generator has done nothing yet
             result = list(result)
     return Returned(subject.encode(result), counter.lines)
+
+
+def refs_in(request: Call) -> list[int]:
+    """The objects that a call is given, its own among them."""
+    given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
+    own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
+    return [*given, *([int(own)] if own else [])]
 
 
 class LineCounter:

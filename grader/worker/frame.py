@@ -11,6 +11,9 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
+import pygame
+import pymunk
+
 from grader.protocol import Change
 from grader.worker.subject import Subject
 
@@ -32,13 +35,15 @@ FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
     ),
     "inv_mass": (
         *("pos", "vel", "angle", "omega", "inv_mass", "inv_inertia"),
-        *("restitution", "friction", "shape.radius", "shape.half"),
+        *("restitution", "friction", "shape"),
     ),
     "normal": ("a", "b", "normal", "depth", "point", "jn", "jt", "target"),
     "bias": ("a", "b", "length", "axis", "bias", "k"),
     "length": ("a", "b", "length", "stiffness", "damping"),
     "bodies": ("gravity", "linear_damping", "angular_damping", "bodies", "joints", "contacts"),
 }
+PLAIN = {float, int, bool, type(None)}
+PAIRS = {pygame.Vector2, pymunk.Vec2d}
 Numbers = tuple[Any, ...]
 
 
@@ -58,7 +63,8 @@ class Frame:
         for ref in self.refs:
             thing = self.subject.objects[ref]
             for name in fields_of(thing):
-                found[ref, name] = plain(thing, name)
+                value = getattr(thing, name, None)
+                found[ref, name] = size_of(value) if name == "shape" else numbers_in(value)
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
@@ -93,17 +99,16 @@ def fields_of(thing: Any) -> tuple[str, ...]:
     return ()
 
 
-def plain(thing: Any, path: str) -> Numbers:
-    """A field as numbers, and objects by who they are."""
-    value = thing
-    for name in path.split("."):
-        value = getattr(value, name, None)
-    return numbers_in(value)
+def size_of(shape: Any) -> Numbers:
+    return *numbers_in(getattr(shape, "radius", 0)), *numbers_in(getattr(shape, "half", 0))
 
 
 def numbers_in(value: Any) -> Numbers:
-    if value is None or isinstance(value, int | float):
+    """A field as numbers, and objects by who they are."""
+    if type(value) in PLAIN:
         return (value,)
+    if type(value) in PAIRS:
+        return tuple(value)
     for meaning in (float, id):  # a pair of numbers, a list or view of bodies
         with suppress(TypeError, ValueError):
             return tuple(map(meaning, value))
