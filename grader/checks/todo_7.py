@@ -144,6 +144,10 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
         lab.ran(f"add_ball with random.Random({seed}) in an empty space")
         space = lab.thing(lab.call("pymunk:Space"))
         want_full_disc(lab, drop(lab, space, Rng(seed), (450.0, 300.0)))
+    lab.ran("add_ball eight times with one random.Random(12)")
+    rng = lab.thing(lab.call("random:Random", 12))
+    radii = {drop(lab, space, rng, (100.0 * number, 300.0)).radius for number in range(8)}
+    lab.want(len(radii) > 1, "balls of several sizes", f"eight of radius {max(radii):g} px")
 
 
 @given(seed=seeds, x=coordinates, y=coordinates)
