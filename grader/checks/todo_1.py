@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import any_velocities, circles, discs_near_boxes, pairs, surfaces
+from grader.checks.telling import told_apart
 from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
-from grader.words import told_apart
 
 BOX = Rect(0, 0, 40, 20)
 MOVING = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
@@ -75,11 +75,10 @@ def want_new(lab: Lab, contact: ContactValue, circle: Thing, box: Thing) -> None
 def say(answer: Touch | None, digits: int = 3) -> str:
     if answer is None:
         return "None"
-    normal, point = (
-        f"({x:.{each}f}, {y:.{each}f})"
-        for x, y, each in ((*answer[:2], digits), (*answer[3:], digits - 1))
-    )
-    return f"normal {normal}, depth {answer.depth:.{digits}f} px, point {point}"
+    nx, ny, depth, px, py = answer  # plain numbers, where the answer was recorded
+    normal = f"({nx:.{digits}f}, {ny:.{digits}f})"
+    point = f"({px:.{digits - 1}f}, {py:.{digits - 1}f})"
+    return f"normal {normal}, depth {depth:.{digits}f} px, point {point}"
 
 
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
