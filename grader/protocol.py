@@ -155,6 +155,7 @@ class Piece(Struct, frozen=True):
     parameters: list[str]
     names: list[str]  # the globals it reads, beyond its imports
     given: dict[str, str] = {}  # given functions that it calls, for a submission without them
+    asked: str = ""  # what the check is about, which stays, also where it has this name, too
 
 
 class Import(Struct, frozen=True, tag="import"):

@@ -6,8 +6,6 @@ The terminal, pages, tables, exports and replays all take it from here, so that 
 import math
 import os
 import sys
-from collections.abc import Callable, Iterable
-from typing import TypeVar
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
@@ -18,8 +16,6 @@ MEANINGS: dict[State, str] = {
     "waiting": "something else must pass first; the line below it says what",
     "error": "the code raised an error, or gave no answer",
 }
-MAX_DIGITS = 17  # what a float has
-Answer = TypeVar("Answer")
 MAX_WORDS = 400  # characters of a submission in one line
 NAMES = 10  # columns up to the words of *Got* and the like
 
@@ -105,22 +101,6 @@ def plural(number: int, noun: str) -> str:
 def digits(value: float) -> str:
     """Six digits, without the noise that rounding leaves around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
-
-
-def told_apart(
-    say: Callable[[Answer, int], str], right: Answer, got: Answer, digits: int = 3
-) -> tuple[str, str]:
-    """What was expected and what came, with so many digits, or as many as it takes to differ."""
-    told = say(right, digits), say(got, digits)
-    if told[0] == told[1] and digits < MAX_DIGITS:
-        return told_apart(say, right, got, digits + 1)
-    return told
-
-
-def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
-    """So many decimals that *Expected* and *Got* look different: `least`, or up to 15."""
-    off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
-    return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least
 
 
 def about(value: float) -> str:

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import any_velocities, circles, discs_near_boxes, pairs, surfaces
+from grader.checks.telling import told_apart
 from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
-from grader.words import told_apart
 
 BOX = Rect(0, 0, 40, 20)
 MOVING = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
@@ -22,10 +22,18 @@ Fields = dict[str, Any]
 def pair(
     lab: Lab, disc: Disc, rect: Rect, circle: Fields | None = None, box: Fields | None = None
 ) -> tuple[Thing, Thing]:
-    """A circle and a box, each with further fields."""
+    """A circle and a box, each with further fields, for the experiment that begins here."""
+    lab.ran(asked(disc, rect))
     return (
         lab.circle((disc.x, disc.y), disc.r, **(circle or {})),
         lab.box((rect.x, rect.y), (rect.hx, rect.hy), **(box or {})),
+    )
+
+
+def asked(disc: Disc, rect: Rect) -> str:
+    return (
+        f"circle_box of a circle r {disc.r:g} at ({disc.x:g}, {disc.y:g}) and a box with half "
+        f"extents ({rect.hx:g}, {rect.hy:g}) at ({rect.x:g}, {rect.y:g})"
     )
 
 
@@ -33,10 +41,8 @@ def touch(
     lab: Lab, circle: Thing, box: Thing, disc: Disc, rect: Rect, twice: bool = True
 ) -> Touch | None:
     """What the submission's circle_box says of these two, where disc and rect say they are."""
-    lab.ran(
-        f"circle_box of a circle r {disc.r:g} at ({disc.x:g}, {disc.y:g}) and a box with half "
-        f"extents ({rect.hx:g}, {rect.hy:g}) at ({rect.x:g}, {rect.y:g})"
-    )
+    if lab.running != asked(disc, rect):
+        lab.ran(asked(disc, rect))  # the two are elsewhere now
     try:
         contact = lab.contact_or_none(
             lab.call("circle_box", circle, box, changes=NOTHING, twice=twice)
@@ -75,11 +81,10 @@ def want_new(lab: Lab, contact: ContactValue, circle: Thing, box: Thing) -> None
 def say(answer: Touch | None, digits: int = 3) -> str:
     if answer is None:
         return "None"
-    normal, point = (
-        f"({x:.{each}f}, {y:.{each}f})"
-        for x, y, each in ((*answer[:2], digits), (*answer[3:], digits - 1))
-    )
-    return f"normal {normal}, depth {answer.depth:.{digits}f} px, point {point}"
+    nx, ny, depth, px, py = answer  # plain numbers, where the answer was recorded
+    normal = f"({nx:.{digits}f}, {ny:.{digits}f})"
+    point = f"({px:.{digits - 1}f}, {py:.{digits - 1}f})"
+    return f"normal {normal}, depth {depth:.{digits}f} px, point {point}"
 
 
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
@@ -89,11 +94,10 @@ def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = ""
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], **circle: Any) -> None:
-    """The right answers about these discs and the one box."""
-    box = lab.box((BOX.x, BOX.y), (BOX.hx, BOX.hy))
+    """The right answers about these discs and the box."""
     for disc in discs:
-        each = lab.circle((disc.x, disc.y), disc.r, **circle)
-        want(lab, touch(lab, each, box, disc, BOX), exact.circle_box(disc, BOX))
+        things = pair(lab, disc, BOX, circle)
+        want(lab, touch(lab, *things, disc, BOX), exact.circle_box(disc, BOX))
 
 
 def same(answer: Touch | None, right: Touch | None) -> bool:

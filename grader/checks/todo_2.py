@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Lever, cross
 from grader.checks.strategies import directions, levers, motions, static_levers
+from grader.checks.telling import told_apart
 from grader.judge.lab import NOTHING, Lab, Pair, Thing
 from grader.protocol import BodyValue
-from grader.words import told_apart
 
 FLOOR = Lever(0.0, 100.0, 30.0, -100.0)
 DOWN = (0.0, 1.0)

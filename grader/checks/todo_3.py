@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, rods
+from grader.checks.telling import told_apart
 from grader.judge.lab import STEP, Broke, Lab, Pair, Thing
 from grader.protocol import BodyValue
-from grader.words import told_apart
 
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 

@@ -23,9 +23,9 @@ from grader.checks.strategies import (
     units,
     wide_velocities,
 )
+from grader.checks.telling import decimals_to_tell
 from grader.judge.lab import STEP, Frame, Lab, Pair, Thing
 from grader.protocol import BodyValue
-from grader.words import decimals_to_tell
 
 ASLANT, NEARLY_UPRIGHT = (0.6, 0.8), (200 / 10001, 9999 / 10001)
 STILL = (0.0, 0.0)

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.strategies import any_speeds, damped_steps, pulls, rates, wide_velocities
+from grader.checks.telling import decimals_to_tell
 from grader.judge.lab import Frame, Lab, Moment, Pair
 from grader.protocol import BodyValue
-from grader.words import decimals_to_tell
 
 SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
 Shares = tuple[float, float]  # of speed and spin

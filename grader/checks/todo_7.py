@@ -11,9 +11,9 @@ from hypothesis import given
 
 from grader.checks import exact
 from grader.checks.strategies import coordinates, seeds
+from grader.checks.telling import decimals_to_tell
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
-from grader.words import decimals_to_tell
 
 GRAVITY = (0.0, 980.0)  # px/s²
 PIVOT, BOB = (700.0, 90.0), (840.0, 90.0)  # px

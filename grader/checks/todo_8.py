@@ -10,8 +10,8 @@ from hypothesis import given
 from grader.checks import exact
 from grader.checks.exact import Accel, State
 from grader.checks.strategies import forces, near_and_far, states, time_steps
+from grader.checks.telling import told_apart
 from grader.judge.lab import Lab
-from grader.words import told_apart
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
 SPRING = (0.0, -(OMEGA**2))

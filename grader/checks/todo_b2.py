@@ -6,9 +6,9 @@ from itertools import pairwise
 
 from grader.checks import exact
 from grader.checks.exact import Rod, Spring
+from grader.checks.telling import told_apart
 from grader.checks.todo_3 import FAST, SLOW, STILL, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
-from grader.words import told_apart
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 PLACE = (64.0, -32.0)  # px, where A is

@@ -6,8 +6,8 @@ from itertools import pairwise
 from grader.checks import exact
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
+from grader.checks.telling import told_apart
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
-from grader.words import told_apart
 
 CLOSE = 1e-6  # px or rad
 STEPS = (  # where a body was before a step, x, y and angle, where it is now, and how long in s

@@ -7,6 +7,8 @@ from functools import lru_cache
 from pathlib import Path
 from types import CodeType
 
+import msgspec
+
 from grader.judge.definitions import Program
 from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import (
@@ -51,7 +53,7 @@ class Reference:
         """
         others = [other for other in rubric.todos if other.id != todo.id and other.module == module]
         return [
-            self.pieces[other.id]
+            msgspec.structs.replace(self.pieces[other.id], asked=todo.function)
             for other in others
             if other.id in self.pieces
             and (submission.begun[other.id] if other.bonus else bool(todo.function))

@@ -28,8 +28,10 @@ from grader.maintain.cut import asked_of, pruned, with_bodies
 NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
 HELPERS = (
     "lab_scene",
+    "lesson_rules",
     "pacing",
     "strategies",
+    "telling",
     "exact",
 )  # of the checks; each uses only those after it
 Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all

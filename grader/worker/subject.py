@@ -116,7 +116,7 @@ class Subject:
         """
         try:
             original = plain_function(self.find(piece.target))
-            if original is None:
+            if original is None or self._is_asked(piece, original):
                 return False
             wanted = fitted(self._build(piece, original), piece.parameters, original)
         except (ContractError, KeyError, ImportError):
@@ -125,6 +125,13 @@ class Subject:
             return False
         put_in_place(original, wanted)
         return True
+
+    def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
+        """Whether one function of the submission is both: the other TODO's, and the one asked."""
+        try:
+            return bool(piece.asked) and plain_function(self.find(piece.asked)) is original
+        except ContractError:
+            return False
 
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
         """The reference's function, compiled to use the submission's classes and functions."""

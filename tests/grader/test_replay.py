@@ -325,7 +325,7 @@ def test_scripts_are_short(pages: Path):
         own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
         assert 0 < len(own) <= 24, path
         if path.name.startswith(("1-", "7b-", "8b-")):
-            assert len(own) <= 12, path
+            assert len(own) <= 13, path  # a mirrored pair is two scenes, and a used contact between
 
 
 def test_a_force_is_worked_out_as_the_judge_does():

@@ -225,14 +225,26 @@ def test_a_file_that_was_away_for_a_moment_is_no_reason_to_forget_the_rest(
 
 def test_files_that_come_go_and_move(open_session):
     session = open_session("solution")
-    moved = session.folder / "mini_engine" / "impulses.py"
-    (session.folder / SOLVER).rename(moved)
+    moved = session.folder / "methods.py"
+    (session.folder / INTEGRATORS).rename(moved)
     out = session.look()
-    assert "saved: mini_engine/impulses.py, mini_engine/solver.py" in out
-    assert "No module named 'mini_engine.solver'" in out
+    assert "saved: integrators.py, methods.py" in out
+    assert "TODO 8a: 2 → 0 of 2, in all 10 → 8 of 10" in out
     assert session.is_up_to_date()
-    moved.rename(session.folder / SOLVER)
-    assert "in all 2 → " in session.look()
+    moved.rename(session.folder / INTEGRATORS)
+    assert "in all 8 → " in session.look()
+    assert session.watch.result.points == 10 and session.is_up_to_date()
+
+
+def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
+    session = open_session("solution")
+    (session.folder / SOLVER).unlink()  # of no TODO that is asked about
+    assert session.look() == "saved: mini_engine/solver.py\nnothing new: 10 of 10 points\n"
+    assert session.is_up_to_date()
+    (session.folder / WORLD).rename(session.folder / "mini_engine" / "worlds.py")
+    assert "TODO 5: 8 → 0 of 8" in session.look() and session.is_up_to_date()
+    (session.folder / "mini_engine" / "worlds.py").rename(session.folder / WORLD)
+    assert "TODO 5: 0 → 8 of 8" in session.look()
     assert session.watch.result.points == 10 and session.is_up_to_date()
 
 

@@ -1,0 +1,24 @@
+"""*Expected* and *Got* in so many digits that they look different."""
+
+import math
+from collections.abc import Callable, Iterable
+from typing import TypeVar
+
+MAX_DIGITS = 17  # what a float has
+Answer = TypeVar("Answer")
+
+
+def told_apart(
+    say: Callable[[Answer, int], str], right: Answer, got: Answer, digits: int = 3
+) -> tuple[str, str]:
+    """What was expected and what came, with so many digits, or as many as it takes to differ."""
+    told = say(right, digits), say(got, digits)
+    if told[0] == told[1] and digits < MAX_DIGITS:
+        return told_apart(say, right, got, digits + 1)
+    return told
+
+
+def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
+    """So many decimals that *Expected* and *Got* look different: `least`, or up to 15."""
+    off = max((abs(a - b) for a, b in zip(wanted, got, strict=True)), default=1.0)
+    return min(15, max(least, math.ceil(-math.log10(off)))) if 0 < off < math.inf else least
