@@ -39,6 +39,8 @@ from grader.maintain.operators import OPERATORS, changes
 from grader.maintain.slips import SLIPS, Scale, Scope, scopes, slipped
 from grader.todo_regions import replaced
 from mini_engine import game_loop, scenes
+from mini_engine.bonus import window
+from mini_engine.bonus.world import with_bonus
 
 SNIPPETS = {
     "other_arithmetic": ("s = u + w * r ** n", {"s = u - w * r ** n", "s = u + w / r ** n"}),
@@ -252,8 +254,8 @@ def function_of(program: str, path: str) -> FunctionType:
 
 def engine_scene() -> None:
     """The lab scene with a spring, sleep and the grid; the balls soon lie on something."""
-    world = scenes.make_world(random.Random(12))
-    scenes.add_spring(world)
+    world = with_bonus(scenes.make_world(random.Random(12)))
+    window.add_spring(world)
     world.grid = world.sleeping = True
     for body in world.bodies[-9:]:
         body.pos.y += 150
@@ -263,8 +265,8 @@ def engine_scene() -> None:
     for _ in range(25):
         world.step(1 / 120)
     for body in world.bodies:
-        game_loop.between(body, 0.5)
-    game_loop.heaviness()
+        window.between(body, 0.5)
+    window.heaviness()
 
 
 def pymunk_scene_moves() -> None:

@@ -29,8 +29,8 @@ def main():
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
-    with opened(tmp_path) as children, Lab("program", lambda: children(5), []).opened() as lab:
+    (tmp_path / "pymunk_scene.py").write_text(PROGRAM, encoding="utf-8")
+    with opened(tmp_path) as children, Lab("pymunk_scene", lambda: children(5), []).opened() as lab:
         yield lab
 
 

@@ -139,8 +139,9 @@ def test_the_environment_tells_nothing(ask: Asker, monkeypatch: pytest.MonkeyPat
     assert "SECRET_TOKEN" not in names and "PYTHONPATH" not in names and "USER" not in names
 
 
-def test_it_works_in_an_empty_folder(ask: Asker, tmp_path: Path):
-    assert ask("folder") == f"{tmp_path / 'scratch'} "
+def test_it_works_in_a_copy_of_the_submission_in_an_empty_folder(ask: Asker, tmp_path: Path):
+    assert ask("folder") == f"{tmp_path / 'scratch' / 'submission'} hostile.py"
+    assert ask("listing", "..") == "1"
 
 
 def test_leaving_with_status_0_is_no_answer(ask: Asker):
