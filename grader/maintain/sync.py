@@ -11,7 +11,7 @@ from pathlib import Path
 
 from grader.judge.definitions import function_named, source_of, statements
 from grader.judge.rubric import CHECKS, load_rubric
-from grader.todo_regions import python_files, regions_in, replaced
+from grader.todo_regions import regions_in, replaced
 
 LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
 SKIPPED = {
@@ -50,7 +50,8 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
             lines.append(f"removed {name} from the starter" if write else differs)
             if write:
                 (starter / name).unlink()
-    for name, sources in (("stubs", stub_sources(starter)), ("given", given_sources(starter))):
+    texts = {name: content.decode() for name, content in wanted.items() if name.endswith(".py")}
+    for name, sources in (("stubs", stub_sources(texts)), ("given", given_sources(texts))):
         text = json.dumps(sources, indent=1) + "\n"
         if renewed(CHECKS / f"{name}.json", text.encode(), write):
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
@@ -102,12 +103,11 @@ def wanted_text(source: Path, target: Path) -> bytes:
     return replaced(text, stubs).encode()
 
 
-def stub_sources(starter: Path) -> dict[str, str]:
+def stub_sources(starter: dict[str, str]) -> dict[str, str]:
     """What the starter holds for each TODO: its region, and the whole function around it."""
     stubs = {}
     functions = {todo.function.partition(":")[2]: todo.id for todo in load_rubric().todos}
-    for path in python_files(starter):
-        text = path.read_text(encoding="utf-8")
+    for text in starter.values():
         body, ids = statements(text), set()
         for region in regions_in(text):
             stubs[region.id] = "\n".join(region.lines)
@@ -119,15 +119,11 @@ def stub_sources(starter: Path) -> dict[str, str]:
     return dict(sorted(stubs.items()))
 
 
-def given_sources(starter: Path) -> dict[str, str]:
+def given_sources(starter: dict[str, str]) -> dict[str, str]:
     """What a submission may lack, to be supplied: the packages' files, and modules without TODO."""
-    texts = {
-        path.relative_to(starter).as_posix(): path.read_text(encoding="utf-8")
-        for path in python_files(starter)
-    }
     programs = {todo.module for todo in load_rubric().todos}
     return {
         name: text
-        for name, text in texts.items()
+        for name, text in starter.items()
         if name.partition("/")[0] in programs or ("/" not in name and not regions_in(text))
     }

@@ -173,9 +173,10 @@ def test_a_change_to_a_solution_inside_a_region_is_no_drift(copies):
 
 def test_a_changed_stub_is_made_known_to_the_checks(copies):
     edit(copies[1] / "mini_engine/world.py", "keep_vel = 0.99", "keep_vel = 0.98")
-    differs = "the stubs that the checks know are not the starter's"
-    assert sync(*copies, write=False) == [differs]
-    assert sync(*copies, write=True) == ["made the starter's stubs known to the checks"]
+    kept = ("stubs.json", "given.json")
+    differs = "{}, by which the checks know the starter, is not up to date"
+    assert sync(*copies, write=False) == [differs.format(name) for name in kept]
+    assert sync(*copies, write=True) == [f"renewed {name} for the checks" for name in kept]
     assert sync(*copies, write=False) == []
 
 
