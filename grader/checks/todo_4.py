@@ -239,7 +239,7 @@ def sliding(discs: Discs, passes: list[Rubbing]) -> list[Rubbing]:
 
 
 def sliding_friction_does_not_ask_how_fast(lab: Lab) -> None:
-    """Sliding friction acts against the slip, as much at any speed, more where bodies press more"""
+    """Sliding friction acts against the slip: the same at any speed, more with more jn"""
     for discs in (ON_A_FLOOR, UNDER_A_CEILING, IN_THE_AIR):
         passes = [Rubbing(20.0, s) for s in (300.0, 3000.0, -300.0)] + [Rubbing(40.0, 3000.0)]
         answer = [rub(lab, discs, [each])[0] for each in passes]

@@ -274,7 +274,7 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
 
 
 def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
-    """The bob is as it was given: 6 kg, a disc of 24 px, at rest, in a space with usual settings"""
+    """The bob is as given: a disc of 24 px and 6 kg, at rest, in a usual space"""
     lab.ran("make_space(random.Random(12)), and looked at the bob")
     space = scene(lab)
     found = [each for each in space.bodies if each.kind == "dynamic" and of_bob(each)]

@@ -177,12 +177,24 @@ def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
 def test_one_finished_todo_earns_its_own_points(
     tmp_path: Path, reference: Path | None, todos: list[str]
 ):
-    """Each TODO of the solution, put alone into the starter, earns all of its points."""
+    """Each TODO of the solution, put alone into the starter, earns all of its points.
+
+    In the whole it earns what needs no other TODO, and nothing in any other TODO.
+    """
     for todo in todos:
         folder = mixed(tmp_path / f"only-{todo}", "starter", "solution", {todo})
         result = graded(folder, Options(reference))
-        assert {each.id for each in result.todos if each.points} == {todo}
+        assert {each.id for each in result.todos if each.points} - {"whole"} == {todo}
         assert state(result, todo) == "passed"
+        (whole,) = [each for each in result.todos if each.id == "whole"]
+        assert {check.id for check in whole.checks if check.points} == earned_in_the_whole(todo)
+
+
+def earned_in_the_whole(todo: str) -> set[str]:
+    """The checks of the whole that need this TODO at most; guards alone earn nothing."""
+    (whole,) = [each for each in load_rubric().todos if each.id == "whole"]
+    free = [check for check in whole.checks if set(check.needs) <= {todo}]
+    return set() if all(check.guard for check in free) else {check.id for check in free}
 
 
 @pytest.mark.parametrize("todos", ["36", pytest.param("1245", marks=SOAK)])
