@@ -1,6 +1,7 @@
 """*Expected* and *Got* in so many digits that they look different."""
 
 import math
+import re
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
@@ -12,10 +13,15 @@ def told_apart(
     say: Callable[[Answer, int], str], right: Answer, got: Answer, digits: int = 3
 ) -> tuple[str, str]:
     """What was expected and what came, with so many digits, or as many as it takes to differ."""
-    told = say(right, digits), say(got, digits)
+    told = without_minus_zero(say(right, digits)), without_minus_zero(say(got, digits))
     if told[0] == told[1] and digits < MAX_DIGITS:
         return told_apart(say, right, got, digits + 1)
     return told
+
+
+def without_minus_zero(text: str) -> str:
+    """A number that is 0 in the digits shown has no sign: -0.000 differs from 0.000 to nobody."""
+    return re.sub(r"-(?=0(\.0+)?(?![\d.]))", "", text)
 
 
 def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:
