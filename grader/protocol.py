@@ -173,6 +173,7 @@ class Call(Struct, frozen=True, tag="call"):
     framed: bool = False  # tell what it changed of what is around it
     twice: bool = False  # ask again at once: an answer may hang on nothing but the arguments
     stepping: bool = False  # count the steps of the world that it is given; none of them is run
+    states: list[int] = []  # the objects whose state afterwards comes with the answer
 
 
 class Get(Struct, frozen=True, tag="get"):
@@ -288,6 +289,7 @@ class Returned(Struct, frozen=True, tag="returned"):
     again: Value = None  # the second answer, where two were asked for
     steps: int = 0  # of worlds, where they were to be counted
     dts: list[float] = []  # their different sizes
+    states: list[Value] = []  # of the objects that were asked about; None where one cannot be told
 
 
 class CodeLine(Struct, frozen=True):
@@ -402,6 +404,7 @@ class Filmed(Struct, frozen=True, tag="filmed"):
 class Asked(Struct, frozen=True):
     number: int
     request: Request | Film
+    first: list[Set] = []  # to be set before it; what fails there is the answer
 
 
 class Answered(Struct, frozen=True):
@@ -509,8 +512,11 @@ class Channel:
         return body
 
     def wait(self, seconds: float) -> bool:
-        """Whether something is there to be read, at the latest after so many seconds."""
-        return bool(self.ahead or select.select([self.sock], [], [], seconds)[0])
+        """Whether something is there to be read, at the latest after so many seconds.
+
+        For eager channels only: what is there is taken in at once.
+        """
+        return bool(self.ahead) or self._take(1 << 16, seconds)
 
     def close(self) -> None:
         self.sock.close()
@@ -518,15 +524,21 @@ class Channel:
     def _read(self, count: int, deadline: float | None) -> None:
         """Read on until so many bytes are there."""
         while len(self.ahead) < count:
-            if deadline is not None and not self._ready(deadline - time.monotonic()):
+            seconds = None if deadline is None else deadline - time.monotonic()
+            if seconds is not None and seconds <= 0:
                 raise ChannelTimeout
-            try:
-                chunk = self.sock.recv(1 << 16 if self.eager else count - len(self.ahead))
-            except OSError as error:
-                raise ChannelClosed(str(error)) from error
-            if not chunk:
-                raise ChannelClosed("end of stream")
-            self.ahead += chunk
+            if not self._take(1 << 16 if self.eager else count - len(self.ahead), seconds):
+                raise ChannelTimeout
 
-    def _ready(self, seconds: float) -> bool:
-        return seconds > 0 and bool(select.select([self.sock], [], [], seconds)[0])
+    def _take(self, most: int, seconds: float | None) -> bool:
+        """Take in what is there; whether anything came within so many seconds."""
+        if seconds is not None and not select.select([self.sock], [], [], seconds)[0]:
+            return False
+        try:
+            chunk = self.sock.recv(most)
+        except OSError as error:
+            raise ChannelClosed(str(error)) from error
+        if not chunk:
+            raise ChannelClosed("end of stream")
+        self.ahead += chunk
+        return True

@@ -1,7 +1,7 @@
 """TODO 3: DistanceJoint.solve, the rod between two bodies."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -44,7 +44,7 @@ def tell_solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> tuple[Bo
     """
     may = {end: "vel" for end, mass in ((a, rod.mass_a), (b, rod.mass_b)) if mass}
     try:
-        lab.tell(joint, "solve", changes=may)
+        lab.tell(joint, "solve", changes=may, sees=(a, b))
     except Broke as failure:
         if failure.raised is not None:
             lab.saw("rod", (rod,), failure.raised.error)
@@ -218,10 +218,10 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
     lab.want(left == (rod.vel_a, rod.vel_b), *told_apart(say_both, (rod.vel_a, rod.vel_b), left))
 
 
-def step(lab: Lab, joint: Thing, bodies: Iterable[Thing], gravity: float = 0.0) -> list[Pair]:
+def step(lab: Lab, joint: Thing, bodies: Sequence[Thing], gravity: float = 0.0) -> list[Pair]:
     """One step of bodies on a rod, all but the rod by hand; returns where they are then."""
     lab.tell(joint, "prepare", STEP)
-    lab.tell(joint, "solve")
+    lab.tell(joint, "solve", sees=bodies)
     places = []
     for body in bodies:
         state = lab.state(body)

@@ -139,7 +139,8 @@ def one_pass(
         lab.put(a, vel=(first.ax, first.ay), omega=first.a_spin)
     if discs.mass[1]:
         lab.put(b, vel=(first.bx, first.by), omega=first.b_spin)
-    lab.tell(world, "solve_contact", contact, dt, changes=changes if framed else None)
+    looked_at = changes if framed else None
+    lab.tell(world, "solve_contact", contact, dt, changes=looked_at, sees=(a, b))
     last = motion(lab.state(a), lab.state(b))
     rubbing = rubbed(discs, first, last)
     right = after(discs, first, each.pressed(discs.k) - each.jn, rubbing)
@@ -362,7 +363,7 @@ def no_contact_pulls_or_creates_energy(
     lab.put(a, vel=vel_a)
     lab.put(b, vel=vel_b)
     before = lab.state(a), lab.state(b)
-    lab.tell(world, "solve_contact", contact, STEP, changes=changes)
+    lab.tell(world, "solve_contact", contact, STEP, changes=changes, sees=(a, b))
     after = lab.state(a), lab.state(b)
     pressed, rubbed = (lab.number(lab.get(contact, name), name) for name in ("jn", "jt"))
     lab.want(
@@ -415,7 +416,7 @@ def a_sliding_block_stops_when_friction_has_eaten_its_speed(lab: Lab) -> None:
     for number in range(1, 46):
         lab.put(contact, jn=0.0, jt=0.0)
         lab.put(block, vel=(speed, -980.0 * STEP))
-        lab.tell(world, "solve_contact", contact, STEP)
+        lab.tell(world, "solve_contact", contact, STEP, sees=(block,))
         speed, right = lab.state(block).vel.x, max(150.0 - 0.5 * 980.0 * STEP * number, 0.0)
         lab.want(
             math.isclose(speed, right, rel_tol=1e-9, abs_tol=1e-9),

@@ -18,6 +18,7 @@ from grader.protocol import (
     NOT_A_MESSAGE,
     Answered,
     Asked,
+    Call,
     Channel,
     ChannelClosed,
     ChannelTimeout,
@@ -25,10 +26,14 @@ from grader.protocol import (
     End,
     Ended,
     Film,
+    Get,
     Open,
     ProtocolError,
     Ready,
     Request,
+    Returned,
+    Set,
+    Value,
 )
 
 START_SECONDS = 60.0  # to start a child on the slowest machine
@@ -59,6 +64,8 @@ class Child:
         self.wall_seconds = cpu_seconds * WALL_FACTOR + WALL_EXTRA
         self.cpu_seconds = cpu_seconds
         self.asked = 0
+        self.first: list[Set] = []  # to be set before the next request
+        self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
         self.over = ""
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
@@ -66,14 +73,37 @@ class Child:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Film) -> Answered:
-        """The one answer to this request, or ChildEnded: anything else ends the child for good."""
+        """The one answer to this request, or ChildEnded: anything else ends the child for good.
+
+        A message costs more than what is done for most requests. So what is set waits for the next
+        request and goes with it, and a state that came with the last answer is not asked for again.
+        """
         if self.over:
             raise ChildEnded(self.over)
+        match request:
+            case Set():
+                self.first.append(request)
+                self.seen = {}
+                return Answered(self.asked, Returned(None))
+            case Get(ref, "" | "jn" | "jt" as name) if ref in self.seen:
+                state = self.seen[ref]
+                return Answered(self.asked, Returned(getattr(state, name, None) if name else state))
+        answered = self._ask(request)
+        match request, answered.reply:
+            case Call(), Returned():
+                states = zip(request.states, answered.reply.states, strict=False)
+                self.seen = {ref: state for ref, state in states if state is not None}
+            case _:
+                self.seen = {}
+        return answered
+
+    def _ask(self, request: Request | Film) -> Answered:
         try:
             if self.channel.wait(0):
                 raise ProtocolError("an answer came before its question")
             self.asked += 1
-            self.channel.send(Asked(self.asked, request))
+            first, self.first = self.first, []
+            self.channel.send(Asked(self.asked, request, first))
             answered = answer_decoder.decode(self._receive())
             if answered.number != self.asked:
                 raise ProtocolError("an answer to another question")

@@ -5,7 +5,7 @@ strictly typed and finite, or the check fails with a sentence that says what was
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
@@ -104,24 +104,35 @@ class Lab(Decoder):
         *args: Any,
         changes: Frame | None = None,
         twice: bool = False,
+        sees: Iterable[Thing] = (),
         **kwargs: Any,
     ) -> Value:
         """Call `name` of the TODO's module, or `module:name`.
 
         `changes` says all that the call may change: the fields of each thing, as in {a: "vel"}, and
         NOTHING for a function that only answers. Without it nobody looks. A function that is asked
-        `twice` must give the same answer to the same question. See `overstepped`.
+        `twice` must give the same answer to the same question. See `overstepped`. The state of what
+        it may change comes with the answer, and of what the check `sees` besides.
         """
         target = name if ":" in name else f"{self.module}:{name}"
         named = {key: plain(value) for key, value in kwargs.items()}
-        framed = changes is not None
-        request = Call(target, [plain(each) for each in args], named, framed=framed, twice=twice)
+        values = [plain(each) for each in args]
+        framed, states = changes is not None, refs(changes or (), sees)
+        request = Call(target, values, named, framed=framed, twice=twice, states=states)
         return self._framed(name, request, changes).value
 
-    def tell(self, thing: Thing, method: str, *args: Any, changes: Frame | None = None) -> Value:
-        """Call a method of an object that lives in the child; `changes` as in `call`."""
-        target, framed = f"#{thing.ref}.{method}", changes is not None
-        request = Call(target, [plain(each) for each in args], framed=framed)
+    def tell(
+        self,
+        thing: Thing,
+        method: str,
+        *args: Any,
+        changes: Frame | None = None,
+        sees: Iterable[Thing] = (),
+    ) -> Value:
+        """Call a method of an object that lives in the child; the rest as in `call`."""
+        target, values = f"#{thing.ref}.{method}", [plain(each) for each in args]
+        framed, states = changes is not None, refs(changes or (), sees)
+        request = Call(target, values, framed=framed, states=states)
         return self._framed(method, request, changes).value
 
     def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
@@ -383,6 +394,10 @@ def same(first: Value, second: Value) -> bool:
 
 
 FIELDS = {"pos": "place", "vel": "velocity", "omega": "spin", "inv_mass": "mass"}
+
+
+def refs(*groups: Iterable[Thing]) -> list[int]:
+    return list(dict.fromkeys(thing.ref for group in groups for thing in group))
 
 
 def in_words(fields: str) -> str:

@@ -8,7 +8,8 @@ import contextlib
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -65,12 +66,14 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
     channel.send(Ready(os.getpid(), confine(setup)))
-    folder = own_copy(Path(setup.submission), Path(setup.scratch))
+    files = files_of(setup.submission)
+    folder = Path(setup.scratch, Path(setup.submission).name)
+    own_copy(files, str(folder))
     os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
     output.install()
     clock.install()
-    ImportRule(folder).install()
+    ImportRule(files).install()
     subject = Subject(folder)
     camera = Camera(subject)
     while True:
@@ -80,23 +83,25 @@ def serve(channel: Channel, setup: ChildSetup) -> None:
             return
         reply: Reply | Filmed
         match asked.request:
-            case Film() as film:
+            case Film(request) as film:
                 camera.start(film)
-                reply = camera.finish(attempt(subject, clock, output, camera, film.request))
+                requests = [*asked.first, request]
+                reply = camera.finish(attempt(subject, clock, output, camera, requests))
             case request:
-                reply = attempt(subject, clock, output, camera, request)
+                requests = [*asked.first, request]
+                reply = attempt(subject, clock, output, camera, requests)
         send(channel, Answered(asked.number, reply, output.take()))
 
 
 def attempt(
-    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
+    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, requests: list[Request]
 ) -> Reply:
-    """The answer, or what came instead of one.
+    """The answer to the last of these requests, or what came instead of one.
 
     BaseException, because a submission may call sys.exit() or raise KeyboardInterrupt anywhere.
     """
     try:
-        return answer(subject, clock, output, camera, request)
+        return [answer(subject, clock, output, camera, request) for request in requests][-1]
     except ContractError as error:
         return Missing(str(error))
     except BaseException as error:
@@ -159,7 +164,8 @@ def call(subject: Subject, request: Call) -> Returned:
                 again = subject.encode(function(*args, **kwargs))
                 returned = msgspec.structs.replace(returned, again=again)
         changed = frame.changes() if frame else []
-        return msgspec.structs.replace(returned, changed=changed)
+        states = [subject.state(ref) for ref in request.states]
+        return msgspec.structs.replace(returned, changed=changed, states=states)
     with LineCounter(subject.folder) as counter:
         result = function(*args, **kwargs)
         if isinstance(result, Iterator):  # a generator has done nothing yet
@@ -204,22 +210,26 @@ class LineCounter:
 Trace = Callable[[FrameType, str, object], Any]
 
 
-def own_copy(submission: Path, scratch: Path) -> Path:
+@lru_cache(maxsize=1)
+def files_of(submission: str) -> dict[str, bytes]:
+    """What is in the files of a submission, by their paths: read once, before the forks."""
+    root = Path(submission)
+    files = (path for path in sorted(root.rglob("*")) if path.is_file())
+    return {path.relative_to(root).as_posix(): path.read_bytes() for path in files}
+
+
+def own_copy(files: Mapping[str, bytes], folder: str) -> None:
     """The submission once more, for this child alone: it may write there, and it ends with it.
 
-    Files keep their times, by which Python knows whether what it compiled before is still good.
+    All files are of one time, by which Python knows that what it compiled before is still good.
     """
-    copy = scratch / submission.name
-    for folder, _, names in os.walk(submission):
-        here = copy / Path(folder).relative_to(submission)
-        here.mkdir()
-        for name in names:
-            source, target = Path(folder, name), here / name
-            with contextlib.suppress(OSError):  # larger than a child's files may be: to be missed
-                target.write_bytes(source.read_bytes())
-                times = source.stat()
-                os.utime(target, ns=(times.st_atime_ns, times.st_mtime_ns))
-    return copy
+    for inside in sorted({os.path.dirname(path) for path in files}):
+        os.makedirs(os.path.join(folder, inside), exist_ok=True)
+    for path, data in files.items():
+        target = os.path.join(folder, path)
+        with contextlib.suppress(OSError), open(target, "wb", buffering=0) as file:
+            file.write(data)  # what is larger than a child's files may be is missed
+            os.utime(target, (0, 0))
 
 
 def tidy_environment(scratch: str) -> None:

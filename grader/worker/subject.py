@@ -236,6 +236,13 @@ class Subject:
             return Items([self.encode(item) for item in thing[:MAX_ITEMS]])
         return Ref(self.ref(thing), type(thing).__name__)
 
+    def state(self, ref: int) -> Value:
+        """An object as a plain value; None where it cannot be told, which whoever asks will see."""
+        try:
+            return self.encode(self.objects[ref])
+        except Exception:
+            return None
+
     def body(self, body: Any) -> BodyValue:
         """A body of the lesson's engine, as numbers."""
         radius = getattr(getattr(body, "shape", None), "radius", 0.0)

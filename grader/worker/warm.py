@@ -20,7 +20,7 @@ import pygame
 import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
-from grader.worker.child import serve, tidy_environment
+from grader.worker.child import files_of, serve, tidy_environment
 from grader.worker.confinement import isolate_server, readable_paths
 
 decoder = msgspec.msgpack.Decoder(Open | End)
@@ -66,6 +66,7 @@ def fork(control: Channel, setup: ChildSetup) -> None:
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
     readable_paths(tuple(setup.hidden))  # listed once here, known in every child
+    files_of(setup.submission)
     for library in setup.loads:
         importlib.import_module(library)
     pid = os.fork()
