@@ -189,6 +189,7 @@ class Set(Struct, frozen=True, tag="set"):
 class MakeBody(Struct, frozen=True, tag="make_body"):
     """A lesson body in one go: its shape, the Body around it, then further fields."""
 
+    ref: int  # what it is to be called
     module: str
     shape: Literal["Circle", "Box"]
     size: float | Vec  # radius or half extents
@@ -204,6 +205,7 @@ class MakeWorld(Struct, frozen=True, tag="make_world"):
     `bonus`: the world that the bonus tasks attach to, where the submission has one of its own.
     """
 
+    ref: int  # what it is to be called
     module: str
     gravity: Vec
     linear_damping: float
@@ -258,6 +260,7 @@ class Play(Struct, frozen=True, tag="play"):
     pictures: bool = False  # False: next to nothing is drawn
 
 
+Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own
 Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
 
 
@@ -404,7 +407,7 @@ class Filmed(Struct, frozen=True, tag="filmed"):
 class Asked(Struct, frozen=True):
     number: int
     request: Request | Film
-    first: list[Set] = []  # to be set before it; what fails there is the answer
+    first: list[Setup] = []  # to be done before it; what fails there is the answer
 
 
 class Answered(Struct, frozen=True):

@@ -25,9 +25,9 @@ def frames_at(rate: int, seconds: float) -> list[int]:
     return [end - begin for begin, end in pairwise(ends)]
 
 
-def ever_longer_frames(shortest: int) -> list[int]:
-    """Frames of all lengths below the cap, 10 of each: a length that is taken for another shows."""
-    return [length for length in range(shortest, 59, 2) for _ in range(10)]
+def ever_longer_frames() -> list[int]:
+    """Frames of all lengths below the cap, 6 of each: a length that is taken for another shows."""
+    return [length for length in range(1, 59) for _ in range(6)]
 
 
 @dataclass

@@ -41,9 +41,9 @@ seeds = st.integers(0, 999)  # of a random.Random
 # From long ones, by which integrators are told apart, to short ones that are no round numbers.
 time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
 
-# For properties that play a program: a play takes as long as hundreds of calls, so no shrinking.
-few = settings(
-    max_examples=2,
+# For a property that plays a program: a play takes as long as hundreds of calls, so no shrinking.
+once = settings(
+    max_examples=1,
     phases=[Phase.generate],
     deadline=None,
     database=None,
@@ -60,7 +60,6 @@ frame_lists = st.builds(
     st.integers(80, 2000),
     st.lists(frame_lengths, min_size=1, max_size=4),
 )
-shortest_frames = st.integers(1, 2)  # ms
 
 
 @st.composite

@@ -151,7 +151,8 @@ def the_impulse_that_ends_a_speed_is_speed_over_k(
         f"parting at {speed:g} px/s"
     )
     impulse = -speed / k * axis[0], -speed / k * axis[1]
-    lab.call("apply_impulse", first, second, impulse, (a.rx, a.ry), (b.rx, b.ry))
+    arms = (a.rx, a.ry), (b.rx, b.ry)
+    lab.call("apply_impulse", first, second, impulse, *arms, sees=(first, second))
     after = lab.state(first), lab.state(second)
     left = point_speed(after[1], b, axis) - point_speed(after[0], a, axis)
     most = max(
@@ -199,7 +200,8 @@ def slide(lab: Lab, ball: Lever, k: float) -> tuple[float, list[float]]:
     for _ in range(40):
         needed = -slips[-1] / k
         push = math.copysign(min(abs(needed), 3.5 * ball.mass), needed), 0.0
-        lab.call("apply_impulse", floor, moving, push, (FLOOR.rx, FLOOR.ry), (ball.rx, ball.ry))
+        arms = (FLOOR.rx, FLOOR.ry), (ball.rx, ball.ry)
+        lab.call("apply_impulse", floor, moving, push, *arms, sees=(moving,))
         state = lab.state(moving)
         speed = state.vel.x
         slips.append(speed - state.omega * ball.radius)

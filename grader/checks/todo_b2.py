@@ -39,7 +39,8 @@ def apply_once(lab: Lab, joint: Thing, ends: tuple[Thing, Thing], spring: Spring
     lab.put(a, vel=rod.vel_a)
     lab.put(b, pos=(PLACE[0] + rod.offset[0], PLACE[1] + rod.offset[1]), vel=rod.vel_b)
     # Who changes more than that loses the check of damped springs, and not all.
-    lab.tell(joint, "apply", rod.dt, changes={a: "vel", b: "vel"} if spring.damping else None)
+    changes = {a: "vel", b: "vel"} if spring.damping else None
+    lab.tell(joint, "apply", rod.dt, changes=changes, sees=(a, b))
     answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)

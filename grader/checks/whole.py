@@ -240,17 +240,17 @@ def want_all_inside(lab: Lab, played: Played) -> None:
 
 def frame_rates_do_not_change_the_motion(lab: Lab) -> None:
     """The same motion at 30, 60 and 144 frames a second, bit for bit"""
-    want_the_same_motion(lab, (30, 60, 144))
+    want_the_same_motion(lab, (30, 60, 144), 0.6)
 
 
-def want_the_same_motion(lab: Lab, rates: tuple[int, ...]) -> None:
-    trails = [run(lab, 0.6, rate, every=1).trail for rate in rates]
-    lab.ran(f"the program at {', '.join(map(str, rates))} frames a second, for 0.6 s")
+def want_the_same_motion(lab: Lab, rates: tuple[int, ...], seconds: float) -> None:
+    trails = [run(lab, seconds, rate, every=1).trail for rate in rates]
+    lab.ran(f"the program at {', '.join(map(str, rates))} frames a second, for {seconds:g} s")
     moving = trails[0] and trails[0][0] and trails[0][0] != trails[0][-1]
     lab.want(bool(moving), "bodies that move", "none that moves")
     parted = first_difference(trails)
     if parted is not None:
-        again = first_difference([trails[0], run(lab, 0.6, rates[0], every=1).trail])
+        again = first_difference([trails[0], run(lab, seconds, rates[0], every=1).trail])
         lab.fail(
             "the same positions and speeds after the same number of steps",
             f"they differ after step {parted + 1}",
@@ -361,7 +361,7 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
     )
     most = max(abs(ball.angle) for ball in balls)
     lab.want(most > 1.0, "balls that have rolled", f"none has turned by more than {most:.2f} rad")
-    want_the_same_motion(lab, (30, 144))
+    want_the_same_motion(lab, (30, 144), 0.4)
 
 
 def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
@@ -369,14 +369,14 @@ def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
     for level in (0, 3):
         want_a_free_box(lab, level)
     lab.ran("the pymunk program, with 8 balls dropped into the right edge of the top box")
-    clicks = [Event(40 + number, "click", (785, 430)) for number in range(8)]
-    knocked = lab.play(frames_at(20, 4.5), clicks)
-    want_a_proper_end(lab, knocked, 90)
+    clicks = [Event(20 + number, "click", (785, 430)) for number in range(8)]
+    knocked = lab.play(frames_at(20, 3.5), clicks)
+    want_a_proper_end(lab, knocked, 70)
     tipped = max(abs(box.angle) for box in boxes_of(knocked))
     lab.want(tipped >= TIPPED, "a box that tips over", f"none turned by more than {tipped:.2g} rad")
     lab.ran("the same, and R afterwards")
-    reset = lab.play(frames_at(20, 4.5), [*clicks, Event(80, "key", key="r")])
-    want_a_proper_end(lab, reset, 90)
+    reset = lab.play(frames_at(20, 3.5), [*clicks, Event(60, "key", key="r")])
+    want_a_proper_end(lab, reset, 70)
     before, after = (
         [line for line in played.lines if "stack" in line.lower()] for played in (knocked, reset)
     )

@@ -27,12 +27,15 @@ from grader.protocol import (
     Ended,
     Film,
     Get,
+    MakeBody,
+    MakeWorld,
     Open,
     ProtocolError,
     Ready,
     Request,
     Returned,
     Set,
+    Setup,
     Value,
 )
 
@@ -64,7 +67,7 @@ class Child:
         self.wall_seconds = cpu_seconds * WALL_FACTOR + WALL_EXTRA
         self.cpu_seconds = cpu_seconds
         self.asked = 0
-        self.first: list[Set] = []  # to be set before the next request
+        self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
         self.over = ""
         try:
@@ -75,13 +78,13 @@ class Child:
     def ask(self, request: Request | Film) -> Answered:
         """The one answer to this request, or ChildEnded: anything else ends the child for good.
 
-        A message costs more than what is done for most requests. So what is set waits for the next
-        request and goes with it, and a state that came with the last answer is not asked for again.
+        A message costs more than what is done for most requests. So what is set up waits for the
+        next request and goes with it, and a state that came with the last answer is not asked for.
         """
         if self.over:
             raise ChildEnded(self.over)
         match request:
-            case Set():
+            case Set() | MakeBody() | MakeWorld():
                 self.first.append(request)
                 self.seen = {}
                 return Answered(self.asked, Returned(None))

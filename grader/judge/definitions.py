@@ -33,6 +33,7 @@ class Program:
         for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
             self.paths.setdefault(dotted(path), path)  # a package hides a file of its name
         self.parsed: dict[str, list[ast.stmt]] = {}
+        self.imports: dict[str, list[str]] = {}  # the modules that each imports, as far as known
 
     def tree(self, module: str) -> list[ast.stmt]:
         """The statements of a module; none where it is no Python."""
@@ -61,7 +62,9 @@ class Program:
             name = waiting.pop()
             if name in self.paths and name not in seen:
                 seen.add(name)
-                waiting += self._imports(name)
+                if name not in self.imports:
+                    self.imports[name] = list(dict.fromkeys(self._imports(name)))
+                waiting += self.imports[name]
         return sorted(seen)
 
     def _imports(self, module: str) -> Iterator[str]:

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 from typing import Any, Literal, NamedTuple
 
 import msgspec
@@ -43,6 +44,7 @@ from grader.protocol import (
 STEP = 1 / 120  # s
 Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
 NOTHING: Frame = {}
+OURS = 1_000_000  # numbers of objects from here on are given by us, lower ones by the child
 MAX_OBSERVATIONS = 400  # a shrinking counterexample makes many; the first ones are enough
 
 
@@ -72,6 +74,7 @@ class Lab(Decoder):
         # The first time that something was changed which a call may not change. It fails a check
         # that would else pass: what an answer should have been is said first.
         self.overstepped: NotYet | None = None
+        self.numbers = count(OURS)  # for what is made at our word
         self.played = False  # whether the child has run a program
 
     @property
@@ -222,10 +225,17 @@ class Lab(Decoder):
             name: float(fields.pop(name)) for name in ("restitution", "friction") if name in fields
         }
         rest = {name: plain(value) for name, value in fields.items()}
-        request = MakeBody(self.module, shape, size, Vec(*pos), float(mass), surface, rest)
-        body = self.thing(self._value(request), "a Body")
-        self.names[body.ref] = f"the {shape.lower()} at ({pos[0]:g}, {pos[1]:g})"
-        return body
+        name, place = f"the {shape.lower()} at ({pos[0]:g}, {pos[1]:g})", Vec(*pos)
+        made = self._new(name)
+        request = MakeBody(made.ref, self.module, shape, size, place, float(mass), surface, rest)
+        self._value(request)
+        return made
+
+    def _new(self, name: str) -> Thing:
+        """Something that the child makes by the time it is asked for more."""
+        thing = Thing(next(self.numbers))
+        self.names[thing.ref] = name
+        return thing
 
     def state(self, body: Thing) -> BodyValue:
         """A body's numbers, all finite."""
@@ -244,7 +254,9 @@ class Lab(Decoder):
 
         `bonus`: the world of the bonus tasks. Older submissions have one World for everything.
         """
+        made = self._new("the world")
         request = MakeWorld(
+            made.ref,
             self.module,
             Vec(*gravity),
             linear_damping,
@@ -253,7 +265,8 @@ class Lab(Decoder):
             [joint.ref for joint in joints],
             bonus,
         )
-        return self.thing(self._value(request), "a World")
+        self._value(request)
+        return made
 
     def simulate(
         self,

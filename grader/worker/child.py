@@ -133,9 +133,9 @@ def answer(
                 setattr(subject.objects[ref], name, subject.decode(each))
             return Returned(None)
         case MakeBody():
-            return Returned(subject.encode(subject.make_body(request)))
+            return Returned(subject.encode(subject.called(request.ref, subject.make_body(request))))
         case MakeWorld():
-            return Returned(subject.encode(subject.make_world(request)))
+            return Returned(subject.encode(subject.called(request.ref, subject.make_world(request))))
         case Simulate():
             return simulate(subject, camera, request)
         case Integrate(twice=True):

@@ -51,7 +51,7 @@ class Camera:
         self.film: Film | None = None
         self.bodies: dict[int, Any] = {}  # the bodies by number
         self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
-        self.hidden_refs = 0  # objects up to this number belong to an earlier scene
+        self.hidden = 0  # so many objects belong to an earlier scene
         self.world: Any = None  # of the program that runs, if one does
         self.owner: type | None = None
         self._reset(None)
@@ -61,7 +61,7 @@ class Camera:
     def start(self, film: Film) -> None:
         """Get ready to film one request."""
         if film.cut:
-            self.hidden_refs = len(self.subject.objects)
+            self.hidden = len(self.subject.objects)
             self.bodies.clear()
             self.numbers.clear()
         self._reset(film)
@@ -131,7 +131,7 @@ class Camera:
         """What to show: the running program's world, or what this scene has made so far."""
         if self.world is not None:
             return [self.world]
-        return [each for ref, each in self.subject.objects.items() if ref > self.hidden_refs]
+        return list(self.subject.objects.values())[self.hidden :]
 
     def _add_visible(self, thing: Any, shot: Shot) -> None:
         """Add a world or space with all in it, or one thing alone."""

@@ -52,8 +52,7 @@ class Frame:
 
     def __init__(self, subject: Subject, refs: Iterable[int], arguments: list[Any]) -> None:
         self.subject = subject
-        latest = range(max(1, len(subject.objects) - LATEST + 1), len(subject.objects) + 1)
-        self.refs = sorted({*refs, *latest})
+        self.refs = list(dict.fromkeys([*refs, *list(subject.objects)[-LATEST:]]))
         self.arguments = arguments
         self.modules = own_modules(str(subject.folder), len(sys.modules))  # those of before
         self.before = self.state()
