@@ -135,7 +135,9 @@ def answer(
         case MakeBody():
             return Returned(subject.encode(subject.called(request.ref, subject.make_body(request))))
         case MakeWorld():
-            return Returned(subject.encode(subject.called(request.ref, subject.make_world(request))))
+            return Returned(
+                subject.encode(subject.called(request.ref, subject.make_world(request)))
+            )
         case Simulate():
             return simulate(subject, camera, request)
         case Integrate(twice=True):
