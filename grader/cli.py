@@ -1,6 +1,9 @@
 """The command line: `python -m grader COMMAND`."""
 
+import _thread
 import os
+import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -210,7 +213,20 @@ def demonstrate(options: Options) -> None:
     show_isolation(result, console)
 
 
+def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
+    """Let Ctrl-C count where it comes while a callback runs, as that of a garbage collection.
+
+    Python cannot raise it there and only tells of it. A moment later it can.
+    """
+    if not issubclass(ignored.exc_type, KeyboardInterrupt):
+        return sys.__unraisablehook__(ignored)
+    later = threading.Timer(0.05, _thread.interrupt_main)
+    later.daemon = True
+    later.start()
+
+
 def main() -> None:
+    sys.unraisablehook = interrupt_again
     app.add_typer(student.app)
     app.add_typer(report.app)
     if find_spec("grader.classroom"):  # students get neither of these two folders

@@ -223,7 +223,27 @@ def test_control_c_ends_a_check_without_a_traceback(hand_in):
         out, err = process.communicate(timeout=60)
     finally:
         process.kill()
-    assert process.returncode != 0 and "Traceback" not in out + err
+    assert process.returncode == 130 and "Traceback" not in out + err
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
+def test_control_c_counts_in_the_middle_of_a_garbage_collection_too():
+    """Python can raise nothing there, and hypothesis has a callback that looks on each time."""
+    pressed_while_collecting = """
+import gc, signal, sys, time
+from grader.cli import interrupt_again
+sys.unraisablehook = interrupt_again
+signal.signal(signal.SIGINT, signal.default_int_handler)
+gc.callbacks.append(lambda *_: gc.callbacks.clear() or signal.raise_signal(signal.SIGINT))
+gc.collect()
+try:
+    time.sleep(60)
+except KeyboardInterrupt:
+    print("heard")
+"""
+    command = [sys.executable, "-c", pressed_while_collecting]
+    ended = subprocess.run(command, cwd=KIT, capture_output=True, encoding="utf-8", timeout=50)
+    assert (ended.stdout, ended.stderr) == ("heard\n", "")
 
 
 # ---------------------------------------------------------------- the terminal
