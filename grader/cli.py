@@ -2,6 +2,7 @@
 
 import _thread
 import os
+import signal
 import sys
 import threading
 from collections.abc import Iterator
@@ -218,11 +219,20 @@ def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
 
     Python cannot raise it there and only tells of it. A moment later it can.
     """
-    if not issubclass(ignored.exc_type, KeyboardInterrupt):
-        return sys.__unraisablehook__(ignored)
-    later = threading.Timer(0.05, _thread.interrupt_main)
-    later.daemon = True
-    later.start()
+    if issubclass(ignored.exc_type, KeyboardInterrupt):
+        later = threading.Timer(0.05, interrupt)
+        later.daemon = True
+        later.start()
+    else:
+        sys.__unraisablehook__(ignored)
+
+
+def interrupt() -> None:
+    """As Ctrl-C does; from another thread, where it can, also in the middle of a wait."""
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+    else:
+        _thread.interrupt_main()
 
 
 def main() -> None:
