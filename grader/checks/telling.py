@@ -5,8 +5,29 @@ import re
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
+from grader.judge.lab import Lab
+
 MAX_DIGITS = 17  # what a float has
 Answer = TypeVar("Answer")
+
+
+def want_told(
+    lab: Lab,
+    holds: bool,
+    say: Callable[[Answer, int], str],
+    right: Answer,
+    got: Answer,
+    digits: int = 3,
+    expected: str = "{}",
+    meaning: str = "",
+) -> None:
+    """Fail the check unless it `holds`, with both told apart; `expected` is said around the right.
+
+    Most checks pass, so words are made where they are needed only.
+    """
+    if not holds:
+        told = told_apart(say, right, got, digits)
+        lab.fail(expected.format(told[0]), told[1], meaning)
 
 
 def told_apart(

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import any_velocities, circles, discs_near_boxes, pairs, surfaces
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
 
@@ -89,8 +89,8 @@ def say(answer: Touch | None, digits: int = 3) -> str:
 
 def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = "") -> None:
     """One of the right answers."""
-    expected, got = told_apart(say, right[0], answer)
-    lab.want(any(same(answer, each) for each in right), of + expected, got)
+    good = any(same(answer, each) for each in right)
+    want_told(lab, good, say, right[0], answer, expected=of + "{}")
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], **circle: Any) -> None:

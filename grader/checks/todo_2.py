@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import Lever, cross
 from grader.checks.strategies import directions, levers, motions, static_levers
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, Lab, Pair, Thing
 from grader.protocol import BodyValue
 
@@ -71,8 +71,8 @@ def want_exact(
 ) -> None:
     answer = effective_mass(lab, a, b, axis, things, framed)
     right = exact.effective_mass(a, b, axis)
-    expected, got = told_apart(per_kg, right, answer, digits=6)
-    lab.want(math.isclose(answer, right, rel_tol=1e-9), expected, got)
+    good = math.isclose(answer, right, rel_tol=1e-9)
+    want_told(lab, good, per_kg, right, answer, digits=6)
 
 
 def the_first_body_adds_its_spin_term(lab: Lab) -> None:
@@ -164,8 +164,9 @@ def the_impulse_that_ends_a_speed_is_speed_over_k(
         f"{left:.4g} px/s left",
     )
     had, has = (energy(each[0], a) + energy(each[1], b) for each in (before, after))
-    expected, got = told_apart(in_digits, had, has, digits=6)
-    lab.want(has <= had * (1 + 1e-9), f"no more energy than before: {expected}", got)
+    no_more = has <= had * (1 + 1e-9)
+    words = "no more energy than before: {}"
+    want_told(lab, no_more, in_digits, had, has, digits=6, expected=words)
 
 
 def in_digits(value: float, digits: int) -> str:

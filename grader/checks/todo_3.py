@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, rods
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.judge.lab import STEP, Broke, Lab, Pair, Thing
 from grader.protocol import BodyValue
 
@@ -83,10 +83,8 @@ def numbers(pair: Pair, digits: int) -> str:
 def want_exact(lab: Lab, rod: Rod, spins: Pair = STILL) -> tuple[BodyValue, BodyValue]:
     ends = solve(lab, rod, spins)
     answer, right = velocities(ends), exact.rod_solved(rod)
-    lab.want(
-        all(math.dist(*each) <= rounding(rod) for each in zip(answer, right, strict=True)),
-        *told_apart(say_both, right, answer),
-    )
+    good = all(math.dist(*each) <= rounding(rod) for each in zip(answer, right, strict=True))
+    want_told(lab, good, say_both, right, answer)
     return ends
 
 
@@ -120,7 +118,8 @@ def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:
     left = velocities((lab.state(a), lab.state(b)))
     right = (FAST[0] - 2.0, FAST[1]), (FAST[0] + 6.0, FAST[1])
     apart = all(math.dist(*each) <= rounding(rod) for each in zip(left, right, strict=True))
-    lab.want(apart, *told_apart(say_both, right, left), "Each end needs a velocity of its own.")
+    meaning = "Each end needs a velocity of its own."
+    want_told(lab, apart, say_both, right, left, meaning=meaning)
 
 
 @given(
@@ -166,18 +165,13 @@ def want_solved(lab: Lab, rod: Rod, vel_a: Pair, vel_b: Pair) -> None:
     """After a pass the ends part at bias, and have the momentum that they had."""
     after = rod._replace(vel_a=vel_a, vel_b=vel_b)
     if rod.mass_a and rod.mass_b:
-        expected, got = told_apart(in_kg, rod.momentum, after.momentum)
-        lab.want(
-            math.dist(after.momentum, rod.momentum) <= rounding(rod) * (rod.mass_a + rod.mass_b),
-            f"a momentum of {expected}, as before",
-            got,
-        )
-    expected, got = told_apart(in_px_a_second, rod.bias, after.speed)
-    lab.want(
-        abs(after.speed - rod.bias) <= rounding(rod),
-        f"B leaves A at bias, {expected} along the rod, after any number of passes",
-        got,
-    )
+        off = math.dist(after.momentum, rod.momentum)
+        kept = off <= rounding(rod) * (rod.mass_a + rod.mass_b)
+        words = "a momentum of {}, as before"
+        want_told(lab, kept, in_kg, rod.momentum, after.momentum, expected=words)
+    reached = abs(after.speed - rod.bias) <= rounding(rod)
+    words = "B leaves A at bias, {} along the rod, after any number of passes"
+    want_told(lab, reached, in_px_a_second, rod.bias, after.speed, expected=words)
 
 
 def in_kg(momentum: Pair, digits: int) -> str:
@@ -215,7 +209,8 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
         lab.put(end, inv_mass=0.0, inv_inertia=0.0)
     lab.tell(joint, "prepare", STEP)
     left = velocities(tell_solve(lab, joint, a, b, rod._replace(mass_a=0.0, mass_b=0.0)))
-    lab.want(left == (rod.vel_a, rod.vel_b), *told_apart(say_both, (rod.vel_a, rod.vel_b), left))
+    before = rod.vel_a, rod.vel_b
+    want_told(lab, left == before, say_both, before, left)
 
 
 def step(lab: Lab, joint: Thing, bodies: Sequence[Thing], gravity: float = 0.0) -> list[Pair]:

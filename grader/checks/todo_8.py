@@ -10,7 +10,7 @@ from hypothesis import given
 from grader.checks import exact
 from grader.checks.exact import Accel, State
 from grader.checks.strategies import forces, near_and_far, states, time_steps
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.judge.lab import Lab
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
@@ -78,10 +78,9 @@ def want_step(
     right = RIGHT[method](x, v, dt, exact.polynomial(force))
     # Every order of adding up is right: rounding is a share of the terms, whatever their signs.
     sizes = RIGHT[method](abs(x), abs(v), dt, exact.polynomial([abs(c) for c in force]))
-    lab.want(
-        all(abs(a - b) <= 1e-12 * size for a, b, size in zip(answer, right, sizes, strict=True)),
-        *told_apart(say, right, answer, digits=6),
-    )
+    off = zip(answer, right, sizes, strict=True)
+    good = all(abs(a - b) <= 1e-12 * size for a, b, size in off)
+    want_told(lab, good, say, right, answer, digits=6)
     return answer
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from grader.checks import exact
 from grader.checks.exact import Rod, Spring
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.checks.todo_3 import FAST, SLOW, STILL, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
 
@@ -44,8 +44,7 @@ def apply_once(lab: Lab, joint: Thing, ends: tuple[Thing, Thing], spring: Spring
     answer = velocities((lab.state(a), lab.state(b)))
     lab.saw("spring", (spring,), answer)
     right = exact.spring_applied(spring)
-    told = told_apart(say, right, answer)
-    lab.want(close(spring, answer, right), *told)
+    want_told(lab, close(spring, answer, right), say, right, answer)
 
 
 def close(spring: Spring, answer: Ends, right: Ends) -> bool:

@@ -4,23 +4,33 @@ Whatever finds the pairs, in whatever order: the contacts must be those of all p
 """
 
 from collections import Counter
+from collections.abc import Sequence
+from itertools import zip_longest
+from typing import Any
 
 from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks.exact import Disc, Rect
-from grader.checks.strategies import crowd_discs, crowd_rects, pairs
+from grader.checks.strategies import circles, crowd_discs, crowd_rects, pairs
 from grader.judge.lab import Lab, Pair, Thing
 
 Contacts = Counter[tuple[int, ...]]  # how many each two bodies have, by their numbers
 
 BALLS = 200
+STATES = 8  # balls of a scene that may be of any weight, and move
+PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
 GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
 
 
-def crowd(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> tuple[Thing, list[Thing]]:
-    """A world, and the bodies in it."""
-    bodies = [lab.circle((ball.x, ball.y), ball.r) for ball in balls]
+def crowd(
+    lab: Lab, balls: list[Disc], boxes: list[Rect], states: Sequence[dict[str, Any]] = ()
+) -> tuple[Thing, list[Thing]]:
+    """A world, and the bodies in it; the first balls may be in a state of their own."""
+    bodies = [
+        lab.circle((ball.x, ball.y), ball.r, **(state or {}))
+        for ball, state in zip_longest(balls, states[: len(balls)])
+    ]
     bodies += [lab.box((box.x, box.y), (box.hx, box.hy)) for box in boxes]
     return lab.world(*bodies, bonus=True), bodies
 
@@ -92,17 +102,28 @@ ROUND = [
 @given(
     balls=st.lists(crowd_discs, min_size=1, max_size=8),
     boxes=st.lists(crowd_rects, max_size=2),
+    states=st.lists(circles, min_size=STATES, max_size=STATES),
     sleepers=st.sets(st.integers(0, 7)),
     shift=pairs,
+    place=st.sampled_from(PLACES),
 )
 def any_scene_has_the_contacts_of_all_pairs(
-    lab: Lab, balls: list[Disc], boxes: list[Rect], sleepers: set[int], shift: Pair
+    lab: Lab,
+    balls: list[Disc],
+    boxes: list[Rect],
+    states: list[dict[str, Any]],
+    sleepers: set[int],
+    shift: Pair,
+    place: Pair,
 ) -> None:
     """Any scene has the contacts that all pairs have, each once"""
+    x, y = place
+    balls = [ball._replace(x=ball.x + x, y=ball.y + y) for ball in balls]
+    boxes = [box._replace(x=box.x + x, y=box.y + y) for box in boxes]
     shapes = [f"a ball r {ball.r:g} at ({ball.x:g}, {ball.y:g})" for ball in balls]
     shapes += [f"a box of half ({b.hx:g}, {b.hy:g}) at ({b.x:g}, {b.y:g})" for b in boxes]
     lab.ran(f"find_contacts with {', '.join(shapes)}")
-    world, bodies = crowd(lab, balls, boxes)
+    world, bodies = crowd(lab, balls, boxes, states)
     compare(lab, world, bodies, balls, boxes)
     for number in sleepers & set(range(len(balls))):
         lab.put(bodies[number], asleep=True)
@@ -151,9 +172,10 @@ def work(lab: Lab, balls: list[Disc]) -> int:
 
 
 def row(balls: int, down: float) -> list[Disc]:
-    """Balls two and two, each pair 60 px further to the right than the one before."""
-    return [
+    """Balls two and two, each pair 60 px further to the right than the one before, and one more."""
+    pairs = [
         Disc(60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
         for pair in range(-balls // 4, balls // 4)
         for which in range(2)
     ]
+    return [*pairs, Disc(0.0, -500.0, 8.0)]

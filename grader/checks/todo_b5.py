@@ -6,7 +6,7 @@ from itertools import pairwise
 from grader.checks import exact
 from grader.checks.exact import Place
 from grader.checks.pacing import frames_at, want_a_proper_end
-from grader.checks.telling import told_apart
+from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, STEP, Lab, Pair, Thing
 
 CLOSE = 1e-6  # px or rad
@@ -62,11 +62,10 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
 def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, share: float) -> None:
     """The right place. The angle may also be the one before or now: only the spoke shows it."""
     right = exact.part_of_the_way(before, now, share)
-    place, told = told_apart(say_place, right[:2], found[:2])
-    lab.want(math.dist(found[:2], right[:2]) < CLOSE, f"the place {place}", told)
-    angle, told = told_apart(say_angle, right[2], found[2], 4)
+    near = math.dist(found[:2], right[:2]) < CLOSE
+    want_told(lab, near, say_place, right[:2], found[:2], expected="the place {}")
     good = any(abs(turned(found[2] - each[2])) < CLOSE for each in (before, right, now))
-    lab.want(good, f"the angle {angle}", told)
+    want_told(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
 
 
 def turned(angle: float) -> float:
