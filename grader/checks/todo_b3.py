@@ -85,11 +85,26 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
     rim = [(x * 309.0, y * 309.0) for x, y in ROUND]
     small = [Disc(x - 50.0, y - 50.0, 10.0) for x, y in rim]
     want_the_same_contacts(lab, [Disc(-50.0, -50.0, 300.0), *small], [])
-    lab.ran("find_contacts with 41 balls on a floor 12 000 px long, and 41 at a wall as high")
+    lab.ran("find_contacts with 61 balls on a floor 12 000 px long, and 61 at a wall as high")
     floor, wall = Rect(300.0, 20.0, 6000.0, 20.0), Rect(-6100.0, 0.0, 20.0, 6000.0)
-    level = [Disc(300.0 * number, -9.5, 10.0) for number in range(-19, 22)]
-    upright = [Disc(-6070.5, 290.0 * number, 10.0) for number in range(-20, 21)]
+    level = [Disc(200.0 * number, -9.5, 10.0) for number in range(-28, 33)]
+    upright = [Disc(-6070.5, 190.0 * number, 10.0) for number in range(-30, 31)]
     want_the_same_contacts(lab, [*level, *upright], [floor, wall])
+    lab.ran("find_contacts with balls that overlap by half a pixel, left of 0 and above it")
+    want_the_same_contacts(lab, AT_THE_RIM, [])
+
+
+def overlapping_at(line: float) -> list[Disc]:
+    """Two balls side by side and two one below the other, around a line half a pixel off."""
+    before, behind = line - 10.25, line + 9.25
+    side_by_side = [Disc(each, 40.0 * line, 10.0) for each in (before, behind)]
+    return side_by_side + [Disc(40.0 * line + 500.0, each, 10.0) for each in (before, behind)]
+
+
+# Of cells of many sizes the balls share one, and by a hair: who rounds to 0 leaves them in two.
+AT_THE_RIM = [
+    ball for size in (32, 40, 48, 50, 64, 96, 100) for ball in overlapping_at(-float(size))
+]
 
 
 ROUND = [
