@@ -62,11 +62,16 @@ class Replacement(Struct, frozen=True, forbid_unknown_fields=True):
     new: str
 
 
-class Breach(Struct, frozen=True, forbid_unknown_fields=True):
+class Edits(Struct, frozen=True, forbid_unknown_fields=True):
+    """What the file of a right member holds: the lines in which it is not the solution."""
+
+    replace: list[Replacement]
+
+
+class Breach(Edits, frozen=True, kw_only=True):
     """What the file of a wrong member holds that breaks a promise of the lesson's."""
 
     breaks: str  # the promise
-    replace: list[Replacement]
     also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
 
     @property
@@ -83,7 +88,7 @@ class Member:
     name: str
     form: Form
     entry: Entry
-    source: Path | None  # a patch, a breach, a folder to lay over, or nothing but a transform
+    source: Path | None  # a patch, edits, a folder to lay over, or nothing but a transform
 
     @property
     def is_patch(self) -> bool:
@@ -91,10 +96,16 @@ class Member:
         return self.source is not None and self.source.suffix == ".py"
 
     @property
-    def breach(self) -> Breach | None:
+    def edits(self) -> Edits | None:
         if self.source is None or self.source.suffix != ".toml":
             return None
-        return msgspec.toml.decode(self.source.read_bytes(), type=Breach)
+        kind = Breach if self.kind == "wrong" else Edits
+        return msgspec.toml.decode(self.source.read_bytes(), type=kind)
+
+    @property
+    def breach(self) -> Breach | None:
+        edits = self.edits
+        return edits if isinstance(edits, Breach) else None
 
     @property
     def todos(self) -> frozenset[str]:
@@ -153,8 +164,8 @@ class Member:
                 patch(rung, folder)
         elif self.source is not None and self.source.is_dir():
             lay_over(self.source, folder)
-        elif self.breach is not None:
-            replace_text(self.breach, folder)
+        elif self.edits is not None:
+            replace_text(self.edits, folder)
         elif self.source is not None:
             patch(self.source, folder)
         if self.entry.transform:
@@ -245,9 +256,9 @@ def lay_over(source: Path, folder: Path) -> None:
     shutil.copytree(source, folder, dirs_exist_ok=True)
 
 
-def replace_text(breach: Breach, folder: Path) -> None:
-    """Break a promise in the files of `folder`; ValueError where the old text is not there once."""
-    for each in breach.replace:
+def replace_text(edits: Edits, folder: Path) -> None:
+    """Edit the files of `folder`; ValueError where an old text is not there once."""
+    for each in edits.replace:
         path = folder / each.file
         text = read_source(path)
         if text.count(each.old) != 1:

@@ -93,11 +93,13 @@ def test_constants_in_the_place_of_every_todo_earn_next_to_nothing():
 
 def test_a_breach_replaces_what_stands_there_once(tmp_path: Path):
     (tmp_path / "a.py").write_text("ITERATIONS = 8\nMAX_STEPS = 8\n", encoding="utf-8")
-    replace_text(Breach("eight", [Replacement("a.py", "IONS = 8", "IONS = 1")]), tmp_path)
+    replace_text(
+        Breach(breaks="eight", replace=[Replacement("a.py", "IONS = 8", "IONS = 1")]), tmp_path
+    )
     assert (tmp_path / "a.py").read_text(encoding="utf-8") == "ITERATIONS = 1\nMAX_STEPS = 8\n"
     for old in ("S = ", "nowhere"):
         with pytest.raises(ValueError, match="times, not once"):
-            replace_text(Breach("eight", [Replacement("a.py", old, "")]), tmp_path)
+            replace_text(Breach(breaks="eight", replace=[Replacement("a.py", old, "")]), tmp_path)
 
 
 def test_every_breach_can_be_made_and_breaks_what_is_given(tmp_path: Path):
