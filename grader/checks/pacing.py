@@ -105,11 +105,16 @@ def standing_still(lab: Lab) -> Thing:
             lab.put(body, position=pos, velocity=(0.25, -2.0), angular_velocity=spin)
             lab.tell(space, "add", body)
         return space
+    hook, bob = lab.circle((700, 90), 6, 0.0), lab.circle((840, 95), 24, vel=(3.0, 1.0))
+    rod = lab.thing(lab.call("DistanceJoint", hook, bob), "a DistanceJoint")
     world = lab.world(
         lab.circle((450, 300), 10, vel=(0.25, -2.0), omega=0.005),
         lab.circle((100, 9000), 20),
         lab.circle((460, 310), 10, vel=(30.0, 5.0), omega=-3.0),
         lab.box((450, 580), (450, 20)),
+        hook,
+        bob,
+        joints=(rod,),
     )
     lab.tell(world, "step", STEP)  # so that there is a contact
     return world

@@ -36,7 +36,9 @@ near_and_far = st.one_of(
     st.sampled_from([0.0, 1 / 64, -1 / 64]),
 )
 states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
-forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
+gentle_forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
+falls = st.integers(3918, 3922).map(lambda n: (n / 4, 0.0, 0.0, 0.0))  # px/s²; gravity, or nearly
+forces = gentle_forces | falls
 seeds = st.integers(0, 999)  # of a random.Random
 # From long ones, by which integrators are told apart, to short ones that are no round numbers.
 time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s

@@ -303,7 +303,9 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
     times = (0.0, 0.3, 0.495, 0.6, 0.6)  # s
     bodies = [ball(lab, 40.3 * number, angle=7.0) for number in range(len(times))]
     flying = ball(lab, y=-200.0, vel=(40.0, 30.0), omega=3.0, angle=-8.0)
-    world = room(lab, *bodies, floor(lab), flying, gravity=0.0)
+    hook, bob = lab.circle((900.0, -300.0), 5.0, 0.0), ball(lab, 900.0, -100.0)
+    rod = lab.thing(lab.call("DistanceJoint", hook, bob), "a DistanceJoint")
+    world = room(lab, *bodies, floor(lab), flying, hook, bob, gravity=0.0, joints=(rod,))
     run(lab, world, STEP)  # so that it knows its contacts
     for body, seconds in zip(bodies, times, strict=True):
         lab.put(body, vel=(2.0, 0.0), omega=-0.1, still_for=seconds)

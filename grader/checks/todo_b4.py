@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from grader.checks.todo_7 import BOB, near, pair, scene
-from grader.judge.lab import Lab, Moment, Pair, Thing
+from grader.judge.lab import NOTHING, Lab, Moment, Pair, Thing
 from grader.protocol import ShapeValue, SpaceValue
 
 PEGS = ((375.0, 400.0), (435.0, 400.0))  # px, the first two
@@ -135,3 +135,6 @@ def only_balls_on_pegs_count_in_each_space_apart(lab: Lab) -> None:
     lab.saw("afresh", (counts[0],), counts[1])
     throw(lab, afresh, afresh.balls[0], PEGS[0])
     want_hits(lab, [*counts, hits(lab, afresh)], [1, 0, 1])
+    lab.ran("count_hits in a space of its own")
+    space = lab.thing(lab.call("pymunk:Space"), "the space")
+    lab.call("count_hits", space, changes=NOTHING)

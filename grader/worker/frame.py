@@ -40,7 +40,10 @@ FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
     "normal": ("a", "b", "normal", "depth", "point", "jn", "jt", "target"),
     "bias": ("a", "b", "length", "axis", "bias", "k"),
     "length": ("a", "b", "length", "stiffness", "damping"),
-    "bodies": ("gravity", "linear_damping", "angular_damping", "bodies", "joints", "contacts"),
+    "bodies": (
+        *("gravity", "linear_damping", "angular_damping", "iterations"),
+        *("bodies", "joints", "contacts", "springs", "sleeping", "grid"),
+    ),
 }
 PLAIN = {float, int, bool, type(None)}
 PAIRS = {pygame.Vector2, pymunk.Vec2d}
