@@ -106,7 +106,9 @@ def standing_still(lab: Lab) -> Thing:
             lab.tell(space, "add", body)
         return space
     hook, bob = lab.circle((700, 90), 6, 0.0), lab.circle((840, 95), 24, vel=(3.0, 1.0))
-    rod = lab.thing(lab.call("DistanceJoint", hook, bob), "a DistanceJoint")
+    more = lab.circle((840, 190), 12)
+    ends = (hook, bob), (bob, more)
+    rods = [lab.thing(lab.call("DistanceJoint", *each), "a DistanceJoint") for each in ends]
     world = lab.world(
         lab.circle((450, 300), 10, vel=(0.25, -2.0), omega=0.005),
         lab.circle((100, 9000), 20),
@@ -114,7 +116,8 @@ def standing_still(lab: Lab) -> Thing:
         lab.box((450, 580), (450, 20)),
         hook,
         bob,
-        joints=(rod,),
+        more,
+        joints=rods,
     )
     lab.tell(world, "step", STEP)  # so that there is a contact
     return world

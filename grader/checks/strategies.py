@@ -16,8 +16,12 @@ from grader.checks.exact import (
     Rod,
     Rubbing,
 )
+from grader.judge.lab import STEP
+
+MAX_STEPS = 8  # in a frame
 
 coordinates = st.integers(-1600, 1600).map(lambda n: n / 8)  # px
+places_around = st.integers(-800, 8000).map(lambda n: n / 8)  # px, in the window or beside it
 radii = st.integers(8, 320).map(lambda n: n / 8)  # px
 half_extents = st.integers(8, 1600).map(lambda n: n / 8)  # px
 speeds = st.integers(-4000, 4000).map(lambda n: n / 8)  # px/s
@@ -68,15 +72,18 @@ frame_lists = st.builds(
 def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
     """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
-    Up to the cap each is a tenth longer than another one, so that no range is left out.
+    Up to the cap each is a tenth longer than another one, so that no range is left out. Some are
+    exactly as long as nothing, a step, or as many steps as may run.
     """
     shift = draw(st.integers(0, 15)) / 16
     numbers = draw(st.permutations([*range(45), *range(45, 80, 6)]))
     rests = draw(st.permutations(range(17)))
-    return [
-        (rests[place % len(rests)] / 2000, 0.001 * 1.1 ** (number + shift))
-        for place, number in enumerate(numbers)
+    lengths = [0.001 * 1.1 ** (number + shift) for number in numbers] + [
+        0.0,
+        STEP,
+        MAX_STEPS * STEP,
     ]
+    return [(rests[place % len(rests)] / 2000, each) for place, each in enumerate(lengths)]
 
 
 pairs = st.tuples(coordinates, coordinates)
@@ -133,7 +140,8 @@ any_spins = st.just(0.0) | spins | slow_spins | st.sampled_from([-300.0, 300.0])
 any_step_sizes = step_sizes | st.sampled_from([1 / 1000, 1 / 24, 1.0])  # s
 SURFACE = {"friction": frictions, "restitution": frictions}
 MOTION = {"vel": any_velocities, "omega": any_spins, "angle": any_spins}
-surfaces, motions = st.fixed_dictionaries(SURFACE), st.fixed_dictionaries(MOTION)
+motions = st.fixed_dictionaries(MOTION)
+belts = st.fixed_dictionaries({"vel": any_velocities, "omega": any_spins, **SURFACE})  # static
 circles = st.fixed_dictionaries({"mass": any_masses_or_static, **MOTION, **SURFACE})
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
-from grader.checks.strategies import any_velocities, circles, discs_near_boxes, pairs, surfaces
+from grader.checks.strategies import any_velocities, belts, circles, discs_near_boxes, pairs
 from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
@@ -149,7 +149,7 @@ def no_contact_when_apart_or_just_touching(lab: Lab) -> None:
     want_exact(lab, discs, **MOVING)
 
 
-@given(both=discs_near_boxes(), circle=circles, box=surfaces)
+@given(both=discs_near_boxes(), circle=circles, box=belts)
 def any_circle_and_box_agree_with_the_geometry(
     lab: Lab, both: tuple[Disc, Rect], circle: Fields, box: Fields
 ) -> None:

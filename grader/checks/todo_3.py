@@ -18,8 +18,10 @@ STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 def joined(lab: Lab, rod: Rod, spins: Pair = STILL) -> tuple[Thing, Thing, Thing]:
     """The joint, its A and its B, ready to be solved."""
-    a = lab.circle(STILL, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0])
-    b = lab.circle((rod.length, 0.0), 10.0, rod.mass_b, vel=rod.vel_b, omega=spins[1])
+    smooth, rough = {"restitution": 0.96875, "friction": 0.0}, {"restitution": 0.0, "friction": 1.5}
+    a = lab.circle(STILL, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], **rough)
+    at_first = (rod.length, 0.0)
+    b = lab.circle(at_first, 10.0, rod.mass_b, vel=rod.vel_b, omega=spins[1], **smooth)
     joint = lab.thing(lab.call("DistanceJoint", a, b), "a DistanceJoint")
     lab.put(b, pos=rod.offset)
     lab.tell(joint, "prepare", rod.dt)

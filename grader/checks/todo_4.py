@@ -35,7 +35,7 @@ UNDER_A_CEILING = Discs(ROUGH, (2.0, 0.0))  # B is static
 IN_THE_AIR = Discs(ROUGH, (3.0, 2.0), ASLANT, (12.0, 7.0), (40.0, -25.0), (1.5, -2.0))
 PLACE = (30.0, -20.0)  # px, of B
 ANGLES = (0.7, -0.4)  # rad
-TARGET = 5.0  # px/s
+TARGET = 5.125  # px/s
 
 
 class Pressed(NamedTuple):

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from hypothesis import given
 
 from grader.checks import exact
-from grader.checks.strategies import coordinates, seeds
+from grader.checks.strategies import places_around, seeds
 from grader.checks.telling import decimals_to_tell
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
@@ -151,7 +151,7 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     lab.want(len(radii) > 1, "balls of several sizes", f"eight of radius {max(radii):g} px")
 
 
-@given(seed=seeds, x=coordinates, y=coordinates)
+@given(seed=seeds, x=places_around, y=places_around)
 def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
     """Every ball has the moment of its own size, and is else as it was given"""
     space = lab.thing(lab.call("pymunk:Space"), "the space")

@@ -108,6 +108,9 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
     world = room(lab, floor(lab), creeping)
     run(lab, world, 0.75)
     want(lab, True, creeping, CREEPING)
+    lab.ran("a ball of 0.05 kg and one of 300 kg that lie on the floor")
+    light, heavy = ball(lab, mass=0.05), ball(lab, 60.0, mass=300.0)
+    put_to_sleep(lab, room(lab, floor(lab), light, heavy), light, heavy)
     the_lab_scene_falls_asleep(lab)
 
 

@@ -81,7 +81,7 @@ def springs(seed: int) -> list[tuple[Spring, Rod]]:
         masses = [10.0 ** draw.uniform(-3, 6) for _ in range(2)]
         if number % 3 < 2:
             masses[number % 3] = draw.choice([0.0, 2.0])
-        rest = draw.choice([0.0, 30.0, 100.0, 4000.0])  # px
+        rest = draw.choice([0.0, 30.0, 79.5, 100.0, 4000.0])  # px
         dt = draw.choice([1 / 480, 1 / 240, STEP, 1 / 60, 1 / 30, 0.25])
         now, later = (some_rod(draw, masses, rest, dt) for _ in range(2))
         found.append((Spring(now, 10.0 ** draw.uniform(0, 6), 10.0 ** draw.uniform(-2, 3)), later))

@@ -84,7 +84,10 @@ def say_angle(angle: float, digits: int) -> str:
 def moved(lab: Lab, before: Place, now: Place, dt: float) -> Thing:
     """A body that a step of its world has brought from one place and angle to another."""
     vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
-    body = lab.circle(before[:2], angle=before[2], vel=(vx, vy), omega=omega)
+    surface = {"restitution": 0.1875, "friction": 0.3125}
+    body = lab.circle(
+        before[:2], 10.0, 1.125, angle=before[2], vel=(vx, vy), omega=omega, **surface
+    )
     lab.simulate(lab.world(body, bonus=True), [body], 1, dt)
     return body
 
