@@ -45,5 +45,6 @@ class ImportRule(MetaPathFinder):
     ) -> ModuleSpec | None:
         """Find nothing, so that the others look; raise NotAllowed where nobody may."""
         if not self.allows(name):
-            raise NotAllowed(f"{name.partition('.')[0]} is not allowed here: {RULE}", name=name)
+            first = name.partition(".")[0]
+            raise NotAllowed(f"there is no {first} to import here: {RULE}", name=name)
         return None

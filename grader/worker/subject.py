@@ -78,6 +78,8 @@ class Subject:
     def load(self, module: str, pieces: list[Piece]) -> list[str]:
         """Import `module`; returns the targets of the pieces that were swapped in."""
         package = (self.folder / module).is_dir()
+        if not package and not (self.folder / f"{module}.py").exists():
+            raise ContractError(f"there is no {module}.py, and no folder {module}")
         sys.argv[0] = str(self.folder / (f"{module}/__main__.py" if package else f"{module}.py"))
         importlib.import_module(module)
         if module == "pymunk_scene":
