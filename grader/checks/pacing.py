@@ -129,12 +129,13 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"advance with {1000 * accumulator:g} ms in the accumulator "
         f"and a frame of {1000 * seconds:.6g} ms"
     )
-    rest, steps, sizes = lab.advance(world, accumulator, seconds)
+    rest, steps, sizes, said = lab.advance(world, accumulator, seconds)
     lab.want(
         fixed(sizes),
         f"steps of STEP = {STEP:.9f} s",
         f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
     )
+    lab.want(said == steps, f"{steps} as the number of steps that ran", f"{said:g}")
     owed, most = accumulator + seconds, MAX_STEPS * STEP
     due = min(owed, most)
     beyond = steps * STEP + rest - due

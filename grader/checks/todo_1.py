@@ -121,6 +121,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
         Disc(5, -20.125, 10),  # hardly outside a face and a corner
         Disc(40.0625, 20.125, 10),
         Disc(3, -30, 90),  # larger than the box
+        Disc(-5, -29.9375, 10),  # hardly at all
     )
     want_exact(lab, discs)
 

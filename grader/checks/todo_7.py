@@ -57,6 +57,12 @@ def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
     lab.ran("make_space(random.Random(12)), and looked at the space's settings")
     space = scene(lab)
     lab.want(space.damping == 0.95, "damping 0.95", f"damping {space.damping:g}")
+    still = space.bodies[0]
+    lab.want(
+        (*still.pos, still.angle) == (0.0, 0.0, 0.0),
+        "the space's own static body at (0, 0)",
+        f"at ({still.pos.x:g}, {still.pos.y:g}), turned by {still.angle:g} rad",
+    )
     want_usual_settings(lab, lab.thing(space))
 
 

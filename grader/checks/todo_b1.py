@@ -186,11 +186,11 @@ def nothing_sleeps_that_is_held(lab: Lab) -> None:
 
 
 def time_at_rest_begins_anew(lab: Lab) -> None:
-    lab.ran("a ball that lies for 0.4 s, is pushed at 100 px/s for 0.1 s and lies again for 0.4 s")
+    lab.ran("a ball that lies for 0.4 s, is pushed at 1500 px/s for 0.1 s and lies again for 0.4 s")
     pushed = ball(lab)
     world = room(lab, floor(lab), pushed)
     run(lab, world, 0.4)
-    lab.put(pushed, vel=(100.0, 0.0))
+    lab.put(pushed, vel=(1500.0, 0.0))
     run(lab, world, 0.1)
     lab.put(pushed, vel=(0.0, 0.0), omega=0.0)
     run(lab, world, 0.4)

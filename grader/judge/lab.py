@@ -190,7 +190,8 @@ class Lab(Decoder):
         answer = self.items(returned.value, "what advance returns")
         self.want(len(answer) == 2, "(accumulator, steps)", self.describe(returned.value))
         rest = self.number(answer[0], "the accumulator")
-        return Advance(rest, returned.steps, returned.dts)
+        said = self.number(answer[1], "the number of steps")
+        return Advance(rest, returned.steps, returned.dts, said)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
         """How many lines of the submission run in a method of an object, however it is written."""
@@ -366,6 +367,7 @@ class Advance(NamedTuple):
     rest: float  # s, the accumulator that it returned
     steps: int  # that ran
     sizes: list[float]  # s, the different step sizes
+    said: float  # how many steps it says
 
 
 class Run:
