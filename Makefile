@@ -149,7 +149,7 @@ $(CORE): requirements.txt pyproject.toml
 
 $(DEV): $(CORE) requirements-dev.txt
 	@echo "Installing what tests and style checks need into .venv (less than a minute) ..."
-	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@$(PIP) install --no-compile --require-hashes -r requirements-dev.txt
 	@touch $@
 
 $(SITE): $(CORE) requirements-site.txt
