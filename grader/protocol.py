@@ -459,6 +459,7 @@ class End(Struct, frozen=True, tag="end"):
 class Ended(Struct, frozen=True):
     how: Literal["exit", "signal"]
     code: int
+    cpu: float  # s, of processor time that it used
     strays: int  # processes that had to be ended besides the child
 
 

@@ -1,10 +1,12 @@
 """Starting, asking and ending the worker's children, from the judge's side of the wall."""
 
+import math
 import os
 import re
 import socket
 import subprocess
 import sys
+import time
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -42,7 +44,8 @@ from grader.protocol import (
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
-ASLEEP_SECONDS = 8  # a child that sleeps for so long without an answer waits for nothing
+REST_SECONDS = 8.0  # for so long a child may rest in all; longer, and it waits for nothing
+LOOK_SECONDS = 1.0  # so long answers take, one or many, before somebody looks at whether it rests
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
 answer_decoder = msgspec.msgpack.Decoder(Answered)
@@ -66,6 +69,10 @@ class Child:
         self.channel, self.worker = channel, worker
         self.wall_seconds = cpu_seconds * WALL_FACTOR + WALL_EXTRA
         self.cpu_seconds = cpu_seconds
+        self.rest_seconds = REST_SECONDS
+        self.cpu = 0.0  # s, of processor time that it used; known when it has ended
+        self.rested = 0.0  # s, in which it owed an answer and did nothing
+        self.waited = self.looked = 0.0  # s, for its answers: in all, and when somebody last looked
         self.asked = 0
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
@@ -121,17 +128,26 @@ class Child:
         raise ChildEnded(self.over)
 
     def _receive(self) -> bytes:
-        """The answer; a child that sleeps is not waited for as long as one that works."""
-        asleep, cpu = 0, -1.0
-        for _ in range(int(self.wall_seconds)):
-            if self.channel.wait(1.0):
-                return self.channel.receive(self.wall_seconds)
-            sleeping, used = activity(self.worker.pid_of(self))
-            asleep = asleep + 1 if sleeping and used == cpu else 0
-            cpu = used
-            if asleep >= ASLEEP_SECONDS:
+        """The answer; a child that rests is not waited for as long as one that works."""
+        deadline = self.waited + self.wall_seconds
+        while self.waited < deadline:
+            began = time.monotonic()
+            answered = self.channel.wait(min(LOOK_SECONDS, self.rest_seconds))
+            self.waited += time.monotonic() - began
+            if not answered or self.waited - self.looked >= LOOK_SECONDS:
+                self._look()
+            if self.rested > self.rest_seconds:
                 raise ChannelTimeout("it sleeps, waiting for something that does not come")
+            if answered:
+                return self.channel.receive(self.wall_seconds)
         raise ChannelTimeout
+
+    def _look(self) -> None:
+        """How long it has rested: the time for its answers, but for what it worked or queued."""
+        busy = busy_seconds(self.worker.pid_of(self))
+        if busy is None:  # it has ended
+            return
+        self.rested, self.looked = max(self.rested, self.waited - busy), self.waited
 
     def _give_up(self, why: str, gone: bool) -> None:
         status = self.worker.end(self, gone)
@@ -142,17 +158,24 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
 
-IDLE = {psutil.STATUS_SLEEPING, psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
+def busy_seconds(pid: int) -> float | None:
+    """For how long a process has worked or waited for a processor, s; None where it is gone.
 
-
-def activity(pid: int) -> tuple[bool, float]:
-    """Whether the process sleeps, and the processor time it has used, s."""
+    The time in the queue is Linux's to tell (proc(5), schedstat). Elsewhere a process that is not
+    asleep counts as one that has worked ever since.
+    """
     try:
         process = psutil.Process(pid)
         times = process.cpu_times()
-        return process.status() in IDLE, times.user + times.system
-    except psutil.Error:
-        return False, 0.0
+        queues = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
+        if not queues and process.status() not in IDLE:
+            return math.inf
+    except (psutil.Error, OSError):
+        return None
+    return times.user + times.system + sum(int(each.split()[1]) for each in queues) / 1e9
+
+
+IDLE = {psutil.STATUS_SLEEPING, psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
 
 
 class Worker(Protocol):
@@ -250,6 +273,7 @@ class WarmWorker:
             ended = msgspec.msgpack.decode(self.control.receive(START_SECONDS), type=Ended)
         except (ChannelClosed, ChannelTimeout):
             return "it took the worker down with it"
+        child.cpu = ended.cpu
         code = -ended.code if ended.how == "signal" else ended.code
         return explain(child.cpu_seconds, code)
 
@@ -316,11 +340,15 @@ class SpawnWorker:
 
     def end(self, child: Child, gone: bool) -> str:
         child.channel.close()
+        reaped = reaped_seconds()
         process = self.processes.pop(id(child))
         if gone:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(0.5)
         left = []
+        with suppress(psutil.Error):
+            times = psutil.Process(process.pid).cpu_times()
+            child.cpu = times.user + times.system
         with suppress(psutil.NoSuchProcess):
             left = psutil.Process(process.pid).children(recursive=True)
         if hasattr(os, "killpg"):
@@ -330,7 +358,9 @@ class SpawnWorker:
             with suppress(psutil.NoSuchProcess):
                 each.kill()
         process.kill()
-        return explain(child.cpu_seconds, process.wait())
+        code = process.wait()
+        child.cpu = max(child.cpu, reaped_seconds() - reaped)
+        return explain(child.cpu_seconds, code)
 
     def close(self) -> None:
         for process in [*self.processes.values(), *(process for process, _ in self.ahead)]:
@@ -338,6 +368,16 @@ class SpawnWorker:
             process.wait()
         for _, channel in self.ahead:
             channel.close()
+
+
+def reaped_seconds() -> float:
+    """Processor time of all processes that we have started and seen end; 0 where nobody counts."""
+    try:
+        import resource
+    except ImportError:
+        return 0.0
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def clean_environment() -> dict[str, str]:

@@ -45,6 +45,8 @@ class Connection:
     swapped: list[str] = field(default_factory=list)  # the functions they stand in for
     output: str = ""
     child: Child | None = None
+    cpu: float = 0.0  # s, of processor time that its children used
+    rested: float = 0.0  # s, in which they could have worked
     over: NotYet | Broke | None = None  # why nothing more can be asked
 
     def ask(self, request: Request, ran: str) -> Answer:
@@ -69,13 +71,15 @@ class Connection:
 
     def restart(self) -> None:
         """End a child that still answers, so that the next request opens another one."""
-        if self.child is not None and self.over is None:
-            self.child.end()
-            self.child = None
+        if self.over is None:
+            self.end()
 
     def end(self) -> None:
         if self.child is not None:
             self.child.end()
+            self.cpu += self.child.cpu
+            self.rested += self.child.rested
+            self.child = None
 
     def _ask(self, child: Child, request: Request, ran: str) -> Answer:
         if self.over is not None:

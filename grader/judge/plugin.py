@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from hypothesis.errors import Flaky
 
+from grader.judge.budget import Budget
 from grader.judge.children import Child
 from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import Broke, NotYet
@@ -46,6 +47,7 @@ class GradingPlugin:
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
+    budget: Budget = field(default_factory=Budget)
     trouble: str = ""  # why a file of checks could not be read
     interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
 
@@ -116,6 +118,8 @@ class GradingPlugin:
         if waiting:
             text = f"waiting for TODO {', '.join(waiting)}"
             return self._result(todo, check, title, "waiting", got=text)
+        if self.budget.cut:
+            return self._result(todo, check, title, "error", got=self.budget.cut)
         return None
 
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
@@ -157,7 +161,8 @@ class GradingPlugin:
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
-        lab = Lab(module, lambda: self.open_child(check.cpu_seconds), pieces)
+        lab = Lab(module, lambda: self._child_for(todo, check), pieces)
+        little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
                 example(lab=lab)
@@ -169,7 +174,15 @@ class GradingPlugin:
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
+        self.budget.charge(todo.id, lab.connection)
+        if lab.ended and lab.failure is not None:
+            lab.failure.got += little
         return lab
+
+    def _child_for(self, todo: Todo, check: Check) -> Child:
+        child = self.open_child(self.budget.cpu_for(todo.id, check.cpu_seconds))
+        child.rest_seconds = self.budget.rest_for(todo.id)
+        return child
 
     # ------------------------------------------------------------ results
 

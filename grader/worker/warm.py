@@ -107,14 +107,16 @@ def end(pid: int, gone: bool) -> Ended:
         os.killpg(pid, signal.SIGKILL)
     with suppress(ProcessLookupError):
         os.kill(pid, signal.SIGKILL)
+    cpu = 0.0
     try:
-        _, status = os.waitpid(pid, 0)
+        _, status, used = os.wait4(pid, 0)
+        cpu = used.ru_utime + used.ru_stime
     except ChildProcessError:
         status = 0
     strays = end_strays()
     if os.WIFSIGNALED(status):
-        return Ended("signal", os.WTERMSIG(status), strays)
-    return Ended("exit", os.waitstatus_to_exitcode(status), strays)
+        return Ended("signal", os.WTERMSIG(status), cpu, strays)
+    return Ended("exit", os.waitstatus_to_exitcode(status), cpu, strays)
 
 
 def wait_for_exit(pid: int) -> None:

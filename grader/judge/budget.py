@@ -1,0 +1,59 @@
+"""What a submission may use up, over all of its checks, so that it holds nobody up.
+
+One question is bounded, and so is a child. Thousands of questions would not be: a program may rest
+before each answer, or run in circles in every check. So seconds are added up, by TODO and in all.
+Who has used up much has little for each check that is left, and who goes on like that has none.
+
+Seconds are those of a processor that worked for the submission, and those in which it could have
+worked and rested. How long it waits for a processor that others use counts for neither.
+"""
+
+from collections import defaultdict
+from dataclasses import dataclass, field
+
+from grader.judge.connection import Connection
+
+REST = 8.0  # s, in one check
+TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
+TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
+LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
+END_CPU, END_REST = 90.0, 40.0  # s; then no check is run any more
+
+
+@dataclass
+class Budget:
+    """The seconds that are used up, by the ids of TODOs."""
+
+    cpu: dict[str, float] = field(default_factory=lambda: defaultdict(float))
+    rest: dict[str, float] = field(default_factory=lambda: defaultdict(float))
+
+    def cpu_for(self, todo: str, usual: int) -> int:
+        """Processor seconds for a process of a check that would have so many as usual."""
+        much = self.cpu[todo] >= TODO_CPU or sum(self.cpu.values()) >= SUBMISSION_CPU
+        return min(usual, LITTLE_CPU) if much else usual
+
+    def rest_for(self, todo: str) -> float:
+        """Seconds for which a process of a check may rest."""
+        much = self.rest[todo] >= TODO_REST or sum(self.rest.values()) >= SUBMISSION_REST
+        return LITTLE_REST if much else REST
+
+    def charge(self, todo: str, connection: Connection) -> None:
+        self.cpu[todo] += connection.cpu
+        self.rest[todo] += connection.rested
+
+    @property
+    def cut(self) -> str:
+        """Why no check is run any more, or nothing."""
+        if sum(self.cpu.values()) >= END_CPU:
+            return f"not run: the checks before it used up {END_CPU:g} s of processor time"
+        if sum(self.rest.values()) >= END_REST:
+            return f"not run: in the checks before it the code rested for {END_REST:g} s"
+        return ""
+
+    def why_little(self, todo: str) -> str:
+        """What is said of a check that had less than usual, or nothing."""
+        if self.cpu[todo] >= TODO_CPU or self.rest[todo] >= TODO_REST:
+            return "; it had less than usual, because the checks of this TODO before it used much"
+        if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:
+            return "; it had less than usual, because the checks before it used much"
+        return ""

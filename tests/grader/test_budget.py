@@ -1,0 +1,113 @@
+"""What a submission may use up in all: little is left for who has used much, and then nothing."""
+
+import os
+import shutil
+import signal
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from grader.judge.budget import (
+    END_CPU,
+    END_REST,
+    LITTLE_CPU,
+    LITTLE_REST,
+    REST,
+    SUBMISSION_CPU,
+    SUBMISSION_REST,
+    TODO_CPU,
+    TODO_REST,
+    Budget,
+)
+from grader.judge.children import busy_seconds
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.rubric import load_rubric
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of queues")
+
+
+@dataclass
+class Used:
+    """Stands in for a connection that has ended."""
+
+    cpu: float = 0.0
+    rested: float = 0.0
+
+
+def test_who_has_used_nothing_has_what_is_usual():
+    budget = Budget()
+    budget.charge("1", Used(0.3, 0.1))
+    assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST)
+    assert not budget.cut and not budget.why_little("1")
+
+
+def test_a_todo_that_used_much_has_little_left_and_the_others_all():
+    budget = Budget()
+    budget.charge("1", Used(cpu=TODO_CPU))
+    assert budget.cpu_for("1", 20) == LITTLE_CPU and budget.cpu_for("2", 20) == 20
+    budget.charge("2", Used(rested=TODO_REST))
+    assert budget.rest_for("2") == LITTLE_REST and budget.rest_for("3") == REST
+    assert "this TODO" in budget.why_little("1") and not budget.why_little("3")
+
+
+def test_a_submission_that_used_much_has_little_left_and_then_nothing():
+    budget = Budget()
+    for todo in range(4):
+        budget.charge(str(todo), Used(cpu=SUBMISSION_CPU / 4))
+    assert budget.cpu_for("8a", 5) == LITTLE_CPU and not budget.cut
+    budget.charge("4", Used(cpu=END_CPU - SUBMISSION_CPU))
+    assert "90 s of processor time" in budget.cut
+    resting = Budget()
+    resting.charge("1", Used(rested=SUBMISSION_REST))
+    assert resting.rest_for("8a") == LITTLE_REST and not resting.cut
+    resting.charge("2", Used(rested=END_REST - SUBMISSION_REST))
+    assert "rested for 40 s" in resting.cut
+
+
+def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
+    rubric = load_rubric()
+    last = max(check.cpu_seconds for todo in rubric.todos for check in todo.checks)
+    assert END_CPU + last + 10 <= 120  # s; ten for the judge, which needs two
+    checks = sum(len(todo.checks) for todo in rubric.todos)
+    assert min(END_REST + REST, SUBMISSION_REST + REST + checks * LITTLE_REST) + 10 <= 60
+
+
+@LINUX
+def test_a_process_that_waits_for_a_processor_is_busy():
+    """Two loops on one processor: each has worked or queued all the time, a sleeper has not."""
+    one = min(os.sched_getaffinity(0))
+    loops = [spawned(one, "while True: pass") for _ in range(2)]
+    sleeper = spawned(one, "import time; time.sleep(60)")
+    try:
+        before = [busy_seconds(pid) for pid in (*loops, sleeper)]
+        signal.sigtimedwait([], 1.5)
+        after = [busy_seconds(pid) for pid in (*loops, sleeper)]
+        worked = [b - a for a, b in zip(before, after, strict=True)]
+        assert min(worked[:2]) > 1.2 and worked[2] < 0.75
+    finally:
+        for pid in (*loops, sleeper):
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+
+
+def spawned(processor: int, code: str) -> int:
+    pin = f"import os; os.sched_setaffinity(0, [{processor}])\n"
+    return os.posix_spawn(sys.executable, [sys.executable, "-c", pin + code], os.environ)
+
+
+@LINUX
+def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Path):
+    """Two checks of 8a are cut; the third of their program is none of its business."""
+    tree = tmp_path / "tree"
+    shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks"))
+    path = tree / "integrators.py"
+    text = path.read_text(encoding="utf-8")
+    begun = "    v = v + accel(x) * dt\n"
+    assert text.count(begun) == 1
+    path.write_text(text.replace(begun, "    while True:\n        pass\n"), encoding="utf-8")
+    only = frozenset({"8a", "8b"})
+    result = grade(tree, Options(shipped_reference(), only=only))
+    assert [todo.points for todo in result.todos] == [0, 2]
+    assert all("processor time" in check.got for check in result.todos[0].checks)
