@@ -17,7 +17,7 @@ REST = 8.0  # s, in one check
 TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
-END_CPU, END_REST = 90.0, 40.0  # s; then no check is run any more
+END_CPU, END_REST = 90.0, 32.0  # s; then no check is run any more
 
 
 @dataclass

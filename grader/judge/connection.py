@@ -93,9 +93,7 @@ class Connection:
             case Raised() as raised:
                 raise Broke(ran, f"{raised.error}: {raised.message}", raised)
             case Missing(what):
-                missing = NotYet(ran, "the names and types of the lesson", what)
-                missing.quotes = True
-                raise missing
+                raise NotYet(ran, "the names and types of the lesson", what)
             case reply:
                 return reply
 

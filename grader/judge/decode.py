@@ -32,8 +32,7 @@ class Decoder:
     `what` names an answer to the student.
     """
 
-    def __init__(self, mixed: bool) -> None:
-        self.mixed = mixed  # functions of the reference run too: what they return is not shown
+    def __init__(self) -> None:
         self.running = ""  # the experiment, as the line *We ran* has it
         self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
         self.names: dict[int, str] = {}  # what things are called to the student
@@ -124,11 +123,9 @@ class Decoder:
             case None:
                 return "None (is there a return missing?)"
             case Ref(kind=kind):
-                return "an object" if self.mixed else f"an object of type {kind}"
+                return f"an object of type {kind}"
             case Items():
                 return f"a list or tuple of {len(value.items)}"
-            case str() if self.mixed:
-                return "a text"
             case bool() | int() | float() | str():
                 return f"{value!r}"[:200]
             case Vec(x, y):

@@ -9,7 +9,6 @@ class NotYet(Exception):
     def __init__(self, ran: str, expected: str, got: str, meaning: str = "") -> None:
         super().__init__(got)
         self.ran, self.expected, self.got, self.meaning = ran, expected, got, meaning
-        self.quotes = False  # whether it repeats words of the submission
 
 
 class Broke(Exception):
@@ -18,4 +17,3 @@ class Broke(Exception):
     def __init__(self, ran: str, got: str, raised: Raised | None = None) -> None:
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
-        self.quotes = raised is not None

@@ -67,7 +67,7 @@ class Lab(Decoder):
         pieces: list[Piece],
         send: Send = ask_child,
     ) -> None:
-        super().__init__(mixed=bool(pieces))
+        super().__init__()
         self.module = module
         self.connection = Connection(module, open_child, pieces, send)
         self.observations: list[Observation] = []

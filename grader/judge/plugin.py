@@ -123,18 +123,23 @@ class GradingPlugin:
         return None
 
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
-        """With the reference in the other TODOs' places; failing that, the program as it is."""
+        """With the reference in the other TODOs' places; failing that, the program as it is.
+
+        What is told of a failure comes from the program as it is. Where the reference took part, a
+        submission could have read it, and any word or number of its answers could spell it out.
+        """
         lab, again = self._attempt(todo, check, function, isolated=True)
+        told = lab
         if lab.failure is not None and lab.connection.swapped and not lab.ended:
-            as_it_is, its_own = self._attempt(todo, check, function, isolated=False)
-            if as_it_is.failure is None or lab.failure.quotes:
-                lab, again = as_it_is, its_own
+            told, again = self._attempt(todo, check, function, isolated=False)
+        if told.failure is None:
+            lab = told
         self.observations.setdefault(todo.id, []).extend(lab.observations)
-        if lab.failure is not None:
-            if not lab.ended:
-                failing = Failing(todo, check, again, lab.connection.pieces)
+        if told.failure is not None:
+            if not told.ended:
+                failing = Failing(todo, check, again, told.connection.pieces)
                 self.failing[todo.id, check.id] = failing
-            return self._failure(todo, check, title, lab.failure)
+            return self._failure(todo, check, title, told.failure)
         return self._result(todo, check, title, "passed")
 
     def _attempt(

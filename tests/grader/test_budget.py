@@ -63,7 +63,7 @@ def test_a_submission_that_used_much_has_little_left_and_then_nothing():
     resting.charge("1", Used(rested=SUBMISSION_REST))
     assert resting.rest_for("8a") == LITTLE_REST and not resting.cut
     resting.charge("2", Used(rested=END_REST - SUBMISSION_REST))
-    assert "rested for 40 s" in resting.cut
+    assert "rested for 32 s" in resting.cut
 
 
 def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
