@@ -111,7 +111,7 @@ def main():
     """Compile, compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--out", type=Path, default=Path("build/compiled"))
-    folder = parser.parse_args().out.absolute()
+    folder = parser.parse_args().out.resolve()
     print(f"compiling stable_engine into {folder} (about half a minute) ...")
     try:
         build(folder)

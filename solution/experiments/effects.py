@@ -19,7 +19,7 @@ from pathlib import Path
 from mini_engine import contacts as lesson_contacts
 from mini_engine import joints, solver, world
 from mini_engine.bonus.world import with_bonus
-from stable_engine import bullets, contact, contacts, friction, rods, springs
+from stable_engine import contact, contacts, friction, rods, springs, sweep
 
 from . import effects_report
 from .engines import Lesson, Stable, State
@@ -42,7 +42,7 @@ seconds_now = time.thread_time if FINE else time.perf_counter
 OUT = Path("build/effects")
 
 FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
-FILES["Contacts"] += ["contact.py", "broad_phase.py"]
+FILES["Contacts"] += ["contact.py", "broad_phase.py", "sweep.py"]
 
 
 @dataclass
@@ -205,7 +205,7 @@ STABLE_WORK = [
     ("rod solves", rods.Rods.solve, awake),
     ("rod solves", rods.Rods.relax, awake),
     ("spring forces", springs.Springs.force, awake),
-    ("sweeps", bullets.Bullets.first_hit, one),
+    ("sweeps", sweep.first_hit, one),
 ]
 LESSON_WORK = [
     ("pairs", lesson_contacts.collide, one),

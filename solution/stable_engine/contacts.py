@@ -4,16 +4,19 @@ from math import hypot
 
 from .body import Body
 from .broad_phase import near_pairs
-from .contact import Contact, collide
+from .contact import Contact, behind_face, collide
 from .effect import Effect
-from .soft import SAME_DIRECTION, softness
+from .soft import SAME_DIRECTION, Pace, softness
+from .sweep import stop_at_first_hit
 from .world import World
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
+STIFFENING = 0.07  # of a substep, per step
 MAX_PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
 RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
+CORE = 0.5  # radii
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
 BallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
@@ -38,6 +41,7 @@ class Contacts(Effect):
         self.cache: dict[tuple[int, int], Contact] = {}
         self.sleeping_cache: dict[tuple[int, int], Contact] = {}
         self.ignored: set[tuple[int, int]] = set()
+        self.pace = Pace(STIFFENING)
 
     def attach(self, world: World) -> None:
         super().attach(world)
@@ -74,8 +78,11 @@ class Contacts(Effect):
                 if pair in self.ignored:
                     continue
                 c = self.new_contact(a, b)
-            elif nx * c.nx + ny * c.ny < SAME_DIRECTION:
-                c.jn = c.jt = 0.0
+            else:
+                if gap < -a.radius and not b.radius:
+                    nx, ny, gap = behind_face(a, b, c.nx, c.ny)
+                if nx * c.nx + ny * c.ny < SAME_DIRECTION:
+                    c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap = nx, ny, gap
             found[pair] = c
         self.cache = found
@@ -106,8 +113,9 @@ class Contacts(Effect):
             after_impact(c, jn)
 
     def prepare(self, h: float) -> None:
-        self.ball_spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
-        self.static_spring = softness(2 * FREQUENCY / h, DAMPING_RATIO, h)
+        hertz = FREQUENCY / self.pace.follow(h)
+        self.ball_spring = softness(hertz, DAMPING_RATIO, h)
+        self.static_spring = softness(2 * hertz, DAMPING_RATIO, h)
         if not self.changed:
             return
         self.ball_rows: list[BallRow] = []
@@ -205,6 +213,15 @@ class Contacts(Effect):
             jn -= before
             a.vx -= ax * jn
             a.vy -= ay * jn
+
+    def finish(self, h: float) -> None:
+        """Keep the core of a fast ball out of static bodies: deep in one, it may leave behind it.
+
+        The core is half as wide as the ball, so that one that slides is not held up at a seam.
+        """
+        for body, x, y in self.last_positions:
+            if abs(body.x - x) + abs(body.y - y) > body.radius > 0 and not body.bullet:
+                stop_at_first_hit(body, (x, y), CORE * body.radius, 0.0, self.world, h)
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(c.a, c.b) for c in self.touching]

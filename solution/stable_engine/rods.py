@@ -5,11 +5,12 @@ from math import hypot
 from .body import Body
 from .contacts import Contacts
 from .joint import Joint, Joints
-from .soft import SAME_DIRECTION, softness
+from .soft import SAME_DIRECTION, Pace, softness
 from .validate import require
 
 FREQUENCY = 0.25  # of a rod, per substep
 DAMPING_RATIO = 5.0
+STIFFENING = 0.02  # of a substep, per step
 
 
 class Rod(Joint):
@@ -33,6 +34,10 @@ class Rods(Joints[Rod]):
 
     rank = 2
 
+    def __init__(self) -> None:
+        super().__init__()
+        self.pace = Pace(STIFFENING)
+
     def add(self, rod: Rod) -> None:
         super().add(rod)
         contacts = self.world.effects.get("Contacts")
@@ -40,7 +45,7 @@ class Rods(Joints[Rod]):
             contacts.ignore_pair(rod.a, rod.b)
 
     def prepare(self, h: float) -> None:
-        self.spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
+        self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:

@@ -101,8 +101,8 @@ def test_every_engine_repeats_itself_bit_by_bit():
 def test_longer_runs_take_over_what_shorter_ones_have():
     boxes = next(case for case in hard_cases.CASES if "closed" in case.title)
     lengths = [len(boxes.at(length).scenes) for length in battery.LENGTHS]
-    assert lengths == [6, 60, 400]
-    assert boxes.at("soak").title == "400 random closed boxes"
+    assert lengths == [6, 60, 2000]
+    assert boxes.at("soak").title == "2000 random closed boxes"
 
 
 # ---------------------------------------------------------------- how a battery judges
