@@ -87,6 +87,7 @@ class Stable:
             for s in scene.springs:
                 a, b = self.bodies[s.a], self.bodies[s.b]
                 self.world.add(stable_engine.Spring(a, b, s.stiffness, s.damping, s.length))
+        self.complaints = self.world.check()  # asked here, so that no step warns
 
     def effect(self, name):
         make = getattr(stable_engine, name)

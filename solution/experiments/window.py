@@ -88,7 +88,9 @@ class Show:
         )
         self.engine = ENGINES[self.engine_name](scene, **self.settings())
         missing = [n.lower() for n in self.chosen if n in CANNOT[self.engine_name]]
-        self.note = f"{self.engine_name} runs without {' and '.join(missing)}." if missing else note
+        if missing:
+            note = f"{self.engine_name} runs without {' and '.join(missing)}."
+        self.note = " ".join(filter(None, [note, self.complaint()]))
         self.failed = False
         self.time = self.owed = 0.0  # s
         self.frames = 0
@@ -97,6 +99,14 @@ class Show:
         self.lowest = self.depths()
         self.motion = self.begun_with + sum(self.lowest)
         self.measure()
+
+    def complaint(self):
+        """What the engine says of an effect that the scene calls for and that is switched off."""
+        called_for = [f"calls for {name}()" for name in self.scene.effects]
+        for sentence in getattr(self.engine, "complaints", []):
+            if any(words in sentence for words in called_for):
+                return sentence.partition(":")[0] + "."
+        return ""
 
     def settings(self):
         settings = {"substeps": self.substeps[self.engine_name]}

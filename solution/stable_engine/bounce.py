@@ -25,8 +25,11 @@ class Bounce(Effect):
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
+    def is_used(self) -> bool:
+        return any(body.e > 0 for body in self.world.bodies)
+
     def begin_contact(self, c: Contact) -> None:
-        c.e = min(c.a.restitution, c.b.restitution)
+        c.e = min(c.a.e, c.b.e)
 
     def impact(self, h: float) -> None:
         bouncing = [c for c in self.contacts.touching if c.e > 0]

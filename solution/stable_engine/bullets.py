@@ -31,6 +31,13 @@ class Bullets(Effect):
     def add(self, body: Body) -> None:
         self.bullets.append(body)
 
+    def forget(self, body: Body) -> None:
+        if body.bullet:
+            self.bullets.remove(body)
+
+    def is_used(self) -> bool:
+        return bool(self.bullets)
+
     def impact(self, h: float) -> None:
         """Stop a bullet that did not bounce: a soft contact would give way too far."""
         if self.bullets:
@@ -39,10 +46,10 @@ class Bullets(Effect):
                     self.contacts.apply_impact(c, c.closing_speed())
 
     def prepare(self, h: float) -> None:
-        self.starts = [(bullet.x, bullet.y) for bullet in self.bullets]
+        self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bullets]
 
     def finish(self, h: float) -> None:
-        for bullet, start in zip(self.bullets, self.starts, strict=True):
-            if hypot(bullet.x - start[0], bullet.y - start[1]) > SWEEP_FROM * bullet.radius:
+        for bullet, x, y in self.starts:
+            if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.radius:
                 overlap = OVERLAP * bullet.radius
-                stop_at_first_hit(bullet, start, bullet.radius, overlap, self.world, h)
+                stop_at_first_hit(bullet, (x, y), bullet.radius, overlap, self.world, h)

@@ -3,7 +3,7 @@
 from math import hypot
 
 from .body import Body
-from .contacts import Contacts
+from .contacts import Contacts, pair_both_ways
 from .joint import Joint, Joints
 from .soft import SAME_DIRECTION, Pace, softness
 from .validate import require
@@ -43,6 +43,12 @@ class Rods(Joints[Rod]):
         contacts = self.world.effects.get("Contacts")
         if isinstance(contacts, Contacts) and rod.length < rod.a.radius + rod.b.radius:
             contacts.ignore_pair(rod.a, rod.b)
+
+    def remove(self, rod: Rod) -> None:
+        super().remove(rod)
+        contacts = self.world.effects.get("Contacts")
+        if isinstance(contacts, Contacts):
+            contacts.ignored -= pair_both_ways(rod.a, rod.b)
 
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)

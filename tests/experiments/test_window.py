@@ -249,6 +249,15 @@ def test_letters_declare_an_effect_and_take_it_back(scene, key, effect):
     assert (effect in show.engine.world.effects) is was_on
 
 
+def test_an_effect_that_the_scene_calls_for_is_missed_by_the_stable_engine():
+    show = Show("pile", "stable")
+    assert show.note == ""
+    press(show, ord("f"))
+    assert "starts again. This scene calls for Friction(), which it does not" in show.note
+    press(show, pygame.K_1)
+    assert "calls for" not in show.note
+
+
 def test_a_letter_that_would_change_nothing_says_why():
     show = Show("tower", "lesson")
     for key, words in (("z", "no sleep"), ("c", "always"), ("r", "nothing in this scene")):
