@@ -19,6 +19,7 @@ from pathlib import Path
 
 from experiments import accuracy_tables, figures, race, smooth
 from experiments.answers import Effort, study
+from experiments.compiled import time_compiled
 from experiments.dials import QUESTIONS, dials
 from experiments.table import Progress, write_markdown
 
@@ -200,4 +201,5 @@ def read(arguments):
 
 
 if __name__ == "__main__":
+    print(time_compiled())
     sys.exit(main())

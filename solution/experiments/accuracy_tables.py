@@ -203,12 +203,14 @@ def pile_table(piles):
             [
                 row["balls"],
                 number(row["lesson"]["ms"]),
-                *(share(row[name]["ratio"]) for name in ("stable", "pymunk")),
+                share(row["stable"]["ratio"]),
+                share(row["compiled"]["ratio"]) if "compiled" in row else "-",
+                share(row["pymunk"]["ratio"]),
                 f"{share(asleep['ratio'])} ({asleep['asleep']} asleep)",
                 *(number(row[name]["overlap"]) for name in ("lesson", "stable", "pymunk")),
             ]
         )
-    heads = ["balls", "lesson, ms", "stable", "pymunk", "stable asleep",
+    heads = ["balls", "lesson, ms", "stable", "stable compiled", "pymunk", "stable asleep",
              "lesson overlap, px", "stable overlap, px", "pymunk overlap, px"]  # fmt: skip
     grown = [(name, growth(piles, name)) for name in ("lesson", "stable", "pymunk")]
     parts = [f"{name} {times(factor)}" for name, factor in grown if factor]
@@ -224,8 +226,8 @@ def pile_table(piles):
 def same_step_table(race):
     rows = [
         [
-            row["engine"],
-            row["substeps"] if row["engine"] == "stable" else "-",
+            "stable compiled" if row["engine"] == "compiled" else row["engine"],
+            row["substeps"] if row["engine"] in ("stable", "compiled") else "-",
             number(row["overlap"]),
             "-" if row["ratio"] is None else times(row["ratio"]),
         ]

@@ -6,6 +6,7 @@ A question runs an engine and returns errors by name, a number each or a word fo
 import math
 from dataclasses import dataclass, replace
 
+from .compiled import Compiled
 from .edits import EDITS
 from .engines import PASSES, SUBSTEPS, Lesson, Pymunk, Stable
 from .measures import (
@@ -59,6 +60,8 @@ class Setting:
             return Lesson(scene, self.passes, self.substeps, self.edits)
         if self.engine == "stable":
             return Stable(scene, self.substeps)
+        if self.engine == "compiled":
+            return Compiled(scene, self.substeps)
         return Pymunk(scene, self.passes, self.substeps)
 
     @property
@@ -77,6 +80,7 @@ class Setting:
 
 LESSON = Setting("lesson")
 STABLE = Setting("stable", substeps=SUBSTEPS)
+COMPILED = Setting("compiled", substeps=SUBSTEPS)
 PYMUNK = Setting("pymunk", passes=PASSES)
 
 

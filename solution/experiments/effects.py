@@ -22,6 +22,7 @@ from mini_engine.bonus.world import with_bonus
 from stable_engine import contact, contacts, friction, rods, springs, sweep
 
 from . import effects_report
+from .compiled import Compiled, time_compiled
 from .engines import Lesson, Stable, State
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
@@ -257,14 +258,26 @@ def price_list(balls, rounds):
                 scene = replace(scenes[row.scene], effects=effects)
                 cases[row.scene, effects] = RepeatedStep(Stable(scene), row.scene)
     counted = {key: count(repeated, STABLE_WORK) for key, repeated in cases.items()}
-    times = clock(cases, max(1, rounds * 40 // max(balls, 40)))
+    turns = max(1, rounds * 40 // max(balls, 40))
+    times = clock(cases, turns)
+    compiled = clock_compiled(cases, turns) if Compiled.package else dict.fromkeys(cases)
     listed = []
     for row in ROWS:
         key, base = (row.scene, row.effects), (row.scene, row.base)
         less = counted[base]["opcodes"] if row.base is not None else 0
         now = {"title": row.title, "effects": row.effects, "base": row.base, **counted[key]}
         listed.append(now | {"price": now["opcodes"] - less, "ms": times[key]})
+        listed[-1]["compiled ms"] = compiled[key]
     return listed
+
+
+def clock_compiled(cases, rounds):
+    """The same in the compiled engine, beside nothing else: its balls lie as those before did."""
+    again = {
+        key: RepeatedStep(Compiled(repeated.engine.scene), repeated.kind)
+        for key, repeated in cases.items()
+    }
+    return clock(again, rounds)
 
 
 def undeclared_list(balls):
@@ -380,4 +393,5 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
+    print(time_compiled())
     main()

@@ -74,32 +74,33 @@ class Stable:
     """The stable engine, with the effects the scene calls for."""
 
     name = "stable"
+    package = stable_engine  # or its compiled copy: see compiled.py
 
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps = scene, substeps
         effects = [self.effect(name) for name in scene.effects]
-        self.world = stable_engine.World(scene.gravity, substeps, effects)
+        self.world = self.package.World(scene.gravity, substeps, effects)
         self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
-                self.world.add(stable_engine.Rod(self.bodies[a], self.bodies[b]))
+                self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
         if "Springs" in scene.effects:
             for s in scene.springs:
                 a, b = self.bodies[s.a], self.bodies[s.b]
-                self.world.add(stable_engine.Spring(a, b, s.stiffness, s.damping, s.length))
+                self.world.add(self.package.Spring(a, b, s.stiffness, s.damping, s.length))
         self.complaints = self.world.check()  # asked here, so that no step warns
 
     def effect(self, name):
-        make = getattr(stable_engine, name)
+        make = getattr(self.package, name)
         return make(*self.scene.damping) if name == "Damping" else make()
 
     def body(self, data):
         surface = {"restitution": data.restitution, "friction": data.friction}
         if not isinstance(data, Ball):
-            return stable_engine.Body(stable_engine.Box(data.half), data.pos, **surface)
+            return self.package.Body(self.package.Box(data.half), data.pos, **surface)
         bullet = data.bullet and "Bullets" in self.scene.effects
-        shape = stable_engine.Circle(data.radius)
-        body = stable_engine.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
+        shape = self.package.Circle(data.radius)
+        body = self.package.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
         body.vel, body.omega = data.vel, data.omega
         return body
 

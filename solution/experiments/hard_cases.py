@@ -13,6 +13,7 @@ from itertools import product
 
 from . import scenes, trials
 from .battery import Case, Figure, each, main, number
+from .compiled import use_compiled
 from .scenes import DT, G
 from .steps import PATTERNS
 
@@ -354,4 +355,5 @@ UNEVEN = [
 CASES = STACKS + BAD_STARTS + FAST + ROLLING + RODS + UNEVEN + AGAIN
 
 if __name__ == "__main__":
+    print(use_compiled())
     sys.exit(main("Hard cases, side by side", CASES))

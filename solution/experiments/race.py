@@ -3,8 +3,9 @@
 import math
 from dataclasses import dataclass, replace
 
+from .compiled import Compiled
 from .costs import wall_times
-from .dials import LAUNCHED, LESSON, PYMUNK, QUESTIONS, STABLE
+from .dials import COMPILED, LAUNCHED, LESSON, PYMUNK, QUESTIONS, STABLE
 from .engines import Lesson, Pymunk, Stable
 from .measures import deepest_overlap, finite, run
 from .scenes import pile
@@ -134,6 +135,8 @@ def pile_row(count, effort, tick=lambda name: None):
         "stable": Stable(scene, STABLE_SUBSTEPS),
         "pymunk": Pymunk(scene),
     }
+    if Compiled.package:
+        engines["compiled"], rates["compiled"] = Compiled(scene, STABLE_SUBSTEPS), STABLE_RATE
     row = {"balls": count}
     for name, engine in engines.items():
         tick(name)
@@ -160,7 +163,9 @@ def same_step(count, effort, tick=lambda name: None):
     """
     tick("settling")
     scene = settled(count)
-    settings = [PYMUNK, LESSON, *(replace(STABLE, substeps=n) for n in SAME_STEP)]
+    stables = [STABLE, COMPILED] if Compiled.package else [STABLE]
+    dials = [replace(setting, substeps=n) for setting in stables for n in SAME_STEP]
+    settings = [PYMUNK, LESSON, *dials]
     engines = [setting.build(scene) for setting in settings]
     overlaps = []
     for setting, engine in zip(settings, engines, strict=True):

@@ -17,6 +17,7 @@ import pygame
 from lab_runtime import frame_budget
 from mini_engine import ITERATIONS, MAX_STEPS, STEP
 
+from .compiled import use_compiled
 from .drawing import Picture
 from .engines import ENGINES, PASSES, SUBSTEPS
 from .measures import deepest_overlap, energy, finite, states, worst_stretch
@@ -366,4 +367,5 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
+    print(use_compiled())
     main()

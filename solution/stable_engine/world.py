@@ -29,8 +29,10 @@ class World:
         substeps: int = 4,
         effects: Iterable[Effect] = (),
     ) -> None:
-        whole = isinstance(substeps, int) and substeps > 0
-        require(whole, "World.substeps", substeps, "a whole number above 0")
+        whole = "a whole number above 0"
+        if not isinstance(substeps, int):
+            refuse("World.substeps", substeps, whole)
+        require(substeps > 0, "World.substeps", substeps, whole)
         self.gravity = pair("World.gravity", gravity)
         self.substeps = substeps
         self.bodies: list[Body] = []
