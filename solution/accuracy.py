@@ -1,4 +1,4 @@
-"""What accuracy costs in time: your engine and integrators, the stable engine, and pymunk.
+"""What accuracy costs in time: your engine and integrators, the stable engine, pymunk, Box2D.
 
 Every scene has an exact answer. The program turns each dial of each engine, and tells how far the
 answer is off and what the run costs. It prints tables and writes them with figures into a folder:
@@ -26,7 +26,7 @@ from experiments.table import Progress, write_markdown
 BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)  # in piles
 MOST_SAME_STEP = 200  # balls
 SINKING = ("tower", "stack")  # where the stable engine and pymunk race at equal accuracy
-WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03}  # of a solve, roughly
+WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03, "box2d": 0.03}  # of a solve, roughly
 SMOOTH_WEIGHT = 4e5  # of one system of the integrators
 FIGURES = "To draw the figures, install matplotlib: python -m pip install matplotlib"
 

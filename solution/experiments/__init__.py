@@ -1,4 +1,4 @@
-"""Experiments with three engines: the lesson's, the stable one, and pymunk.
+"""Experiments with the lesson's engine, the stable one, pymunk, and Box2D where it is installed.
 
 Programs, each started with python -m experiments.NAME:
     window        any scene in any engine, with dials

@@ -84,7 +84,7 @@ def price(runs, settings, effort):
         run["ms"] = None if seconds is None else 1000 * seconds
         run["ratio"] = seconds / unit if seconds and unit else None
         run["solves"] = setting.solves(engine)
-        python = setting.engine != "pymunk"
+        python = setting.engine in ("lesson", "stable")
         run["opcodes"] = (
             opcodes_per_second(engine, setting.dt, effort.opcode_steps) if python else None
         )
@@ -106,7 +106,7 @@ def dial_row(engine, dial, row, runs, settings, units):
 
 
 def work(run):
-    """What a run costs to compare within one engine: opcodes, which repeat, or time in pymunk."""
+    """What a run costs, to compare within one engine: opcodes, which repeat, or else time."""
     return run["opcodes"] or run["ratio"]
 
 

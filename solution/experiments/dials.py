@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from .compiled import Compiled
 from .edits import EDITS
-from .engines import PASSES, SUBSTEPS, Lesson, Pymunk, Stable
+from .engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS, Lesson, Stable
 from .measures import (
     deepest_overlap,
     energy_height,
@@ -51,7 +51,7 @@ class Setting:
 
     engine: str
     rate: int = RATE  # steps per second
-    passes: int = 8  # of the lesson's engine and pymunk
+    passes: int = 8  # of all but the stable engine
     substeps: int = 1
     edits: tuple = ()  # of the lesson's engine
 
@@ -62,7 +62,7 @@ class Setting:
             return Stable(scene, self.substeps)
         if self.engine == "compiled":
             return Compiled(scene, self.substeps)
-        return Pymunk(scene, self.passes, self.substeps)
+        return ENGINES[self.engine](scene, self.passes, self.substeps)
 
     @property
     def dt(self):
@@ -82,6 +82,7 @@ LESSON = Setting("lesson")
 STABLE = Setting("stable", substeps=SUBSTEPS)
 COMPILED = Setting("compiled", substeps=SUBSTEPS)
 PYMUNK = Setting("pymunk", passes=PASSES)
+BOX2D = Setting("box2d", passes=BOX2D_PASSES)
 
 
 def dials(quick=False):
@@ -89,6 +90,10 @@ def dials(quick=False):
     some = slice(0, 3) if quick else slice(0, 5)
     rates = (60, 120, 240) if quick else RATES
     counts = (2, 4, 8) if quick else (1, 2, 4, 8, 16)
+    box2d = [
+        ("box2d", "passes", by_passes(BOX2D, (4, 8, 16, 32, 64)[some])),
+        ("box2d", "step", by_rate(BOX2D, rates)),
+    ]
     return [
         ("lesson", "passes", by_passes(LESSON, (4, 8, 32) if quick else (4, 8, 16, 32, 64))),
         ("lesson", "step", by_rate(LESSON, rates)),
@@ -99,6 +104,7 @@ def dials(quick=False):
         ("pymunk", "passes", by_passes(PYMUNK, (5, 10, 20, 40, 80)[some])),
         ("pymunk", "step", by_rate(PYMUNK, rates)),
         ("pymunk", "substeps", by_substeps(PYMUNK, (1, 2, 4, 8, 16)[some])),
+        *(box2d if "box2d" in ENGINES else []),
     ]
 
 

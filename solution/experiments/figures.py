@@ -22,7 +22,7 @@ METHOD_LOOKS = {
     "velocity_verlet": ("#009E73", "^"),
     "rk4": ("#CC79A7", "D"),
 }
-ENGINE_COLOURS = {"lesson": "#D55E00", "stable": "#0072B2", "pymunk": "#009E73"}
+ENGINE_COLOURS = {"lesson": "#D55E00", "stable": "#0072B2", "pymunk": "#009E73", "box2d": "#CC79A7"}
 DIAL_LOOKS = {
     "passes": ("o", "-"),
     "step": ("s", "--"),

@@ -14,6 +14,7 @@ from itertools import product
 from . import scenes, trials
 from .battery import Case, Figure, each, main, number
 from .compiled import use_compiled
+from .engines import ENGINES
 from .scenes import DT, G
 from .steps import PATTERNS
 
@@ -22,6 +23,7 @@ STARTS = [100 + 0.2 * i for i in range(102)]  # px, all phases of a step of 20.4
 INSIDE = ((150, -10), (0, -10), (150, 0), (0, 0), (149, -9), (0, 9.9))  # corner, faces, centre ...
 SEAM_SPEEDS = (9, 30, 100, 300, 1000, 3000)  # px/s
 RAMS = ((200, 400, 600, 800, 1000), (0, 1, 6, 17, 34), (50, 54))  # px/s, degrees, px
+HAVE_SPRINGS = tuple(name for name in ENGINES if name != "lesson")
 NEVER_RISES = 1 / math.sqrt(0.75)  # the largest swing of semi-implicit Euler while omega h < 1
 
 
@@ -300,7 +302,7 @@ RODS = [
             [partial(scenes.oscillator, stiffness)],
             trials.oscillate,
             [Figure("swing", "swing, share of the first", 1.0, "<", NEVER_RISES - 1 + 1e-6)],
-            engines=("stable", "pymunk"),
+            engines=HAVE_SPRINGS,
         )
         for stiffness in (1e2, 1e4, 1e6, 1e9)
     ],
@@ -310,7 +312,7 @@ RODS = [
         trials.ring_down,
         [Figure("energy", "mean energy, share", 1.0, "share", 1e-3)],
         seconds=60,
-        engines=("stable", "pymunk"),
+        engines=HAVE_SPRINGS,
     ),
 ]
 

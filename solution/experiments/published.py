@@ -1,4 +1,4 @@
-"""A published test set, on the three engines.
+"""A published test set, on all engines.
 
 python -m experiments.published [--quick] [--markdown FILE]
 

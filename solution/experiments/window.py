@@ -1,6 +1,6 @@
 """The window with dials: `python -m experiments.window [--scene NAME] [--engine NAME]`.
 
-Any scene in any of the three engines. Dials (passes, substeps, step) turn while the scene runs on;
+Any scene in any engine. Dials (passes, substeps, step) turn while the scene runs on;
 another engine, scene or effect starts it again. How it looks is in drawing.py.
 """
 
@@ -19,7 +19,7 @@ from mini_engine import ITERATIONS, MAX_STEPS, STEP
 
 from .compiled import use_compiled
 from .drawing import Picture
-from .engines import ENGINES, PASSES, SUBSTEPS
+from .engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
 from .measures import deepest_overlap, energy, finite, states, worst_stretch
 from .scenes import NAMED, NEED_CONTACTS, Ball
 
@@ -44,6 +44,7 @@ CANNOT = {  # what each builder in engines.py leaves out
     "lesson": ("Springs", "Bullets", "Sleep"),
     "stable": (),
     "pymunk": ("Bullets", "Sleep"),
+    "box2d": (),
 }
 LOOK_FOR = {
     "lab": "The lesson's scene. Does the rod keep its length?",
@@ -70,8 +71,8 @@ class Show:
 
     def __init__(self, scene="lab", engine="stable"):
         self.scene_name, self.engine_name = scene, engine
-        self.passes = {"lesson": ITERATIONS, "pymunk": PASSES}
-        self.substeps = {"lesson": 1, "stable": SUBSTEPS, "pymunk": 1}
+        self.passes = {"lesson": ITERATIONS, "pymunk": PASSES, "box2d": BOX2D_PASSES}
+        self.substeps = {"lesson": 1, "stable": SUBSTEPS, "pymunk": 1, "box2d": 1}
         self.dt = STEP  # s
         self.paused = False
         self.choose_scene(0)
@@ -189,6 +190,9 @@ class Show:
     # ------------------------------------------------------------ dials
 
     def choose_engine(self, name):
+        if name not in ENGINES:
+            self.note = "Box2D is not installed: python -m pip install Box2D"
+            return
         self.engine_name = name
         self.start("Another engine: the scene starts again.")
 
@@ -212,8 +216,10 @@ class Show:
         self.passes[name] = min(max(int(self.passes[name] * factor), 1), MOST)
         if name == "lesson":
             self.engine.world.iterations = self.passes[name]
-        else:
+        elif name == "pymunk":
             self.engine.space.iterations = self.passes[name]
+        else:
+            self.engine.passes = self.passes[name]
 
     def turn_substeps(self, factor):
         name = self.engine_name
@@ -294,6 +300,7 @@ KEYS = {
     pygame.K_1: lambda show: show.choose_engine("lesson"),
     pygame.K_2: lambda show: show.choose_engine("stable"),
     pygame.K_3: lambda show: show.choose_engine("pymunk"),
+    pygame.K_4: lambda show: show.choose_engine("box2d"),
     pygame.K_LEFT: lambda show: show.choose_scene(-1),
     pygame.K_RIGHT: lambda show: show.choose_scene(1),
     pygame.K_UP: lambda show: show.turn_passes(2),

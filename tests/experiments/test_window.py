@@ -146,7 +146,16 @@ def test_tab_and_numbers_choose_the_engine():
     for key in (pygame.K_TAB, pygame.K_TAB, pygame.K_TAB, pygame.K_3, pygame.K_2, pygame.K_1):
         press(show, key)
         names.append(show.engine.name)
-    assert names == ["stable", "pymunk", "lesson", "pymunk", "stable", "lesson"]
+    assert names[:3] == [*ENGINES, "lesson"][1:4]
+    assert names[3:] == ["pymunk", "stable", "lesson"]
+
+
+def test_a_key_for_an_engine_that_is_not_installed_says_so(monkeypatch):
+    show = Show("lab", "stable")
+    monkeypatch.delitem(ENGINES, "box2d", raising=False)
+    press(show, pygame.K_4)
+    assert show.engine.name == "stable"
+    assert "pip install Box2D" in show.note
 
 
 def test_arrows_choose_the_scene_and_go_round():
