@@ -2,6 +2,7 @@
 
 from .answers import EXACT, best_dial
 from .race import growth
+from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
 from .table import Table, number, times
 
 
@@ -75,11 +76,13 @@ def energy_table(study):
             number(row["peaks"][0]),
             number(row["peaks"][-1]),
             "yes" if row["bounded"] else "no",
+            "-" if row["passes Verlet"] is None else row["passes Verlet"],
         ]
         for row in study
     ]
-    heads = ["method", "first round", "last round", "bounded"]
-    return Table("Orbit: largest energy error (share), 10 rounds of 400 steps", heads, rows)
+    heads = ["method", "first round", "last round", "bounded", "above Verlet's from round"]
+    words = f"{ENERGY_ROUNDS} rounds of {ENERGY_CALLS} evaluations"
+    return Table(f"Orbit: largest energy error (share), {words}", heads, rows)
 
 
 def fall_table(rows):

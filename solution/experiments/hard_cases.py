@@ -15,6 +15,7 @@ from . import scenes, trials
 from .battery import Case, Figure, each, main, number
 from .compiled import use_compiled
 from .engines import ENGINES
+from .limits import LIMITS
 from .scenes import DT, G
 from .steps import PATTERNS
 
@@ -354,7 +355,7 @@ UNEVEN = [
     for words, steps in PATTERNS.items()
 ]
 
-CASES = STACKS + BAD_STARTS + FAST + ROLLING + RODS + UNEVEN + AGAIN
+CASES = STACKS + BAD_STARTS + FAST + ROLLING + RODS + UNEVEN + AGAIN + LIMITS
 
 if __name__ == "__main__":
     print(use_compiled())
