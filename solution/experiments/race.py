@@ -12,7 +12,7 @@ from .scenes import pile
 
 RATES = (120, 240, 480, 960)  # of pymunk, steps per second
 PASSES = (10, 40, 160, 640)  # of pymunk
-SECONDS, QUICK_SECONDS = 10.0, 4.0  # pymunk sinks slowly: a shorter run flatters it
+SECONDS = 10.0  # pymunk sinks slowly: a shorter run flatters it
 SLOPS = (None, 0.0)  # px: the overlap pymunk leaves alone, its own choice (0.1) and none
 
 
@@ -41,7 +41,7 @@ class Rival:
 def equal_accuracy(name, effort, tick=lambda setting: None):
     """The cheapest pymunk that sinks no more than the stable engine at its defaults."""
     question = QUESTIONS[name]
-    rates, passes = (RATES[::2], PASSES[::2]) if effort.quick else (RATES, PASSES)
+    rates, passes = (RATES[::2], PASSES[:2]) if effort.quick else (RATES, PASSES)
     stable = attempt(question, STABLE, effort)
     rows = []
     for slop in SLOPS:
@@ -56,8 +56,8 @@ def equal_accuracy(name, effort, tick=lambda setting: None):
 
 def attempt(question, setting, effort):
     """One run: its sink, or a word for how it gave up."""
-    engine = setting.build(effort.scene(question))
-    seconds = effort.scale * (QUICK_SECONDS if effort.quick else SECONDS)
+    engine = setting.build(question.scene())
+    seconds = effort.scale * SECONDS
     sink = question.ask(engine, seconds, setting.dt)["sink"]
     sink = sink if isinstance(sink, str) or math.isfinite(sink) else "NaN"
     return {"setting": setting, "engine": engine, "sink": sink}

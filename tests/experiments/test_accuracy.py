@@ -15,14 +15,14 @@ from scipy.integrate import solve_ivp
 import accuracy
 import integrators
 from experiments import answers, costs, race, smooth
-from experiments.dials import BOX2D, LESSON, PYMUNK, QUESTIONS, STABLE, dials, hit
+from experiments.dials import BOX2D, LESSON, PYMUNK, QUESTIONS, STABLE, dials, hit, questions
 from experiments.engines import ENGINES, State
 from experiments.scenes import G, drop, pendulum
 from experiments.table import BEGIN, END, Table, number, times, write_markdown
 
 ROOT = Path(__file__).parents[2]
 HANDOUT = ROOT / "handouts" / "accuracy.md"
-TINY = ["--quick", "--scale", "0.05"]
+TINY = ["--quick", "--scale", "0.02"]
 SYSTEMS = pytest.mark.parametrize("make", smooth.SYSTEMS)
 
 # ---------------------------------------------------------------- integrators
@@ -214,6 +214,24 @@ def test_the_two_ball_hit_keeps_momentum_and_restitution():
     assert second - first == pytest.approx(0.8 * 300)
 
 
+def test_a_quick_run_judges_each_dial_by_the_same_runs_as_a_full_one():
+    for few, many in zip(dials(quick=True), dials(quick=False), strict=True):
+        assert few[:2] == many[:2]
+        assert (few[2][0], few[2][-1]) == (many[2][0], many[2][-1])
+        assert set(few[2]) <= set(many[2])
+    quick, full = answers.Effort(quick=True), answers.Effort()
+    for name in questions(quick=True):
+        assert quick.seconds(QUESTIONS[name]) == full.seconds(QUESTIONS[name])
+    assert set(QUESTIONS) - set(questions(quick=True)) == {"pile"}
+    assert set(questions()) == set(QUESTIONS)
+
+
+def test_no_digit_costs_less_than_no_work():
+    runs = [{"errors": {"x": 1.0}, "opcodes": 0, "ratio": 1.0},
+            {"errors": {"x": 0.1}, "opcodes": 0, "ratio": 0.9}]  # fmt: skip
+    assert answers.verdict("x", runs) == {"says": "helps", "digit": 1.0}
+
+
 @pytest.mark.parametrize("quick", [True, False])
 def test_every_dial_goes_through_its_engine_as_it_is(quick):
     defaults = {"lesson": LESSON, "stable": STABLE, "pymunk": PYMUNK, "box2d": BOX2D}
@@ -346,7 +364,7 @@ def tiny(tmp_path_factory):
 def test_the_results_are_complete(tiny):
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
     assert set(results) == {"about", "smooth", "dials", "equal", "piles", "same step"}
-    assert set(results["dials"]) == set(QUESTIONS)
+    assert set(results["dials"]) == set(questions(quick=True))
     for name, found in results["dials"].items():
         assert len(found["dials"]) == len(dials(quick=True))
         assert sum(run["default"] for run in found["runs"]) == 1
