@@ -5,7 +5,6 @@ from math import hypot
 from .body import Body
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect
-from .sweep import stop_at_first_hit
 from .world import World
 
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
@@ -52,4 +51,4 @@ class Bullets(Effect):
         for bullet, x, y in self.starts:
             if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.radius:
                 overlap = OVERLAP * bullet.radius
-                stop_at_first_hit(bullet, (x, y), bullet.radius, overlap, self.world, h)
+                self.contacts.sweep(bullet, (x, y), bullet.radius, overlap, h)

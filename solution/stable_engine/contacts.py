@@ -233,12 +233,24 @@ class Contacts(Effect):
         """
         for body, x, y in self.last_positions:
             if abs(body.x - x) + abs(body.y - y) > body.radius > 0 and not body.bullet:
-                stop_at_first_hit(body, (x, y), CORE * body.radius, 0.0, self.world, h)
+                self.sweep(body, (x, y), CORE * body.radius, 0.0, h)
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:
                 if a.world and b.world:
                     self.on_hit(a, b, speed)
+
+    def sweep(
+        self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
+    ) -> None:
+        """Stop a ball at the first static body on its way from start that it does not pass through.
+
+        See stop_at_first_hit.
+        """
+        statics = self.world.statics
+        if self.ignored:
+            statics = [s for s in statics if (body.id, s.id) not in self.ignored]
+        stop_at_first_hit(body, start, radius, overlap, statics, self.world.gravity, h)
 
     def of_body(self, body: Body) -> list[Contact]:
         """The contacts of a body, those it sleeps with among them."""

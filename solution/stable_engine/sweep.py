@@ -3,13 +3,18 @@
 from math import copysign, hypot, sqrt
 
 from .body import Body
-from .world import World
 
 NO_HIT = 1.0
 
 
 def stop_at_first_hit(
-    body: Body, start: tuple[float, float], radius: float, overlap: float, world: World, h: float
+    body: Body,
+    start: tuple[float, float],
+    radius: float,
+    overlap: float,
+    statics: list[Body],
+    gravity: tuple[float, float],
+    h: float,
 ) -> None:
     """Put a ball back to where it first hit a static body on its way from start, if it did.
 
@@ -19,12 +24,12 @@ def stop_at_first_hit(
     """
     x, y = start
     dx, dy = body.x - x, body.y - y
-    fraction = first_hit(world.statics, radius, x, y, dx, dy)
+    fraction = first_hit(statics, radius, x, y, dx, dy)
     fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
     if fraction == 1:
         return
     body.x, body.y = x + dx * fraction, y + dy * fraction
-    gx, gy = world.gravity
+    gx, gy = gravity
     ux, uy = body.vx + gx * h / 2, body.vy + gy * h / 2  # velocities lag half a substep behind
     speed2, fallen = ux * ux + uy * uy, 2 * (1 - fraction) * (gx * dx + gy * dy)  # px²/s²
     share = sqrt(max(1 - fallen / speed2, 0.0)) if speed2 else 1.0

@@ -252,6 +252,14 @@ def test_a_fast_ball_that_is_stopped_at_the_floor_keeps_its_energy(height, bulle
     assert energy(engine) == pytest.approx(start, rel=1e-9)
 
 
+@pytest.mark.parametrize("effects", [("Contacts", "Rods"), ("Contacts", "Rods", "Bullets")])
+def test_a_ball_on_a_rod_that_overlaps_its_peg_is_not_stopped_by_it(effects):
+    bob = Ball((15.5, 0), vel=(0, 1500), bullet=True)
+    world = build(Scene([Ball((0, 0), mass=0), bob], effects, [(0, 1)], gravity=(0, 0)))
+    run(world, 1)
+    assert speed(world.bodies[1]) == pytest.approx(1500, rel=0.05)
+
+
 @pytest.mark.parametrize("fast", BULLET_SPEEDS)
 def test_a_bullet_bounces_as_any_ball_does(fast):
     world = build(shot(fast, 100, restitution=0.5))
