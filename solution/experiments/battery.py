@@ -176,7 +176,7 @@ def table_rows(case, cells):
     """The rows of a case, one per figure. cells holds the answers by the engines' names."""
     rows = []
     for i, figure in enumerate(case.figures):
-        digits = 6 if figure.exact else 2
+        digits = 6 if figure.exact and math.isfinite(figure.exact) else 2
         row = [f"{case.title}: {figure.words}"]
         for name, answers in cells.items():
             missed = name == "stable" and not holds(figure, answers[i])

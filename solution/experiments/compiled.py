@@ -21,7 +21,8 @@ from .measures import bits, run
 from .scenes import NAMED, pile
 
 TREE = Path(__file__).parents[1]
-FOLDER = TREE.parent / "build/compiled"
+OUT = Path("build/compiled")
+FOLDERS = (TREE / OUT, TREE.parent / OUT)  # where it is looked for; the second is the kit's own
 NAME = "stable_compiled"
 ROUNDS = 12  # of timing, taken in turns
 LEFT_PLAIN = ("reading.py", "validate.py")  # their classes come from others that are not compiled
@@ -42,7 +43,7 @@ def sources():
     return found
 
 
-def build(folder=FOLDER):
+def build(folder):
     """Compile the engine in folder. Raises RuntimeError with the compiler's words."""
     package = folder / NAME
     shutil.rmtree(package, ignore_errors=True)
@@ -60,8 +61,8 @@ def build(folder=FOLDER):
         )
 
 
-def load(folder=FOLDER):
-    """The compiled engine, or None where there is none for this source and this Python."""
+def load(folder):
+    """The compiled engine in folder, or None where there is none for this source and Python."""
     package = folder / NAME
     try:
         fresh = all((package / name).read_text("utf-8") == t for name, t in sources().items())
@@ -85,24 +86,33 @@ class Compiled(Stable):
     package = None
 
 
-PLAIN = "The stable engine runs as plain source; make compiled makes a faster one."
+PLAIN = "The stable engine runs as plain source; python -m experiments.compiled makes a faster one."
 
 
-def use_compiled(folder=FOLDER):
+def use_compiled(folders=FOLDERS):
     """Have the table of engines hold the compiled stable engine where there is one; say so."""
-    Compiled.package = load(folder)
-    if Compiled.package is None:
+    folder = find(folders)
+    if folder is None:
         return PLAIN
     ENGINES[Stable.name] = Compiled
     return f"The stable engine is the compiled one in {folder}: the same bits, in less time."
 
 
-def time_compiled(folder=FOLDER):
+def time_compiled(folders=FOLDERS):
     """Have the compiled engine timed beside the plain one, whose opcodes count; say so."""
-    Compiled.package = load(folder)
-    if Compiled.package is None:
+    folder = find(folders)
+    if folder is None:
         return PLAIN
     return f"The compiled stable engine in {folder} is timed beside the plain source."
+
+
+def find(folders):
+    """The first folder with a compiled engine, which Compiled then has; None without."""
+    for folder in folders:
+        Compiled.package = load(folder)
+        if Compiled.package:
+            return folder
+    return None
 
 
 def same_bits(seconds=2.0):
@@ -133,7 +143,7 @@ def times_faster(rounds=ROUNDS):
 def main(arguments=None):
     """Compile, compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--out", type=Path, default=FOLDER)
+    parser.add_argument("--out", type=Path, default=OUT)
     folder = parser.parse_args(arguments).out.resolve()
     print(f"compiling stable_engine into {folder} (about half a minute) ...")
     try:

@@ -131,11 +131,15 @@ def curve(axes, points, top, bottom=0.0, **look):
 
 
 def plain_ticks(axes):
-    """Ticks as plain numbers; matplotlib's powers of ten take most of the time of a figure."""
+    """A line of the grid for every power of ten, written as a plain number.
+
+    matplotlib's own powers of ten take most of the time of a figure.
+    """
     from matplotlib import ticker
 
     axes.minorticks_off()
     for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(ticker.LogLocator(numticks=99))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
 
 
@@ -201,10 +205,10 @@ def energy_figure(plot, study):
     axes.set_ylabel("largest energy error in that round (share)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     bounded = [row["method"] for row in study if row["bounded"]]
-    says = f"only {' and '.join(bounded)}\nkeep" if bounded else "no method keeps"
+    says = f"only {' and '.join(bounded)} keep" if bounded else "no method keeps"
     crossing = next((row["passes Verlet"] for row in study if row["method"] == "rk4"), None)
-    passed = f"; RK4's is larger than Verlet's from round {crossing} on" if crossing else ""
-    title(figure, f"Orbit: {says} the energy error of the first round{passed}")
+    passed = f". RK4's is larger than Verlet's from round {crossing} on" if crossing else ""
+    title(figure, textwrap.fill(f"Orbit: {says} the energy error of the first round{passed}", 84))
     return figure
 
 

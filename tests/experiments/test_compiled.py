@@ -71,7 +71,7 @@ def no_package(monkeypatch):
 
 
 def test_without_a_compiled_build_the_plain_source_runs_and_it_is_said(tmp_path, no_package):
-    assert "plain source" in use_compiled(tmp_path)
+    assert "plain source" in use_compiled([tmp_path / "none", tmp_path])
     assert ENGINES["stable"] is Stable
 
 
@@ -89,7 +89,7 @@ def test_a_compiled_build_is_used_where_there_is_one_and_it_is_said(
     monkeypatch.syspath_prepend(tmp_path)
     engine = importlib.import_module(package.name)
     monkeypatch.setattr(engine.world, "__file__", "world.so")
-    assert str(tmp_path) in use_compiled(tmp_path)
+    assert str(tmp_path) in use_compiled([tmp_path / "none", tmp_path])
     made = ENGINES["stable"](on_floor())
     assert type(made.world).__module__ == f"{package.name}.world"
     run(made, 0.1)
