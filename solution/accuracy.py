@@ -1,10 +1,10 @@
-"""What accuracy costs in time: your engine and integrators, the stable engine, and pymunk.
+"""What accuracy costs in time: your engine and integrators, the stable engine, pymunk, Box2D.
 
 Every scene has an exact answer. The program turns each dial of each engine, and tells how far the
 answer is off and what the run costs. It prints tables and writes them with figures into a folder:
 
     python accuracy.py            takes some minutes
-    python accuracy.py --quick    takes half a minute; shorter runs and fewer values of each dial
+    python accuracy.py --quick    takes half a minute: the same runs, with fewer values of each dial
 
 Figures need matplotlib; everything else works without it.
 """
@@ -19,13 +19,14 @@ from pathlib import Path
 
 from experiments import accuracy_tables, figures, race, smooth
 from experiments.answers import Effort, study
-from experiments.dials import QUESTIONS, dials
+from experiments.compiled import time_compiled
+from experiments.dials import QUESTIONS, dials, questions
 from experiments.table import Progress, write_markdown
 
 BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)  # in piles
 MOST_SAME_STEP = 200  # balls
 SINKING = ("tower", "stack")  # where the stable engine and pymunk race at equal accuracy
-WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03}  # of a solve, roughly
+WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03, "box2d": 0.03}  # of a solve, roughly
 SMOOTH_WEIGHT = 4e5  # of one system of the integrators
 FIGURES = "To draw the figures, install matplotlib: python -m pip install matplotlib"
 
@@ -38,7 +39,7 @@ def measure(effort, balls, progress):
     return {
         "about": about(effort),
         "smooth": measure_smooth(effort, progress),
-        "dials": {name: measure_dials(name, effort, progress) for name in QUESTIONS},
+        "dials": {name: measure_dials(name, effort, progress) for name in questions(effort.quick)},
         "equal": [measure_race(name, effort, progress) for name in SINKING],
         "piles": [measure_pile(count, effort, progress) for count in balls],
         "same step": measure_same_step(balls, effort, progress),
@@ -107,13 +108,13 @@ def about(effort):
 
 def weight(question, setting, effort):
     """Roughly how much work a run is, in passes over one ball."""
-    moving = len(effort.scene(question).moving())
+    moving = len(question.scene().moving())
     steps = effort.seconds(question) * setting.rate * setting.substeps
     return steps * (moving + 1) * (setting.passes + 10) * WEIGHTS[setting.engine]
 
 
 def race_weight(effort):
-    return 3e4 if effort.quick else 3e5
+    return 1.5e5 if effort.quick else 3e5
 
 
 def pile_weight(count):
@@ -123,7 +124,7 @@ def pile_weight(count):
 def total_weight(effort, balls):
     """The whole program's work."""
     work = SMOOTH_WEIGHT * len(smooth.SYSTEMS)
-    for question in QUESTIONS.values():
+    for question in [QUESTIONS[name] for name in questions(effort.quick)]:
         settings = {setting for _, _, row in dials(effort.quick) for _, setting in row}
         work += sum(weight(question, setting, effort) for setting in settings)
     rivals = len(race.SLOPS) * len(race.RATES) * len(race.PASSES) // (4 if effort.quick else 1)
@@ -184,7 +185,7 @@ def figures_shown(handout):
 
 def read(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="shorter runs, fewer values per dial")
+    parser.add_argument("--quick", action="store_true", help="fewer values per dial, no pile")
     parser.add_argument("--no-figures", action="store_true", help="tables and results only")
     parser.add_argument("--out", type=Path, default=Path("build/accuracy"), metavar="DIR")
     parser.add_argument(
@@ -200,4 +201,5 @@ def read(arguments):
 
 
 if __name__ == "__main__":
+    print(time_compiled())
     sys.exit(main())

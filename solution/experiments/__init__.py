@@ -1,4 +1,4 @@
-"""Experiments with three engines: the lesson's, the stable one, and pymunk.
+"""Experiments with the lesson's engine, the stable one, pymunk, and Box2D where it is installed.
 
 Programs, each started with python -m experiments.NAME:
     window        any scene in any engine, with dials
@@ -10,7 +10,7 @@ and accuracy.py in the folder above: what accuracy costs in time.
 
 What they share: scenes (plain data), engines (one builder each), edits (of the lesson's engine),
 measures, opcodes (counting them), table (printing and writing).
-What one alone uses: drawing for window; battery and trials for hard_cases and published;
-effects_report for effects; smooth, dials, answers, costs, race, accuracy_tables and figures for
-accuracy.py.
+What one alone uses: drawing for window; battery, trials, steps and limits for hard_cases and
+published; effects_report for effects; smooth, dials, answers, costs, race, accuracy_tables and
+figures for accuracy.py.
 """

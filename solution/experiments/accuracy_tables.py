@@ -2,6 +2,7 @@
 
 from .answers import EXACT, best_dial
 from .race import growth
+from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
 from .table import Table, number, times
 
 
@@ -75,11 +76,13 @@ def energy_table(study):
             number(row["peaks"][0]),
             number(row["peaks"][-1]),
             "yes" if row["bounded"] else "no",
+            "-" if row["passes Verlet"] is None else row["passes Verlet"],
         ]
         for row in study
     ]
-    heads = ["method", "first round", "last round", "bounded"]
-    return Table("Orbit: largest energy error (share), 10 rounds of 400 steps", heads, rows)
+    heads = ["method", "first round", "last round", "bounded", "above Verlet's from round"]
+    words = f"{ENERGY_ROUNDS} rounds of {ENERGY_CALLS} evaluations"
+    return Table(f"Orbit: largest energy error (share), {words}", heads, rows)
 
 
 def fall_table(rows):
@@ -203,12 +206,14 @@ def pile_table(piles):
             [
                 row["balls"],
                 number(row["lesson"]["ms"]),
-                *(share(row[name]["ratio"]) for name in ("stable", "pymunk")),
+                share(row["stable"]["ratio"]),
+                share(row["compiled"]["ratio"]) if "compiled" in row else "-",
+                share(row["pymunk"]["ratio"]),
                 f"{share(asleep['ratio'])} ({asleep['asleep']} asleep)",
                 *(number(row[name]["overlap"]) for name in ("lesson", "stable", "pymunk")),
             ]
         )
-    heads = ["balls", "lesson, ms", "stable", "pymunk", "stable asleep",
+    heads = ["balls", "lesson, ms", "stable", "stable compiled", "pymunk", "stable asleep",
              "lesson overlap, px", "stable overlap, px", "pymunk overlap, px"]  # fmt: skip
     grown = [(name, growth(piles, name)) for name in ("lesson", "stable", "pymunk")]
     parts = [f"{name} {times(factor)}" for name, factor in grown if factor]
@@ -224,8 +229,8 @@ def pile_table(piles):
 def same_step_table(race):
     rows = [
         [
-            row["engine"],
-            row["substeps"] if row["engine"] == "stable" else "-",
+            "stable compiled" if row["engine"] == "compiled" else row["engine"],
+            row["substeps"] if row["engine"] in ("stable", "compiled") else "-",
             number(row["overlap"]),
             "-" if row["ratio"] is None else times(row["ratio"]),
         ]

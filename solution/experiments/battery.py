@@ -1,4 +1,4 @@
-"""A battery of cases: each one runs on the three engines, and all figures make one table.
+"""A battery of cases: each one runs on all engines, and all figures make one table.
 
 hard_cases.py and published.py hold the cases, trials.py what is done in them. Here is what a case
 is, how it is run, and how the table is written.
@@ -176,7 +176,7 @@ def table_rows(case, cells):
     """The rows of a case, one per figure. cells holds the answers by the engines' names."""
     rows = []
     for i, figure in enumerate(case.figures):
-        digits = 6 if figure.exact else 2
+        digits = 6 if figure.exact and math.isfinite(figure.exact) else 2
         row = [f"{case.title}: {figure.words}"]
         for name, answers in cells.items():
             missed = name == "stable" and not holds(figure, answers[i])
@@ -203,7 +203,7 @@ def run_all(cases):
 
 def main(title, cases, arguments=None):
     """Run the cases as the command line asks; the exit status is 1 if the stable engine misses."""
-    parser = argparse.ArgumentParser(description=f"{title}: the three engines in one table.")
+    parser = argparse.ArgumentParser(description=f"{title}: all engines in one table.")
     parser.add_argument("--quick", action="store_true", help="shorter runs, fewer scenes")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="put the table into FILE")
     options = parser.parse_args(arguments)

@@ -27,7 +27,7 @@ ASLEEP = (140, 146, 158)
 BALLS = [(235, 190, 80), (110, 175, 235), (225, 120, 95), (125, 200, 145), (190, 150, 225)]
 
 HELP = (
-    "Tab or 1 2 3: engine    Left Right: scene    Up Down: passes    S, Shift+S or ] [: substeps",
+    "Tab or 1 to 4: engine    Left Right: scene    Up Down: passes    S, Shift+S or ] [: substeps",
     "- +: step    letters: effects    Space: pause    N: one step    Enter: again    Esc: end",
 )
 

@@ -19,9 +19,10 @@ from pathlib import Path
 from mini_engine import contacts as lesson_contacts
 from mini_engine import joints, solver, world
 from mini_engine.bonus.world import with_bonus
-from stable_engine import bullets, contact, contacts, friction, rods, springs
+from stable_engine import contact, contacts, friction, rods, springs, sweep
 
 from . import effects_report
+from .compiled import Compiled, time_compiled
 from .engines import Lesson, Stable, State
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
@@ -42,7 +43,7 @@ seconds_now = time.thread_time if FINE else time.perf_counter
 OUT = Path("build/effects")
 
 FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
-FILES["Contacts"] += ["contact.py", "broad_phase.py"]
+FILES["Contacts"] += ["contact.py", "broad_phase.py", "sweep.py"]
 
 
 @dataclass
@@ -205,7 +206,7 @@ STABLE_WORK = [
     ("rod solves", rods.Rods.solve, awake),
     ("rod solves", rods.Rods.relax, awake),
     ("spring forces", springs.Springs.force, awake),
-    ("sweeps", bullets.Bullets.first_hit, one),
+    ("sweeps", sweep.first_hit, one),
 ]
 LESSON_WORK = [
     ("pairs", lesson_contacts.collide, one),
@@ -257,14 +258,26 @@ def price_list(balls, rounds):
                 scene = replace(scenes[row.scene], effects=effects)
                 cases[row.scene, effects] = RepeatedStep(Stable(scene), row.scene)
     counted = {key: count(repeated, STABLE_WORK) for key, repeated in cases.items()}
-    times = clock(cases, max(1, rounds * 40 // max(balls, 40)))
+    turns = max(1, rounds * 40 // max(balls, 40))
+    times = clock(cases, turns)
+    compiled = clock_compiled(cases, turns) if Compiled.package else dict.fromkeys(cases)
     listed = []
     for row in ROWS:
         key, base = (row.scene, row.effects), (row.scene, row.base)
         less = counted[base]["opcodes"] if row.base is not None else 0
         now = {"title": row.title, "effects": row.effects, "base": row.base, **counted[key]}
         listed.append(now | {"price": now["opcodes"] - less, "ms": times[key]})
+        listed[-1]["compiled ms"] = compiled[key]
     return listed
+
+
+def clock_compiled(cases, rounds):
+    """The same in the compiled engine, beside nothing else: its balls lie as those before did."""
+    again = {
+        key: RepeatedStep(Compiled(repeated.engine.scene), repeated.kind)
+        for key, repeated in cases.items()
+    }
+    return clock(again, rounds)
 
 
 def undeclared_list(balls):
@@ -380,4 +393,5 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
+    print(time_compiled())
     main()

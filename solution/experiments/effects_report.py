@@ -43,11 +43,13 @@ def price_table(prices):
 
 def step_table(lines, title):
     """What a step takes. The first row's time is the unit of the others."""
-    heads = ["scene", "opcodes", "ms", "times the first", *lines[0]["done"]]
+    compiled = ["compiled ms"] if lines[0].get("compiled ms") else []
+    heads = ["scene", "opcodes", "ms", "times the first", *compiled, *lines[0]["done"]]
     rows = []
     for line in lines:
         ratio = line["ms"] / lines[0]["ms"]
         cost = [f"{line['opcodes']:,}", f"{line['ms']:.3f}", f"{ratio:.1f}"]
+        cost += [f"{line[name]:.3f}" for name in compiled]
         rows.append([line["title"], *cost, *(f"{number:,}" for number in line["done"].values())])
     return Table(title, heads, rows)
 

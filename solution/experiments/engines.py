@@ -1,4 +1,4 @@
-"""One builder per engine. All three then answer to the same few names.
+"""One builder per engine. All of them then answer to the same few names. Box2D is optional.
 
 An engine here is a scene in motion: step(dt) advances it by dt seconds, read(i) tells the state of
 the body at place i of the scene's list, and contacts() and asleep() count.
@@ -10,6 +10,11 @@ from collections import namedtuple
 import pymunk
 from pygame import Vector2
 
+try:
+    import Box2D
+except ImportError:  # python -m pip install Box2D
+    Box2D = None
+
 import mini_engine
 import stable_engine
 from mini_engine import ITERATIONS
@@ -19,6 +24,7 @@ from .scenes import Ball
 
 SUBSTEPS = 4  # of the stable engine
 PASSES = 10  # of pymunk, its own choice
+BOX2D_PASSES = 8  # what it advises
 
 STATIC = pymunk.Body.STATIC
 State = namedtuple("State", "x y vx vy angle omega")
@@ -74,31 +80,33 @@ class Stable:
     """The stable engine, with the effects the scene calls for."""
 
     name = "stable"
+    package = stable_engine  # or its compiled copy: see compiled.py
 
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps = scene, substeps
         effects = [self.effect(name) for name in scene.effects]
-        self.world = stable_engine.World(scene.gravity, substeps, effects)
+        self.world = self.package.World(scene.gravity, substeps, effects)
         self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
-                self.world.add(stable_engine.Rod(self.bodies[a], self.bodies[b]))
+                self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
         if "Springs" in scene.effects:
             for s in scene.springs:
                 a, b = self.bodies[s.a], self.bodies[s.b]
-                self.world.add(stable_engine.Spring(a, b, s.stiffness, s.damping, s.length))
+                self.world.add(self.package.Spring(a, b, s.stiffness, s.damping, s.length))
+        self.complaints = self.world.check()  # asked here, so that no step warns
 
     def effect(self, name):
-        make = getattr(stable_engine, name)
+        make = getattr(self.package, name)
         return make(*self.scene.damping) if name == "Damping" else make()
 
     def body(self, data):
         surface = {"restitution": data.restitution, "friction": data.friction}
         if not isinstance(data, Ball):
-            return stable_engine.Body(stable_engine.Box(data.half), data.pos, **surface)
+            return self.package.Body(self.package.Box(data.half), data.pos, **surface)
         bullet = data.bullet and "Bullets" in self.scene.effects
-        shape = stable_engine.Circle(data.radius)
-        body = stable_engine.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
+        shape = self.package.Circle(data.radius)
+        body = self.package.Body(shape, data.pos, data.mass, bullet=bullet, **surface)
         body.vel, body.omega = data.vel, data.omega
         return body
 
@@ -194,4 +202,96 @@ class Pymunk:
         return sum(body.is_sleeping for body in self.bodies)
 
 
-ENGINES = {engine.name: engine for engine in (Lesson, Stable, Pymunk)}
+PX_PER_M = 20.0  # Box2D reckons in metres, and is made for sizes of 0.1 to 10 m
+POSITION_SHARE = 3 / 8  # of Box2D's passes: it advises 8 for velocities and 3 for positions
+NO_COLLISIONS = -1  # a group of Box2D's in which nothing collides
+
+
+class Box2d:
+    """The same scene in Box2D, in metres.
+
+    Its friction is that of the other engines. Of two restitutions it takes the larger one: the same
+    where both surfaces are alike. It moves no body by more than 2 m, here 40 px, in a step.
+    """
+
+    name = "box2d"
+
+    def __init__(self, scene, passes=BOX2D_PASSES, substeps=1):
+        self.scene, self.passes, self.substeps = scene, passes, substeps
+        gravity = (scene.gravity[0] / PX_PER_M, scene.gravity[1] / PX_PER_M)
+        self.world = Box2D.b2World(gravity, "Sleep" in scene.effects)
+        self.bodies = [self.body(data) for data in scene.bodies]
+        if "Rods" in scene.effects:
+            for a, b in scene.rods:
+                self.tie(a, b, math.dist(scene.bodies[a].pos, scene.bodies[b].pos))
+        if "Springs" in scene.effects:
+            for s in scene.springs:
+                self.spring(s)
+
+    def body(self, data):
+        effects = self.scene.effects
+        metres = {"position": (data.pos[0] / PX_PER_M, data.pos[1] / PX_PER_M)}
+        surface = {
+            "friction": data.friction if "Friction" in effects else 0.0,
+            "restitution": data.restitution if "Bounce" in effects else 0.0,
+            "groupIndex": 0 if "Contacts" in effects else NO_COLLISIONS,
+        }
+        if not isinstance(data, Ball):
+            half = (data.half[0] / PX_PER_M, data.half[1] / PX_PER_M)
+            body = self.world.CreateStaticBody(**metres)
+            body.CreateFixture(shape=Box2D.b2PolygonShape(box=half), **surface)
+            return body
+        shape = Box2D.b2CircleShape(radius=data.radius / PX_PER_M)
+        if data.mass == 0:
+            body = self.world.CreateStaticBody(**metres)
+            body.CreateFixture(shape=shape, **surface)
+            return body
+        damping = self.scene.damping if "Damping" in effects else (0.0, 0.0)
+        body = self.world.CreateDynamicBody(
+            **metres,
+            linearVelocity=(data.vel[0] / PX_PER_M, data.vel[1] / PX_PER_M),
+            angularVelocity=data.omega,
+            linearDamping=damping[0],
+            angularDamping=damping[1],
+            bullet=data.bullet and "Bullets" in effects,
+        )
+        area = math.pi * (data.radius / PX_PER_M) ** 2
+        body.CreateFixture(shape=shape, density=data.mass / area, **surface)
+        return body
+
+    def tie(self, a, b, length, **soft):
+        """A joint between two centres; what it holds overlapping does not collide."""
+        ends = {"bodyA": self.bodies[a], "bodyB": self.bodies[b], "collideConnected": False}
+        places = {"localAnchorA": (0, 0), "localAnchorB": (0, 0)}
+        self.world.CreateDistanceJoint(**ends, **places, length=length / PX_PER_M, **soft)
+
+    def spring(self, s):
+        """A spring as Box2D has it, by the frequency and damping ratio of the two masses on it."""
+        masses = [self.scene.bodies[i].mass for i in (s.a, s.b) if self.scene.bodies[i].mass]
+        omega = math.sqrt(s.stiffness * sum(1 / m for m in masses))
+        ratio = s.damping * omega / (2 * s.stiffness) if s.stiffness else 0.0
+        self.tie(s.a, s.b, s.length, frequencyHz=omega / (2 * math.pi), dampingRatio=ratio)
+
+    def step(self, dt):
+        positions = math.ceil(POSITION_SHARE * self.passes)
+        for _ in range(self.substeps):
+            self.world.Step(dt / self.substeps, self.passes, positions)
+
+    def read(self, i):
+        body = self.bodies[i]
+        (x, y), (vx, vy) = body.position, body.linearVelocity
+        metres = [PX_PER_M * number for number in (x, y, vx, vy)]
+        return State(*metres, body.angle, body.angularVelocity)
+
+    def lag(self, dt):
+        return dt / self.substeps / 2
+
+    def contacts(self):
+        return sum(contact.touching for contact in self.world.contacts)
+
+    def asleep(self):
+        return sum(not body.awake for body in self.bodies)
+
+
+BUILDERS = (Lesson, Stable, Pymunk, Box2d) if Box2D else (Lesson, Stable, Pymunk)
+ENGINES = {engine.name: engine for engine in BUILDERS}

@@ -12,7 +12,7 @@ from itertools import pairwise
 from .accuracy_tables import digit_price
 from .answers import EXACT
 from .dials import SHARED
-from .smooth import slope
+from .smooth import ENERGY_CALLS, slope
 from .table import number
 
 FRAME = 1000 / 60  # ms: the time of one frame at 60 frames a second
@@ -22,7 +22,7 @@ METHOD_LOOKS = {
     "velocity_verlet": ("#009E73", "^"),
     "rk4": ("#CC79A7", "D"),
 }
-ENGINE_COLOURS = {"lesson": "#D55E00", "stable": "#0072B2", "pymunk": "#009E73"}
+ENGINE_COLOURS = {"lesson": "#D55E00", "stable": "#0072B2", "pymunk": "#009E73", "box2d": "#CC79A7"}
 DIAL_LOOKS = {
     "passes": ("o", "-"),
     "step": ("s", "--"),
@@ -131,11 +131,15 @@ def curve(axes, points, top, bottom=0.0, **look):
 
 
 def plain_ticks(axes):
-    """Ticks as plain numbers; matplotlib's powers of ten take most of the time of a figure."""
+    """A line of the grid for every power of ten, written as a plain number.
+
+    matplotlib's own powers of ten take most of the time of a figure.
+    """
     from matplotlib import ticker
 
     axes.minorticks_off()
     for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(ticker.LogLocator(numticks=99))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
 
 
@@ -185,21 +189,26 @@ def calls_for(points, goal):
     return None
 
 
+SHOWN_ROUNDS = {round(1.25**i) for i in range(30)}  # evenly on a logarithmic axis
+
+
 def energy_figure(plot, study):
     """The energy error of an orbit, round by round."""
     figure, axes = plot.subplots(figsize=(7.6, 4.2))
     figure.subplots_adjust(left=0.13, right=0.72, bottom=0.13, top=0.84)
     for row in study:
         colour, marker = METHOD_LOOKS[row["method"]]
-        peaks = [(i + 1, peak) for i, peak in enumerate(row["peaks"])]
+        rounds = [(i + 1, peak) for i, peak in enumerate(row["peaks"])]
+        peaks = [pair for pair in rounds if pair[0] in SHOWN_ROUNDS or pair == rounds[-1]]
         curve(axes, peaks, 10.0, color=colour, marker=marker, label=row["method"])
-    axes.set_xscale("linear")
-    axes.set_xlabel("round of the orbit (400 steps each)")
+    axes.set_xlabel(f"round of the orbit ({ENERGY_CALLS} evaluations of the force each)")
     axes.set_ylabel("largest energy error in that round (share)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     bounded = [row["method"] for row in study if row["bounded"]]
-    says = f"only {' and '.join(bounded)}\nkeep" if bounded else "no method keeps"
-    title(figure, f"Orbit: {says} the energy error as small as in the first round")
+    says = f"only {' and '.join(bounded)} keep" if bounded else "no method keeps"
+    crossing = next((row["passes Verlet"] for row in study if row["method"] == "rk4"), None)
+    passed = f". RK4's is larger than Verlet's from round {crossing} on" if crossing else ""
+    title(figure, textwrap.fill(f"Orbit: {says} the energy error of the first round{passed}", 84))
     return figure
 
 

@@ -9,15 +9,22 @@ status is 1 when the stable engine misses what must hold.
 import math
 import sys
 from functools import partial
+from itertools import product
 
 from . import scenes, trials
 from .battery import Case, Figure, each, main, number
+from .compiled import use_compiled
+from .engines import ENGINES
+from .limits import LIMITS
 from .scenes import DT, G
+from .steps import PATTERNS
 
 BULLET_SPEEDS = (1000, 2448, 10_000, 50_000, 200_000)  # px/s
 STARTS = [100 + 0.2 * i for i in range(102)]  # px, all phases of a step of 20.4 px
 INSIDE = ((150, -10), (0, -10), (150, 0), (0, 0), (149, -9), (0, 9.9))  # corner, faces, centre ...
 SEAM_SPEEDS = (9, 30, 100, 300, 1000, 3000)  # px/s
+RAMS = ((200, 400, 600, 800, 1000), (0, 1, 6, 17, 34), (50, 54))  # px/s, degrees, px
+HAVE_SPRINGS = tuple(name for name in ENGINES if name != "lesson")
 NEVER_RISES = 1 / math.sqrt(0.75)  # the largest swing of semi-implicit Euler while omega h < 1
 
 
@@ -128,12 +135,19 @@ BAD_STARTS = [
                 "seconds": 2,
             },
             "soak": {
-                "title": "400 random closed boxes",
-                "scenes": each(scenes.closed_box, "seed", range(400)),
+                "title": "2000 random closed boxes",
+                "scenes": each(scenes.closed_box, "seed", range(2000)),
                 "seconds": 4,
-                "figures": [Figure("escapes", "with an escape or NaN", 0, "<=", 1)],
             },
         },
+    ),
+    Case(
+        "100 rams by 100 kg and 1000 kg, wall of 20 px",
+        [partial(scenes.rammer, *ram) for ram in product((100, 1000), *RAMS)],
+        trials.ram,
+        [nothing("through", "that get through")],
+        seconds=0.5,
+        total=True,
     ),
 ]
 
@@ -151,6 +165,14 @@ FAST = [
         )
         for speed in BULLET_SPEEDS
     ],
+    Case(
+        "102 balls that are no bullets at 2448 px/s, ledge of 20 px",
+        each(scenes.shot, "start", STARTS, bullet=False),
+        trials.shoot,
+        [nothing("through", "that tunnel")],
+        seconds=0.3,
+        total=True,
+    ),
     Case(
         "bullets that miss a corner by 0.5 px",
         [
@@ -281,7 +303,7 @@ RODS = [
             [partial(scenes.oscillator, stiffness)],
             trials.oscillate,
             [Figure("swing", "swing, share of the first", 1.0, "<", NEVER_RISES - 1 + 1e-6)],
-            engines=("stable", "pymunk"),
+            engines=HAVE_SPRINGS,
         )
         for stiffness in (1e2, 1e4, 1e6, 1e9)
     ],
@@ -291,7 +313,7 @@ RODS = [
         trials.ring_down,
         [Figure("energy", "mean energy, share", 1.0, "share", 1e-3)],
         seconds=60,
-        engines=("stable", "pymunk"),
+        engines=HAVE_SPRINGS,
     ),
 ]
 
@@ -315,7 +337,26 @@ AGAIN = [
     ),
 ]
 
-CASES = STACKS + BAD_STARTS + FAST + ROLLING + RODS + AGAIN
+# ---------------------------------------------------------------- steps that vary
+
+UNEVEN = [
+    Case(
+        f"{title}, steps {words}",
+        [make],
+        partial(trials.vary, steps=steps),
+        [at_most("rise", "launched, px", 0.5)],
+        seconds=3,
+        longer={"full": {"seconds": 10}},
+    )
+    for title, make in (
+        ("stack of 10", partial(scenes.stack, *[1] * 10)),
+        ("hanging chain of 20", scenes.chain),
+    )
+    for words, steps in PATTERNS.items()
+]
+
+CASES = STACKS + BAD_STARTS + FAST + ROLLING + RODS + UNEVEN + AGAIN + LIMITS
 
 if __name__ == "__main__":
+    print(use_compiled())
     sys.exit(main("Hard cases, side by side", CASES))

@@ -1,4 +1,4 @@
-"""A published test set, on the three engines.
+"""A published test set, on all engines.
 
 python -m experiments.published [--quick] [--markdown FILE]
 
@@ -15,6 +15,7 @@ from functools import partial
 
 from . import scenes, trials
 from .battery import Case, Figure, each, main
+from .compiled import use_compiled
 from .scenes import DT, G
 
 FALL = 2.0  # s
@@ -111,4 +112,5 @@ STACKING = [
 CASES = INTEGRATOR + RESTITUTION + FRICTION + CONSTRAINTS + COLLISION + STACKING
 
 if __name__ == "__main__":
+    print(use_compiled())
     sys.exit(main("The test set of Boeing and Bräunl, 2007", CASES))

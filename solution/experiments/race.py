@@ -3,15 +3,16 @@
 import math
 from dataclasses import dataclass, replace
 
+from .compiled import Compiled
 from .costs import wall_times
-from .dials import LAUNCHED, LESSON, PYMUNK, QUESTIONS, STABLE
+from .dials import COMPILED, LAUNCHED, LESSON, PYMUNK, QUESTIONS, STABLE
 from .engines import Lesson, Pymunk, Stable
 from .measures import deepest_overlap, finite, run
 from .scenes import pile
 
 RATES = (120, 240, 480, 960)  # of pymunk, steps per second
 PASSES = (10, 40, 160, 640)  # of pymunk
-SECONDS, QUICK_SECONDS = 10.0, 4.0  # pymunk sinks slowly: a shorter run flatters it
+SECONDS = 10.0  # pymunk sinks slowly: a shorter run flatters it
 SLOPS = (None, 0.0)  # px: the overlap pymunk leaves alone, its own choice (0.1) and none
 
 
@@ -40,7 +41,7 @@ class Rival:
 def equal_accuracy(name, effort, tick=lambda setting: None):
     """The cheapest pymunk that sinks no more than the stable engine at its defaults."""
     question = QUESTIONS[name]
-    rates, passes = (RATES[::2], PASSES[::2]) if effort.quick else (RATES, PASSES)
+    rates, passes = (RATES[::2], PASSES[:2]) if effort.quick else (RATES, PASSES)
     stable = attempt(question, STABLE, effort)
     rows = []
     for slop in SLOPS:
@@ -55,8 +56,8 @@ def equal_accuracy(name, effort, tick=lambda setting: None):
 
 def attempt(question, setting, effort):
     """One run: its sink, or a word for how it gave up."""
-    engine = setting.build(effort.scene(question))
-    seconds = effort.scale * (QUICK_SECONDS if effort.quick else SECONDS)
+    engine = setting.build(question.scene())
+    seconds = effort.scale * SECONDS
     sink = question.ask(engine, seconds, setting.dt)["sink"]
     sink = sink if isinstance(sink, str) or math.isfinite(sink) else "NaN"
     return {"setting": setting, "engine": engine, "sink": sink}
@@ -134,6 +135,8 @@ def pile_row(count, effort, tick=lambda name: None):
         "stable": Stable(scene, STABLE_SUBSTEPS),
         "pymunk": Pymunk(scene),
     }
+    if Compiled.package:
+        engines["compiled"], rates["compiled"] = Compiled(scene, STABLE_SUBSTEPS), STABLE_RATE
     row = {"balls": count}
     for name, engine in engines.items():
         tick(name)
@@ -160,7 +163,9 @@ def same_step(count, effort, tick=lambda name: None):
     """
     tick("settling")
     scene = settled(count)
-    settings = [PYMUNK, LESSON, *(replace(STABLE, substeps=n) for n in SAME_STEP)]
+    stables = [STABLE, COMPILED] if Compiled.package else [STABLE]
+    dials = [replace(setting, substeps=n) for setting in stables for n in SAME_STEP]
+    settings = [PYMUNK, LESSON, *dials]
     engines = [setting.build(scene) for setting in settings]
     overlaps = []
     for setting, engine in zip(settings, engines, strict=True):

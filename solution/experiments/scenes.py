@@ -184,7 +184,7 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
     """A box filled by 55 % with balls of up to 1000:1 in mass, some on rods, all of them flying.
 
     Their radii lie between these two, their speeds along x and y are at most fast (px/s), and
-    pairs of them are tied by a rod.
+    pairs of them are tied by a rod. Every ball and wall has a restitution of its own.
     """
     rng = random.Random(seed)
     out, long = half + thick, half + 2 * thick
@@ -200,8 +200,24 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
         mass, bounce = 10 ** rng.uniform(-1.5, 1.5), rng.uniform(0, 0.9)
         balls.append(Ball(pos, radius, mass, vel, 0.0, bounce, rng.uniform(0, 1)))
         filled += math.pi * radius**2
+    for wall in walls:
+        wall.restitution = rng.uniform(0, 1)
     rods = [(len(walls) + 2 * i, len(walls) + 2 * i + 1) for i in range(pairs)]
     return Scene([*walls, *balls], (*BOUNCE, "Rods"), rods, exact={"escapes": 0.0})
+
+
+def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
+    """1 kg that flies at a wall start px away, and behind it mass kg on a rod of 30 px.
+
+    The rod is turned by so many degrees from the flight. There is no gravity.
+    """
+    back = math.radians(degrees)
+    wall = Block((thick / 2, 0), (thick / 2, 300), restitution)
+    light = Ball((-start, 0), 10, 1.0, (speed, 0), restitution=restitution)
+    heavy = replace(light, mass=mass)
+    heavy.pos = (-start - 30 * math.cos(back), 30 * math.sin(back))
+    exact = {"through": 0.0}
+    return Scene([wall, light, heavy], (*BOUNCE, "Rods"), [(1, 2)], gravity=(0, 0), exact=exact)
 
 
 # ---------------------------------------------------------------- bouncing and fast balls
@@ -230,11 +246,11 @@ def cradle(gap=0.0, count=5, speed=300.0):
 LEDGE = Block((0, 0), (150, 10))
 
 
-def shot(speed=2448.0, start=100.0, restitution=0.0, radius=10.0, thick=20.0):
-    """A bullet flying down at a ledge from start px above it, with no gravity."""
+def shot(speed=2448.0, start=100.0, restitution=0.0, radius=10.0, thick=20.0, bullet=True):
+    """A bullet, or another ball, flying down at a ledge from start px above it; no gravity."""
     ledge = Block((0, thick / 2), (150, thick / 2), restitution)
-    bullet = Ball((0, -radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=True)
-    return Scene([ledge, bullet], BULLETS, gravity=(0, 0), exact={"tunnels": 0.0})
+    ball = Ball((0, -radius - start), radius, 1.0, (0, speed), 0.0, restitution, bullet=bullet)
+    return Scene([ledge, ball], BULLETS, gravity=(0, 0), exact={"tunnels": 0.0})
 
 
 def near_miss(speed=10_000.0, start=100.0, miss=0.5):

@@ -26,6 +26,7 @@ from .measures import (
     worst_stretch,
 )
 from .scenes import G, shuffled, tower
+from .steps import lasting
 
 # ---------------------------------------------------------------- contacts
 
@@ -34,6 +35,17 @@ def settle(bench, scene):
     """How far the top ball sinks, how high it ever rises, how fast anybody is in the end."""
     sink, rise, fastest = sinking(bench.build(scene), bench.seconds, bench.dt)
     return {"sink": sink, "rise": rise, "speed": fastest}
+
+
+def vary(bench, scene, steps):
+    """How high any ball ever rises above where it starts, while steps vary as steps() says."""
+    engine, moving = bench.build(scene), scene.moving()
+    starts = [engine.read(i).y for i in moving]
+    rise = 0.0
+    for dt in lasting(bench.seconds, steps()):
+        engine.step(dt)
+        rise = max(rise, *[y - engine.read(i).y for i, y in zip(moving, starts, strict=True)])
+    return {"rise": rise}
 
 
 def overlaps(bench, scene):
@@ -69,16 +81,25 @@ def rest(bench, scene):
     return {"drift": drift, "depth": depth, "share": depth / ball.radius, "speed": speed(after)}
 
 
-def escape(bench, scene, half=150.0):
-    """1 if a ball gets out of the closed box or a number is lost, else 0."""
+def escape(bench, scene):
+    """1 if a ball gets out of the closed box or a number is lost, else 0.
+
+    A ball is out when it is all inside a wall, or beyond, after any step, or its centre in the end.
+    """
     engine = bench.build(scene)
     try:
-        run(engine, bench.seconds, bench.dt)
+        depths = watch(engine, bench.seconds, lambda: depth_in_walls(engine), bench.dt)
     except ValueError:
         return {"escapes": 1}
-    places = [engine.read(i) for i in scene.moving()]
-    inside = all(abs(place.x) <= half and abs(place.y) <= half for place in places)
-    return {"escapes": 0 if inside else 1}
+    return {"escapes": 0 if max(depths) < 1 and depths[-1] < 0 else 1}
+
+
+def depth_in_walls(engine):
+    """How deep the centre of any ball is in the walls of a closed box, in radii of the ball."""
+    bodies = engine.scene.bodies
+    half = bodies[3].pos[0] - bodies[3].half[0]
+    found = [(engine.read(i), bodies[i].radius) for i in engine.scene.moving()]
+    return max((max(abs(at.x), abs(at.y)) - half) / radius for at, radius in found)
 
 
 def crash(bench, scene):
@@ -113,6 +134,13 @@ def shoot(bench, scene):
     run(engine, bench.seconds, bench.dt)
     ledge = scene.bodies[0]
     return {"through": 1 if engine.read(1).y > ledge.pos[1] + ledge.half[1] else 0}
+
+
+def ram(bench, scene):
+    """1 if a ball is beyond the wall in the end, else 0."""
+    engine = bench.build(scene)
+    run(engine, bench.seconds, bench.dt)
+    return {"through": 1 if max(engine.read(i).x for i in scene.moving()) > 0 else 0}
 
 
 def graze(bench, scene):

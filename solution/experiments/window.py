@@ -1,6 +1,6 @@
 """The window with dials: `python -m experiments.window [--scene NAME] [--engine NAME]`.
 
-Any scene in any of the three engines. Dials (passes, substeps, step) turn while the scene runs on;
+Any scene in any engine. Dials (passes, substeps, step) turn while the scene runs on;
 another engine, scene or effect starts it again. How it looks is in drawing.py.
 """
 
@@ -17,8 +17,9 @@ import pygame
 from lab_runtime import frame_budget
 from mini_engine import ITERATIONS, MAX_STEPS, STEP
 
+from .compiled import use_compiled
 from .drawing import Picture
-from .engines import ENGINES, PASSES, SUBSTEPS
+from .engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
 from .measures import deepest_overlap, energy, finite, states, worst_stretch
 from .scenes import NAMED, NEED_CONTACTS, Ball
 
@@ -43,6 +44,7 @@ CANNOT = {  # what each builder in engines.py leaves out
     "lesson": ("Springs", "Bullets", "Sleep"),
     "stable": (),
     "pymunk": ("Bullets", "Sleep"),
+    "box2d": (),
 }
 LOOK_FOR = {
     "lab": "The lesson's scene. Does the rod keep its length?",
@@ -69,8 +71,8 @@ class Show:
 
     def __init__(self, scene="lab", engine="stable"):
         self.scene_name, self.engine_name = scene, engine
-        self.passes = {"lesson": ITERATIONS, "pymunk": PASSES}
-        self.substeps = {"lesson": 1, "stable": SUBSTEPS, "pymunk": 1}
+        self.passes = {"lesson": ITERATIONS, "pymunk": PASSES, "box2d": BOX2D_PASSES}
+        self.substeps = {"lesson": 1, "stable": SUBSTEPS, "pymunk": 1, "box2d": 1}
         self.dt = STEP  # s
         self.paused = False
         self.choose_scene(0)
@@ -88,7 +90,9 @@ class Show:
         )
         self.engine = ENGINES[self.engine_name](scene, **self.settings())
         missing = [n.lower() for n in self.chosen if n in CANNOT[self.engine_name]]
-        self.note = f"{self.engine_name} runs without {' and '.join(missing)}." if missing else note
+        if missing:
+            note = f"{self.engine_name} runs without {' and '.join(missing)}."
+        self.note = " ".join(filter(None, [note, self.complaint()]))
         self.failed = False
         self.time = self.owed = 0.0  # s
         self.frames = 0
@@ -97,6 +101,14 @@ class Show:
         self.lowest = self.depths()
         self.motion = self.begun_with + sum(self.lowest)
         self.measure()
+
+    def complaint(self):
+        """What the engine says of an effect that the scene calls for and that is switched off."""
+        called_for = [f"calls for {name}()" for name in self.scene.effects]
+        for sentence in getattr(self.engine, "complaints", []):
+            if any(words in sentence for words in called_for):
+                return sentence.partition(":")[0] + "."
+        return ""
 
     def settings(self):
         settings = {"substeps": self.substeps[self.engine_name]}
@@ -178,6 +190,9 @@ class Show:
     # ------------------------------------------------------------ dials
 
     def choose_engine(self, name):
+        if name not in ENGINES:
+            self.note = "Box2D is not installed: python -m pip install Box2D"
+            return
         self.engine_name = name
         self.start("Another engine: the scene starts again.")
 
@@ -201,8 +216,10 @@ class Show:
         self.passes[name] = min(max(int(self.passes[name] * factor), 1), MOST)
         if name == "lesson":
             self.engine.world.iterations = self.passes[name]
-        else:
+        elif name == "pymunk":
             self.engine.space.iterations = self.passes[name]
+        else:
+            self.engine.passes = self.passes[name]
 
     def turn_substeps(self, factor):
         name = self.engine_name
@@ -283,6 +300,7 @@ KEYS = {
     pygame.K_1: lambda show: show.choose_engine("lesson"),
     pygame.K_2: lambda show: show.choose_engine("stable"),
     pygame.K_3: lambda show: show.choose_engine("pymunk"),
+    pygame.K_4: lambda show: show.choose_engine("box2d"),
     pygame.K_LEFT: lambda show: show.choose_scene(-1),
     pygame.K_RIGHT: lambda show: show.choose_scene(1),
     pygame.K_UP: lambda show: show.turn_passes(2),
@@ -356,4 +374,5 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
+    print(use_compiled())
     main()

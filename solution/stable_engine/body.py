@@ -3,29 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite
+from math import hypot, isfinite
 from typing import TYPE_CHECKING
 
 from pygame import Vector2
 
+from .reading import read
 from .shapes import Box, Circle
-from .validate import finite, not_negative, pair, require
+from .validate import finite, not_negative, number, pair, refuse, require
 
 if TYPE_CHECKING:
     from .sleep import Island
+    from .world import World
+
+RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 
 
 class Body:
     """One rigid body: plain floats inside; pos, vel and omega to read and set from outside.
 
-    Mass 0 makes a static body, which never moves. A Box is static only. A bullet does not pass
-    through static bodies, however fast it is. Raises ValueError when a value makes no sense.
+    Mass 0 makes a static body, which never moves. A Box is static only. Restitution and friction
+    are for scenes that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is
+    stopped where it first touches a static body, however fast it is. All but the shape and what is
+    static can be set later on, and counts from the next step. Raises ValueError when a value makes
+    no sense.
     """
 
     __slots__ = (
-        *("shape", "radius", "hx", "hy", "inv_mass", "inv_inertia", "restitution", "friction"),
+        *("shape", "radius", "hx", "hy", "m", "inv_mass", "inv_inertia"),
+        *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w"),
-        *("id", "bullet", "idle", "asleep", "still", "island"),
+        *("id", "world", "bullet", "idle", "asleep", "still", "island"),
     )
 
     def __init__(
@@ -33,24 +41,30 @@ class Body:
         shape: Circle | Box,
         pos: Iterable[float],
         mass: float = 0.0,
-        restitution: float = 0.3,
-        friction: float = 0.6,
+        restitution: float | None = None,
+        friction: float | None = None,
         bullet: bool = False,
     ) -> None:
         not_negative("Body.mass", mass)
-        require(0 <= restitution <= 1, "Body.restitution", restitution, "from 0 to 1")
         require(mass > 0 or not bullet, "Body.mass", mass, "above 0 for a bullet")
         if isinstance(shape, Box):
             require(mass == 0, "Body.mass", mass, "0 for a Box, which is always static")
             self.radius = 0.0
             self.hx, self.hy = shape.half  # px, half extents of the bounding box
-        else:
+        elif isinstance(shape, Circle):
             self.radius = self.hx = self.hy = shape.radius
+        else:
+            refuse("Body.shape", shape, "a Circle or a Box")
         self.shape = shape
-        self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
-        self.inv_inertia = 2 / (mass * self.radius**2) if mass else 0.0  # 1/(kg px²), a disc
-        self.restitution = float(restitution)
-        self.friction = not_negative("Body.friction", friction)
+        self.world: World | None = None
+        self.island: Island | None = None  # the bodies it sleeps with
+        self.restitution_given = self.friction_given = False
+        self.e, self.mu = RESTITUTION, FRICTION
+        if restitution is not None:
+            self.restitution = restitution
+        if friction is not None:
+            self.friction = friction
+        self.weigh(mass)
         self.x, self.y = pair("Body.pos", pos)  # px
         self.vx = self.vy = 0.0  # px/s
         self.angle = 0.0  # rad, clockwise on the screen
@@ -60,7 +74,16 @@ class Body:
         self.idle = mass == 0  # static or asleep
         self.asleep = False
         self.still = 0.0  # s, how long it has been below STILL_SPEED
-        self.island: Island | None = None  # the bodies it sleeps with
+
+    def __repr__(self) -> str:
+        mass = f", mass={self.m:g}, vel=({self.vx:g}, {self.vy:g})" if self.m else ""
+        return f"Body({self.shape!r}, ({self.x:g}, {self.y:g}){mass})"
+
+    def weigh(self, mass: float) -> None:
+        """Take over a mass, and the inertia of a disc of that mass."""
+        self.m = float(mass)  # kg
+        self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
+        self.inv_inertia = 2 / (mass * self.radius**2) if mass else 0.0  # 1/(kg px²)
 
     @property
     def is_static(self) -> bool:
@@ -68,9 +91,44 @@ class Body:
         return self.inv_mass == 0
 
     @property
+    def mass(self) -> float:
+        """The mass in kg, 0 for a static body, which stays static. Setting it wakes the body."""
+        return self.m
+
+    @mass.setter
+    def mass(self, value: float) -> None:
+        not_negative("Body.mass", value)
+        rule = "0, as the body is static" if self.is_static else "above 0, as the body can move"
+        require((value == 0) == self.is_static, "Body.mass", value, rule)
+        self.weigh(value)
+        self.changed()
+
+    @property
+    def restitution(self) -> float:
+        """The share of speed that an impact gives back, 0 to 1. Setting it wakes the body."""
+        return self.e
+
+    @restitution.setter
+    def restitution(self, value: float) -> None:
+        self.e = number("Body.restitution", value, 0, 1, "a number from 0 to 1")
+        self.restitution_given = True
+        self.changed()
+
+    @property
+    def friction(self) -> float:
+        """The friction of its surface, 0 or more. Setting it wakes the body."""
+        return self.mu
+
+    @friction.setter
+    def friction(self, value: float) -> None:
+        self.mu = not_negative("Body.friction", value)
+        self.friction_given = True
+        self.changed()
+
+    @property
     def pos(self) -> Vector2:
-        """The centre in px. A copy: set it as a whole, which wakes the body."""
-        return Vector2(self.x, self.y)
+        """The centre in px. Set it as a whole, which wakes the body: a part cannot be set."""
+        return read("Body.pos", self.x, self.y)
 
     @pos.setter
     def pos(self, value: Iterable[float]) -> None:
@@ -79,8 +137,8 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """The velocity in px/s. A copy: set it as a whole, which wakes the body."""
-        return Vector2(self.vx, self.vy)
+        """The velocity in px/s. Set it as a whole, which wakes the body: a part cannot be set."""
+        return read("Body.vel", self.vx, self.vy)
 
     @vel.setter
     def vel(self, value: Iterable[float]) -> None:
@@ -89,7 +147,7 @@ class Body:
 
     @property
     def omega(self) -> float:
-        """The spin in rad/s. Setting it wakes the body."""
+        """The spin in rad/s, clockwise on the screen. Setting it wakes the body."""
         return self.w
 
     @omega.setter
@@ -97,10 +155,38 @@ class Body:
         self.w = finite("Body.omega", value)
         self.wake()
 
+    def apply_impulse(self, impulse: Iterable[float], at: Iterable[float] | None = None) -> None:
+        """Push with an impulse in kg px/s, at a place in px: the centre, unless given.
+
+        Raises ValueError for a static body, which no impulse moves.
+        """
+        jx, jy = pair("Body.apply_impulse's impulse", impulse)
+        x, y = (self.x, self.y) if at is None else pair("Body.apply_impulse's at", at)
+        require(not self.is_static, "Body.mass", 0, "above 0 for an impulse to move it")
+        self.vx += jx * self.inv_mass
+        self.vy += jy * self.inv_mass
+        self.w += ((x - self.x) * jy - (y - self.y) * jx) * self.inv_inertia
+        self.wake()
+
+    def contains(self, point: Iterable[float]) -> bool:
+        """Whether a point (px) is in the body or on its edge."""
+        x, y = pair("Body.contains's point", point)
+        dx, dy = x - self.x, y - self.y
+        if self.radius:
+            return hypot(dx, dy) <= self.radius
+        return abs(dx) <= self.hx and abs(dy) <= self.hy
+
     def wake(self) -> None:
         """Wake this body and all that sleep with it."""
         if self.island:
             self.island.wake()
+
+    def changed(self) -> None:
+        """Wake, and have the effects take over what was set."""
+        self.wake()
+        if self.world:
+            for body_changed in self.world.body_changed_hooks:
+                body_changed(self)
 
     def check(self) -> None:
         """Raise ValueError naming the first number that is NaN or infinite."""

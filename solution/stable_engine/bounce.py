@@ -25,8 +25,11 @@ class Bounce(Effect):
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
+    def is_used(self) -> bool:
+        return any(body.e > 0 for body in self.world.bodies)
+
     def begin_contact(self, c: Contact) -> None:
-        c.e = min(c.a.restitution, c.b.restitution)
+        c.e = min(c.a.e, c.b.e)
 
     def impact(self, h: float) -> None:
         bouncing = [c for c in self.contacts.touching if c.e > 0]
@@ -36,7 +39,9 @@ class Bounce(Effect):
             if not any([self.resolve(c, h) for c in bouncing]):
                 break
         self.contacts.changed = True
-        self.contacts.touching = [c for c in self.contacts.touching if not separating(c)]
+        for c in bouncing:
+            if c.gap < 0 and separating(c):
+                c.gap = 0.0
 
     def resolve(self, c: Contact, h: float) -> bool:
         """Bounce a pair that closes in fast. Returns whether it did."""
@@ -67,5 +72,9 @@ class Bounce(Effect):
 
 
 def separating(c: Contact) -> bool:
-    """Whether a pair has bounced off: if the solver pushed it out as well, it would rise higher."""
-    return c.e > 0 and c.closing_speed() < -RESTING_SPEED
+    """Whether a pair has bounced off. The solver must not push it out as well, or it rises higher.
+
+    So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that still
+    moves towards the wall would press the ball into it.
+    """
+    return c.closing_speed() < -RESTING_SPEED

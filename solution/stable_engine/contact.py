@@ -66,3 +66,16 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
     if out_y <= out_x:
         return 0.0, -copysign(1.0, y), -a.radius - out_y
     return -copysign(1.0, x), 0.0, -a.radius - out_x
+
+
+def behind_face(a: Body, b: Body, nx: float, ny: float) -> tuple[float, float, float]:
+    """A circle whose centre is in a box that it touched before, with the normal of that contact.
+
+    It leaves through the face it came in by. Through the nearest one, a ball pressed into a thin
+    box beyond the middle would come out on the other side.
+    """
+    if abs(nx) > abs(ny):
+        nx, ny = copysign(1.0, nx), 0.0
+    else:
+        nx, ny = 0.0, copysign(1.0, ny)
+    return nx, ny, (b.x - a.x) * nx + (b.y - a.y) * ny - b.hx * abs(nx) - b.hy * abs(ny) - a.radius

@@ -1,27 +1,35 @@
 """Contacts: bodies do not pass through each other."""
 
+from collections.abc import Callable
 from math import hypot
 
 from .body import Body
 from .broad_phase import near_pairs
-from .contact import Contact, collide
+from .contact import Contact, behind_face, collide
 from .effect import Effect
-from .soft import SAME_DIRECTION, softness
+from .soft import SAME_DIRECTION, Pace, softness
+from .sweep import stop_at_first_hit
 from .world import World
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
+STIFFENING = 0.07  # of a substep, per step
 MAX_PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
 RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
+CORE = 0.5  # radii
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
+OnHit = Callable[[Body, Body, float], object]
 BallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
 StaticRow = tuple[Contact, Body, Body, float, float, float, float, float, float]
 
 
 class Contacts(Effect):
     """Contacts found once per step and solved in every substep as soft constraints.
+
+    on_hit(a, b, speed) is called at the end of a step for each two bodies that began to touch in
+    it, with the speed (px/s) at which they came together. It may add and remove bodies.
 
     What the substeps need of each contact is laid out in rows once per step: looking it up in each
     substep would take longer. In a row, ax and ay are what a unit of impulse takes from A's
@@ -31,13 +39,16 @@ class Contacts(Effect):
 
     rank = 3
 
-    def __init__(self) -> None:
+    def __init__(self, on_hit: OnHit | None = None) -> None:
+        self.on_hit = on_hit
+        self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
         self.touching: list[Contact] = []
         self.changed = False  # whether contacts are new in this step, so that rows must be too
         self.last_positions: list[tuple[Body, float, float]] = []  # at the last detection
         self.cache: dict[tuple[int, int], Contact] = {}
         self.sleeping_cache: dict[tuple[int, int], Contact] = {}
         self.ignored: set[tuple[int, int]] = set()
+        self.pace = Pace(STIFFENING)
 
     def attach(self, world: World) -> None:
         super().attach(world)
@@ -74,8 +85,14 @@ class Contacts(Effect):
                 if pair in self.ignored:
                     continue
                 c = self.new_contact(a, b)
-            elif nx * c.nx + ny * c.ny < SAME_DIRECTION:
-                c.jn = c.jt = 0.0
+                if self.on_hit:
+                    c.nx, c.ny = nx, ny
+                    self.hits.append((a, b, max(c.closing_speed(), 0.0)))
+            else:
+                if gap < -a.radius and not b.radius:
+                    nx, ny, gap = behind_face(a, b, c.nx, c.ny)
+                if nx * c.nx + ny * c.ny < SAME_DIRECTION:
+                    c.jn = c.jt = 0.0
             c.nx, c.ny, c.gap = nx, ny, gap
             found[pair] = c
         self.cache = found
@@ -90,7 +107,7 @@ class Contacts(Effect):
 
     def ignore_pair(self, a: Body, b: Body) -> None:
         """Let A and B pass through each other: a joint may hold them overlapping."""
-        self.ignored |= {(a.id, b.id), (b.id, a.id)}
+        self.ignored |= pair_both_ways(a, b)
         self.cache = {pair: c for pair, c in self.cache.items() if pair not in self.ignored}
         self.last_positions = []
 
@@ -106,8 +123,9 @@ class Contacts(Effect):
             after_impact(c, jn)
 
     def prepare(self, h: float) -> None:
-        self.ball_spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
-        self.static_spring = softness(2 * FREQUENCY / h, DAMPING_RATIO, h)
+        hertz = FREQUENCY / self.pace.follow(h)
+        self.ball_spring = softness(hertz, DAMPING_RATIO, h)
+        self.static_spring = softness(2 * hertz, DAMPING_RATIO, h)
         if not self.changed:
             return
         self.ball_rows: list[BallRow] = []
@@ -206,6 +224,63 @@ class Contacts(Effect):
             a.vx -= ax * jn
             a.vy -= ay * jn
 
+    def finish(self, h: float) -> None:
+        """Keep the core of a fast ball out of static bodies, and tell of hits.
+
+        Deep in a static body, a ball might leave it on the other side.
+
+        The core is half as wide as the ball, so that one that slides is not held up at a seam.
+        """
+        for body, x, y in self.last_positions:
+            if abs(body.x - x) + abs(body.y - y) > body.radius > 0 and not body.bullet:
+                self.sweep(body, (x, y), CORE * body.radius, 0.0, h)
+        if self.hits and self.on_hit:
+            hits, self.hits = self.hits, []
+            for a, b, speed in hits:
+                if a.world and b.world:
+                    self.on_hit(a, b, speed)
+
+    def sweep(
+        self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float
+    ) -> None:
+        """Stop a ball at the first static body on its way from start that it does not pass through.
+
+        See stop_at_first_hit.
+        """
+        statics = self.world.statics
+        if self.ignored:
+            statics = [s for s in statics if (body.id, s.id) not in self.ignored]
+        stop_at_first_hit(body, start, radius, overlap, statics, self.world.gravity, h)
+
+    def of_body(self, body: Body) -> list[Contact]:
+        """The contacts of a body, those it sleeps with among them."""
+        contacts = [*self.cache.values(), *self.sleeping_cache.values()]
+        return [c for c in contacts if body in (c.a, c.b)]
+
+    def body_changed(self, body: Body) -> None:
+        """Fill its contacts in anew, and wake whatever touches it."""
+        for c in self.of_body(body):
+            c.mn = 1 / (c.a.inv_mass + c.b.inv_mass)
+            for begin_contact in self.begin_contact_hooks:
+                begin_contact(c)
+            c.a.wake()
+            c.b.wake()
+        self.last_positions = []
+
+    def forget(self, body: Body) -> None:
+        """Wake whatever touches it: it may have lain on it."""
+        for c in self.of_body(body):
+            c.a.wake()
+            c.b.wake()
+        gone = {(c.a.id, c.b.id) for c in self.of_body(body)}
+        self.cache = {pair: c for pair, c in self.cache.items() if pair not in gone}
+        self.sleeping_cache = {p: c for p, c in self.sleeping_cache.items() if p not in gone}
+        self.touching = [c for c in self.touching if body not in (c.a, c.b)]
+        self.last_positions = []
+
+    def is_used(self) -> bool:
+        return len(self.world.bodies) > 1
+
     def links(self) -> list[tuple[Body, Body]]:
         return [(c.a, c.b) for c in self.touching]
 
@@ -214,3 +289,8 @@ class Contacts(Effect):
         self.last_positions = []
         self.cache = self.sleeping_cache | self.cache
         self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.asleep}
+
+
+def pair_both_ways(a: Body, b: Body) -> set[tuple[int, int]]:
+    """The pair by its ids, whichever comes first."""
+    return {(a.id, b.id), (b.id, a.id)}

@@ -18,6 +18,9 @@ class Damping(Effect):
         self.linear = not_negative("Damping.linear", linear)  # 1/s
         self.angular = not_negative("Damping.angular", angular)  # 1/s
 
+    def is_used(self) -> bool:
+        return self.linear > 0 or self.angular > 0
+
     def force(self, h: float) -> None:
         keep_vel, keep_omega = exp(-self.linear * h), exp(-self.angular * h)
         for body in self.world.awake:

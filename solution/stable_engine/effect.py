@@ -31,6 +31,13 @@ class Effect:
     def add(self, thing: Any) -> None:
         """Add a body or joint to this effect's own list."""
 
+    def remove(self, thing: Any) -> None:
+        """Take a joint off this effect's own list."""
+
+    def is_used(self) -> bool:
+        """Whether anything in the world has a use for this effect. Asked by World.check alone."""
+        return True
+
     # once per step
 
     def detect(self, h: float) -> None:
@@ -63,6 +70,12 @@ class Effect:
 
     def begin_contact(self, c: Contact) -> None:
         """Fill in what this effect needs of a new contact, such as its friction."""
+
+    def body_changed(self, body: Body) -> None:
+        """The mass, friction or restitution of a body was set: take over the new value."""
+
+    def forget(self, body: Body) -> None:
+        """A body leaves the world: drop all that refers to it."""
 
     def after_impact(self, c: Contact, jn: float) -> None:
         """Respond to an impact of jn (kg px/s) along the normal: friction acts at that instant."""

@@ -27,11 +27,14 @@ class Friction(Effect):
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
+    def is_used(self) -> bool:
+        return any(body.mu > 0 for body in self.world.bodies)
+
     def begin_contact(self, c: Contact) -> None:
         a, b = c.a, c.b
         spin = a.radius**2 * a.inv_inertia + b.radius**2 * b.inv_inertia
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
-        c.mu = sqrt(a.friction * b.friction)
+        c.mu = sqrt(a.mu * b.mu)
 
     def after_impact(self, c: Contact, jn: float) -> None:
         a, b, tx, ty = c.a, c.b, -c.ny, c.nx

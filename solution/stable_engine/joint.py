@@ -5,7 +5,7 @@ from typing import ClassVar, Generic, TypeVar
 
 from .body import Body
 from .effect import Effect
-from .validate import require
+from .validate import refuse, require
 
 
 class Joint:
@@ -19,14 +19,24 @@ class Joint:
 
     def __init__(self, a: Body, b: Body) -> None:
         name = f"{type(self).__name__}.b"
+        for body in (a, b):
+            if not isinstance(body, Body):
+                refuse(f"an end of {type(self).__name__}", body, "a Body")
         require(a is not b, name, f"the same body as a, at {a.pos}", "another body")
         static = a.is_static and b.is_static
         require(not static, name, f"static like a, at {b.pos}", "a body with mass")
         self.a = a
         self.b = b
-        self.m = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass
+        self.weigh()
         self.measure()
         self.length = self.distance  # px, at rest
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.a!r}, {self.b!r}, length {self.length:g})"
+
+    def weigh(self) -> None:
+        """Take over the masses of a and b."""
+        self.m = 1 / (self.a.inv_mass + self.b.inv_mass)  # kg, effective mass
 
     def measure(self) -> None:
         """Update distance and direction from A to B."""
@@ -64,6 +74,22 @@ class Joints(Effect, Generic[AnyJoint]):
     def add(self, joint: AnyJoint) -> None:
         self.joints.append(joint)
         self.awake.append(joint)
+
+    def remove(self, joint: AnyJoint) -> None:
+        self.joints.remove(joint)
+        self.awake_changed()
+
+    def forget(self, body: Body) -> None:
+        for joint in [joint for joint in self.joints if body in (joint.a, joint.b)]:
+            self.world.remove(joint)
+
+    def body_changed(self, body: Body) -> None:
+        for joint in self.joints:
+            if body in (joint.a, joint.b):
+                joint.weigh()
+
+    def is_used(self) -> bool:
+        return bool(self.joints)
 
     def links(self) -> list[tuple[Body, Body]]:
         return [(joint.a, joint.b) for joint in self.awake]

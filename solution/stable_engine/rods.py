@@ -3,13 +3,14 @@
 from math import hypot
 
 from .body import Body
-from .contacts import Contacts
+from .contacts import Contacts, pair_both_ways
 from .joint import Joint, Joints
-from .soft import SAME_DIRECTION, softness
+from .soft import SAME_DIRECTION, Pace, softness
 from .validate import require
 
 FREQUENCY = 0.25  # of a rod, per substep
 DAMPING_RATIO = 5.0
+STIFFENING = 0.02  # of a substep, per step
 
 
 class Rod(Joint):
@@ -33,14 +34,24 @@ class Rods(Joints[Rod]):
 
     rank = 2
 
+    def __init__(self) -> None:
+        super().__init__()
+        self.pace = Pace(STIFFENING)
+
     def add(self, rod: Rod) -> None:
         super().add(rod)
         contacts = self.world.effects.get("Contacts")
         if isinstance(contacts, Contacts) and rod.length < rod.a.radius + rod.b.radius:
             contacts.ignore_pair(rod.a, rod.b)
 
+    def remove(self, rod: Rod) -> None:
+        super().remove(rod)
+        contacts = self.world.effects.get("Contacts")
+        if isinstance(contacts, Contacts):
+            contacts.ignored -= pair_both_ways(rod.a, rod.b)
+
     def prepare(self, h: float) -> None:
-        self.spring = softness(FREQUENCY / h, DAMPING_RATIO, h)
+        self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:

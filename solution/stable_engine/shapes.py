@@ -1,17 +1,18 @@
 """The shapes of bodies. Lengths are in px."""
 
-import math
 from collections.abc import Iterable
 
-from .validate import pair, require
+from .validate import pair, positive, require
 
 
 class Circle:
     """A disc."""
 
     def __init__(self, radius: float) -> None:
-        require(0 < radius < math.inf, "Circle.radius", radius, "a finite number above 0")
-        self.radius = float(radius)
+        self.radius = positive("Circle.radius", radius)
+
+    def __repr__(self) -> str:
+        return f"Circle({self.radius:g})"
 
 
 class Box:
@@ -20,3 +21,6 @@ class Box:
     def __init__(self, half: Iterable[float]) -> None:
         self.half = pair("Box.half", half)
         require(min(self.half) > 0, "Box.half", self.half, "two finite numbers above 0")
+
+    def __repr__(self) -> str:
+        return f"Box(({self.half[0]:g}, {self.half[1]:g}))"

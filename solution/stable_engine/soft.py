@@ -14,3 +14,23 @@ def softness(hertz: float, zeta: float, h: float) -> tuple[float, float]:
     omega = 2 * math.pi * hertz
     firmness = h * omega * (2 * zeta + h * omega)
     return h * omega**2 / (1 + firmness), firmness / (1 + firmness)
+
+
+class Pace:
+    """The length of substep that stiffness goes by where steps vary.
+
+    A constraint is as stiff as the substep allows, so a long one lets more overlap in. Were the
+    next short one at once as stiff as it can be, it would throw that overlap out. So a longer
+    substep counts at once, a shorter one bit by bit: slowly enough for gravity to keep a pile
+    together while it rises. In equal steps the pace is the substep. stiffening is the share of a
+    substep by which a step may shorten the pace.
+    """
+
+    def __init__(self, stiffening: float) -> None:
+        self.stiffening = stiffening
+        self.h = 0.0  # s
+
+    def follow(self, h: float) -> float:
+        """The pace (s) of a step that takes substeps of h seconds."""
+        self.h = max(h, self.h - self.stiffening * h)
+        return self.h

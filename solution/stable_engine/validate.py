@@ -2,6 +2,16 @@
 
 import math
 from collections.abc import Iterable
+from typing import NoReturn
+
+
+class WrongType(TypeError, ValueError):
+    """Something of the wrong type. It is a bad value too, for whoever catches those."""
+
+
+def refuse(field: str, value: object, rule: str) -> NoReturn:
+    """Raise WrongType naming the field, its value and the rule."""
+    raise WrongType(f"{field} is {value!r}, but it must be {rule}.")
 
 
 def require(ok: bool, field: str, value: object, rule: str) -> None:
@@ -10,21 +20,41 @@ def require(ok: bool, field: str, value: object, rule: str) -> None:
         raise ValueError(f"{field} is {value}, but it must be {rule}.")
 
 
+def number(field: str, value: float, low: float, high: float, rule: str) -> float:
+    """value as a float. Raises ValueError when it is NaN, infinite or not from low to high."""
+    try:
+        ok = math.isfinite(value) and low <= value <= high
+    except TypeError:
+        refuse(field, value, rule)
+    require(ok, field, value, rule)
+    return float(value)
+
+
 def finite(field: str, value: float) -> float:
     """value as a float. Raises ValueError when it is NaN or infinite."""
-    require(math.isfinite(value), field, value, "a finite number")
-    return float(value)
+    return number(field, value, -math.inf, math.inf, "a finite number")
 
 
 def not_negative(field: str, value: float) -> float:
     """value as a float. Raises ValueError when it is below 0, NaN or infinite."""
-    require(0 <= value < math.inf, field, value, "a finite number, 0 or more")
-    return float(value)
+    return number(field, value, 0, math.inf, "a finite number, 0 or more")
+
+
+def positive(field: str, value: float) -> float:
+    """value as a float. Raises ValueError when it is 0 or below, NaN or infinite."""
+    rule = "a finite number above 0"
+    found = number(field, value, 0, math.inf, rule)
+    require(found > 0, field, value, rule)
+    return found
 
 
 def pair(field: str, value: Iterable[float]) -> tuple[float, float]:
     """value as two floats. Raises ValueError when it is not a pair of finite numbers."""
-    numbers = tuple(value)
-    ok = len(numbers) == 2 and all(map(math.isfinite, numbers))
-    require(ok, field, value, "a pair of finite numbers")
+    rule = "a pair of finite numbers"
+    try:
+        numbers = tuple(value)
+        ok = len(numbers) == 2 and all(map(math.isfinite, numbers))
+    except TypeError:
+        refuse(field, value, rule)
+    require(ok, field, value, rule)
     return float(numbers[0]), float(numbers[1])

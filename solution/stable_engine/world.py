@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
 from .body import Body
+from .check import complaints, missing
 from .effect import Effect
 from .joint import Joint
-from .validate import pair, require
+from .validate import pair, refuse, require
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 
@@ -27,23 +29,29 @@ class World:
         substeps: int = 4,
         effects: Iterable[Effect] = (),
     ) -> None:
-        whole = isinstance(substeps, int) and substeps > 0
-        require(whole, "World.substeps", substeps, "a whole number above 0")
+        whole = "a whole number above 0"
+        if not isinstance(substeps, int):
+            refuse("World.substeps", substeps, whole)
+        require(substeps > 0, "World.substeps", substeps, whole)
         self.gravity = pair("World.gravity", gravity)
         self.substeps = substeps
         self.bodies: list[Body] = []
         self.awake: list[Body] = []  # the balls that can move now
         self.statics: list[Body] = []
+        self.added = 0  # how many bodies ever were
         self.effects: dict[str, Effect] = {}
+        if not isinstance(effects, Iterable):
+            refuse("World.effects", effects, "a list of effects")
         for effect in effects:
             name = type(effect).__name__
-            require(isinstance(effect, Effect), "World.effects", effect, "a list of effects")
+            if not isinstance(effect, Effect):
+                refuse("World.effects", effect, "a list of effects, as in [Contacts()]")
             require(name not in self.effects, "World.effects", f"with {name}() twice", "without")
             self.effects[name] = effect
         for effect in self.effects.values():
             effect.attach(self)
 
-        self.detect_hooks = self.hooks("detect")
+        self.detect_hooks = [self.warn, *self.hooks("detect")]  # warns in the first step only
         self.impact_hooks = self.hooks("impact")
         self.prepare_hooks = self.hooks("prepare")
         self.force_hooks = self.hooks("force")
@@ -51,6 +59,13 @@ class World:
         self.solve_hooks = self.hooks("solve")
         self.relax_hooks = self.hooks("relax")
         self.finish_hooks = self.hooks("finish")
+        self.body_changed_hooks = self.hooks("body_changed")
+        self.forget_hooks = self.hooks("forget")
+
+    def __repr__(self) -> str:
+        names = ", ".join(f"{name}()" for name in self.effects)
+        moving = len(self.bodies) - len(self.statics)
+        return f"World({moving} moving, {len(self.statics)} static, effects=[{names}])"
 
     def hooks(self, name: str) -> list[Callable[..., Any]]:
         """The hooks of this name that the scene's effects override, lowest rank first."""
@@ -75,17 +90,20 @@ class World:
         """
         if isinstance(thing, Body):
             self.add_body(thing)
-        else:
+        elif isinstance(thing, Joint):
             self.add_joint(thing)
+        else:
+            refuse("World.add's argument", thing, "a Body, a Rod or a Spring")
         return thing
 
     def add_body(self, body: Body) -> None:
         found = f"in a world already, at {body.pos}"
-        require(body.id == 0, "World.add's body", found, "a new one")
+        require(body.world is None, "World.add's body", found, "a new one")
         if body.bullet:
             self.need("Bullets", body).add(body)
         self.bodies.append(body)
-        body.id = -len(self.bodies) if body.is_static else len(self.bodies)
+        self.added += 1
+        body.world, body.id = self, -self.added if body.is_static else self.added
         (self.statics if body.is_static else self.awake).append(body)
 
     def add_joint(self, joint: Joint) -> None:
@@ -94,13 +112,65 @@ class World:
         require(joint not in effect.joints, name, "in this world already", "a new one")
         for body in (joint.a, joint.b):
             found = f"tied to a body at {body.pos} that is not in this world"
-            require(body in self.bodies, name, found, "tied to bodies added before")
+            require(body.world is self, name, found, "tied to bodies added before")
             body.wake()
         effect.add(joint)
 
+    def remove(self, thing: Body | Joint) -> None:
+        """Take a body, rod or spring out. A body takes along the rods and springs tied to it.
+
+        Whatever slept on it or with it wakes. Call it between steps. What is taken out can be added
+        again. Raises ValueError when it is not in this world.
+        """
+        if isinstance(thing, Body):
+            self.remove_body(thing)
+        elif isinstance(thing, Joint):
+            self.remove_joint(thing)
+        else:
+            refuse("World.remove's argument", thing, "a Body, a Rod or a Spring")
+
+    def remove_body(self, body: Body) -> None:
+        require(body.world is self, "World.remove's body", body, "one that is in this world")
+        body.wake()
+        for forget in self.forget_hooks:
+            forget(body)
+        for bodies in (self.bodies, self.statics if body.is_static else self.awake):
+            bodies.remove(body)
+        body.world, body.id = None, 0
+
+    def remove_joint(self, joint: Joint) -> None:
+        effect = self.effects.get(joint.effect)
+        ours = joint in getattr(effect, "joints", [])
+        require(ours, f"World.remove's {type(joint).__name__}", joint, "one that is in this world")
+        for body in (joint.a, joint.b):
+            body.wake()
+        self.need(joint.effect, joint).remove(joint)
+
+    def bodies_at(self, point: Iterable[float]) -> list[Body]:
+        """The bodies that a point (px) is in or on the edge of, in the order of adding."""
+        at = pair("World.bodies_at's point", point)
+        return [body for body in self.bodies if body.contains(at)]
+
+    def check(self) -> list[str]:
+        """Say which effects the scene calls for and does not declare, and which it does not use.
+
+        One sentence each. If nobody asks, the first step warns of those that are not declared.
+        """
+        self.detect_hooks = self.hooks("detect")
+        return complaints(self)
+
+    def warn(self, h: float) -> None:
+        """Warn of what the scene calls for and does not declare, this once."""
+        self.detect_hooks = self.hooks("detect")
+        for sentence in missing(self):
+            warnings.warn(sentence, stacklevel=3)
+
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
-        h = dt / self.substeps
+        try:
+            h = dt / self.substeps
+        except TypeError:
+            refuse("World.step's dt", dt, "a number of seconds")
         require(0 < h < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
         for body in self.awake:
             body.check()

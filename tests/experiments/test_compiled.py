@@ -1,23 +1,111 @@
 """The compiled build of the stable engine: the same source, the same bits."""
 
+import importlib
 import shutil
+import subprocess
+import sys
 
 import pytest
 
-from experiments.compiled import build, compare
+from experiments import compiled, effects, race
+from experiments.answers import Effort
+from experiments.compiled import Compiled, build, load, same_bits, sources, use_compiled
+from experiments.engines import ENGINES, Stable
+from experiments.measures import run
+from experiments.scenes import on_floor
+
+NO_COMPILER = not (shutil.which("cc") or shutil.which("gcc"))
+
+WIND = """
+from stable_compiled import Body, Circle, Effect, World, world
+class Wind(Effect):
+    rank = 1
+    def force(self, h):
+        for body in self.world.awake:
+            body.vx += 100 * h
+made = World(gravity=(0, 0), effects=[Wind()])
+ball = made.add(Body(Circle(10), (0, 0), 1.0))
+for _ in range(120):
+    made.step(1 / 120)
+print(world.__file__, round(ball.vel.x, 6), made.check())
+"""
 
 
 @pytest.mark.soak
-@pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler here")
-def test_the_compiled_build_gives_the_same_bits(tmp_path):
-    build(tmp_path)
-    assert list((tmp_path / "stable_engine").glob("world.*.so"))
-    same, faster = compare(tmp_path, rounds=3)
-    assert same
-    assert faster > 0
+@pytest.mark.skipif(NO_COMPILER, reason="no C compiler here")
+def test_what_make_compiled_makes_has_the_same_bits_and_runs_plain_effects(
+    tmp_path, no_package, capsys
+):
+    (tmp_path / "in").mkdir()
+    with pytest.raises(SystemExit) as ended:
+        compiled.main(["--out", f"{tmp_path}/in/../out"])  # as the Makefile has it
+    assert ended.value.code == 0
+    printed = capsys.readouterr().out
+    assert "scenes: yes" in printed
+    assert not same_bits(0.5)
+    done = subprocess.run(
+        [sys.executable, "-c", WIND], cwd=tmp_path / "out", capture_output=True, text=True
+    )
+    where, speed, told = done.stdout.split()
+    assert not where.endswith(".py")
+    assert (speed, told) == ("100.0", "[]")
+
+
+def stand_in(folder):
+    """A package that looks as if it were compiled: the source, but for the name of one file."""
+    package = folder / compiled.NAME
+    package.mkdir()
+    for name, text in sources().items():
+        (package / name).write_text(text, "utf-8")
+    return package
+
+
+@pytest.fixture
+def no_package(monkeypatch):
+    """Leave no compiled package behind, neither imported nor in use."""
+    monkeypatch.setattr(Compiled, "package", None)
+    monkeypatch.setitem(ENGINES, "stable", Stable)
+    yield
+    for name in [name for name in sys.modules if name.startswith(compiled.NAME)]:
+        del sys.modules[name]
+
+
+def test_without_a_compiled_build_the_plain_source_runs_and_it_is_said(tmp_path, no_package):
+    assert "plain source" in use_compiled([tmp_path / "none", tmp_path])
+    assert ENGINES["stable"] is Stable
+
+
+def test_a_build_of_another_source_or_for_another_python_is_not_used(tmp_path, no_package):
+    package = stand_in(tmp_path)
+    assert load(tmp_path) is None  # as for another Python: only the source can be imported
+    (package / "world.py").write_text("# of yesterday", "utf-8")
+    assert load(tmp_path) is None
+
+
+def test_a_compiled_build_is_used_where_there_is_one_and_it_is_said(
+    tmp_path, no_package, monkeypatch
+):
+    package = stand_in(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    engine = importlib.import_module(package.name)
+    monkeypatch.setattr(engine.world, "__file__", "world.so")
+    assert str(tmp_path) in use_compiled([tmp_path / "none", tmp_path])
+    made = ENGINES["stable"](on_floor())
+    assert type(made.world).__module__ == f"{package.name}.world"
+    run(made, 0.1)
+    row = race.pile_row(8, Effort(quick=True, scale=0.1))
+    assert row["compiled"]["ratio"] > 0
+    scene = effects.settled(10)
+    cases = {"pile": effects.RepeatedStep(Stable(scene))}
+    assert effects.clock_compiled(cases, 1)["pile"] > 0
 
 
 def test_a_build_that_fails_says_what_it_needs(tmp_path, monkeypatch):
     monkeypatch.setattr("sys.executable", shutil.which("false"))
     with pytest.raises(RuntimeError, match="needs mypy and a C compiler"):
         build(tmp_path)
+
+
+def test_the_decorator_for_plain_effects_is_in_the_compiled_copy_alone():
+    assert "mypyc_attr(allow_interpreted_subclasses=True)" in sources()["effect.py"]
+    assert "mypyc" not in (compiled.TREE / "stable_engine/effect.py").read_text("utf-8")

@@ -146,7 +146,16 @@ def test_tab_and_numbers_choose_the_engine():
     for key in (pygame.K_TAB, pygame.K_TAB, pygame.K_TAB, pygame.K_3, pygame.K_2, pygame.K_1):
         press(show, key)
         names.append(show.engine.name)
-    assert names == ["stable", "pymunk", "lesson", "pymunk", "stable", "lesson"]
+    assert names[:3] == [*ENGINES, "lesson"][1:4]
+    assert names[3:] == ["pymunk", "stable", "lesson"]
+
+
+def test_a_key_for_an_engine_that_is_not_installed_says_so(monkeypatch):
+    show = Show("lab", "stable")
+    monkeypatch.delitem(ENGINES, "box2d", raising=False)
+    press(show, pygame.K_4)
+    assert show.engine.name == "stable"
+    assert "pip install Box2D" in show.note
 
 
 def test_arrows_choose_the_scene_and_go_round():
@@ -247,6 +256,15 @@ def test_letters_declare_an_effect_and_take_it_back(scene, key, effect):
     assert "starts again" in show.note
     press(show, ord(key))
     assert (effect in show.engine.world.effects) is was_on
+
+
+def test_an_effect_that_the_scene_calls_for_is_missed_by_the_stable_engine():
+    show = Show("pile", "stable")
+    assert show.note == ""
+    press(show, ord("f"))
+    assert "starts again. This scene calls for Friction(), which it does not" in show.note
+    press(show, pygame.K_1)
+    assert "calls for" not in show.note
 
 
 def test_a_letter_that_would_change_nothing_says_why():

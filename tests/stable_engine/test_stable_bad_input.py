@@ -136,6 +136,67 @@ def test_spring(field, number):
     refused(f"Spring.{field}", number, lambda: Spring(a, b, **good | {field: number}))
 
 
+# ---------------------------------------------------------------- of the wrong type
+
+BODY = Body(Circle(1), (0, 0), 1.0)
+WRONG_TYPES = {
+    "Circle.radius": ("big", lambda: Circle("big")),
+    "Box.half": (5, lambda: Box(5)),
+    "Body.shape": ("ball", lambda: Body("ball", (0, 0))),
+    "Body.pos": (7, lambda: Body(Circle(1), 7)),
+    "Body.mass": ("heavy", lambda: Body(Circle(1), (0, 0), "heavy")),
+    "Body.friction": ("rough", lambda: Body(Circle(1), (0, 0), friction="rough")),
+    "Body.restitution": ([1], lambda: Body(Circle(1), (0, 0), restitution=[1])),
+    "Body.vel": (None, lambda: setattr(BODY, "vel", None)),
+    "Body.omega": ("fast", lambda: setattr(BODY, "omega", "fast")),
+    "impulse": (3, lambda: BODY.apply_impulse(3)),
+    "World.gravity": (980, lambda: World(gravity=980)),
+    "World.substeps": ("4", lambda: World(substeps="4")),
+    "World.effects": (Contacts, lambda: World(effects=Contacts)),
+    "World.effects ": ("Contacts", lambda: World(effects=["Contacts"])),
+    "World.add": (Circle, lambda: World().add(Circle)),
+    "World.remove": ("it", lambda: World().remove("it")),
+    "World.bodies_at": (0, lambda: World().bodies_at(0)),
+    "World.step": ("long", lambda: world_with_ball().step("long")),
+    "Damping.linear": ("thick", lambda: Damping("thick")),
+    "Spring.stiffness": ("hard", lambda: Spring(BODY, Body(Circle(1), (9, 0)), "hard")),
+    "Rod": ("peg", lambda: Rod(BODY, "peg")),
+}
+
+
+@pytest.mark.parametrize("field", WRONG_TYPES)
+def test_a_wrong_type_is_an_error_in_a_sentence(field):
+    value, call = WRONG_TYPES[field]
+    refused(field.strip(), value, call)
+
+
+# ---------------------------------------------------------------- set later, taken out
+
+
+@pytest.mark.parametrize("number", [-0.1, NAN, INF])
+@pytest.mark.parametrize("field", ["friction", "restitution", "mass"])
+def test_setting_what_a_body_is_like(field, number):
+    body = Body(Circle(1), (0, 0), 1.0, 0.5, 0.5)
+    refused(f"Body.{field}", number, lambda: setattr(body, field, number))
+    assert (body.friction, body.restitution, body.mass) == (0.5, 0.5, 1)
+
+
+def test_a_body_stays_static_or_not():
+    static, moving = Body(Circle(1), (0, 0)), Body(Circle(1), (0, 0), 1.0)
+    refused("Body.mass", 2, lambda: setattr(static, "mass", 2))
+    refused("Body.mass", 0, lambda: setattr(moving, "mass", 0))
+    refused("Body.mass", 0, lambda: static.apply_impulse((1, 0)))
+
+
+def test_taking_out_what_is_not_there():
+    world, other = world_with_ball(), world_with_ball()
+    stranger = other.bodies[0]
+    refused("World.remove", stranger, lambda: world.remove(stranger))
+    for make in JOINTS.values():
+        joint = make(world.bodies[0], Body(Circle(1), (9, 9), 1.0))
+        refused(type(joint).__name__, joint, lambda joint=joint: world.remove(joint))
+
+
 def test_something_added_twice():
     world = world_with_ball()
     ball = world.bodies[0]

@@ -36,7 +36,7 @@ def state(world):
 def playground(names):
     """A little of all that the effects of these names are for."""
     row = [Ball((30 * i, -10 - 5 * i), restitution=0.5) for i in range(6)]
-    row[0].bullet = "Bullets" in names
+    row[0].bullet, row[0].vel = "Bullets" in names, (2000.0, 0.0)
     springs = [Spring(4, 5, 50.0, length=30.0)]
     return Scene(
         [floor(restitution=0.5), *row], tuple(names), [(2, 3)], springs, damping=(0.05, 0.3)

@@ -1,0 +1,83 @@
+"""Continuous collision detection: where the flight of a ball first hits a static body."""
+
+from math import copysign, hypot, sqrt
+
+from .body import Body
+
+NO_HIT = 1.0
+
+
+def stop_at_first_hit(
+    body: Body,
+    start: tuple[float, float],
+    radius: float,
+    overlap: float,
+    statics: list[Body],
+    gravity: tuple[float, float],
+    h: float,
+) -> None:
+    """Put a ball back to where it first hit a static body on its way from start, if it did.
+
+    The step counts as one straight flight of a ball of this radius (px). Put back, it overlaps by
+    overlap px, so that the next step finds the contact and resolves the impact. It keeps its
+    velocity, but for the speed that gravity gave it on the way it has not gone.
+    """
+    x, y = start
+    dx, dy = body.x - x, body.y - y
+    fraction = first_hit(statics, radius, x, y, dx, dy)
+    fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
+    if fraction == 1:
+        return
+    body.x, body.y = x + dx * fraction, y + dy * fraction
+    gx, gy = gravity
+    ux, uy = body.vx + gx * h / 2, body.vy + gy * h / 2  # velocities lag half a substep behind
+    speed2, fallen = ux * ux + uy * uy, 2 * (1 - fraction) * (gx * dx + gy * dy)  # px²/s²
+    share = sqrt(max(1 - fallen / speed2, 0.0)) if speed2 else 1.0
+    body.vx, body.vy = ux * share - gx * h / 2, uy * share - gy * h / 2
+
+
+def first_hit(
+    statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
+) -> float:
+    """The time of impact of a ball that moves from (x, y) by (dx, dy), or NO_HIT.
+
+    As a fraction of the step, 0 at its start and 1 at its end.
+    """
+    fraction = NO_HIT
+    for s in statics:
+        hit = hit_circle if s.radius else hit_box
+        fraction = min(fraction, hit(s, radius, x - s.x, y - s.y, dx, dy))
+    return fraction
+
+
+def hit_circle(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
+    """The time of impact with a circle; the ball starts at (x, y) from the centre of s."""
+    return hit_point(s.radius + radius, x, y, dx, dy)
+
+
+def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
+    """The time of impact with a box: a point against its faces moved out, its corners rounded."""
+    enter, leave = 0.0, NO_HIT
+    for start, move, half in ((x, dx, s.hx + radius), (y, dy, s.hy + radius)):
+        if move == 0:
+            if abs(start) >= half:
+                return NO_HIT
+        else:
+            side = copysign(half, move)
+            enter = max(enter, (-side - start) / move)
+            leave = min(leave, (side - start) / move)
+    if enter == 0 or enter >= leave:
+        return NO_HIT
+    at_x, at_y = x + dx * enter, y + dy * enter
+    if abs(at_x) > s.hx and abs(at_y) > s.hy:
+        return hit_point(radius, x - copysign(s.hx, at_x), y - copysign(s.hy, at_y), dx, dy)
+    return enter
+
+
+def hit_point(reach: float, x: float, y: float, dx: float, dy: float) -> float:
+    """The time at which something that starts at (x, y) from a point is within reach (px)."""
+    length2, ahead, outside = dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - reach * reach
+    root2 = ahead * ahead - length2 * outside
+    if outside <= 0 or ahead >= 0 or root2 < 0:
+        return NO_HIT
+    return (-ahead - sqrt(root2)) / length2

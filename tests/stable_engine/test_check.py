@@ -1,0 +1,113 @@
+"""A scene that calls for an effect it did not declare is told, once. After that it is free."""
+
+import warnings
+
+import pytest
+from worlds_for_tests import make
+
+from experiments.opcodes import count_opcodes, files_run
+from experiments.scenes import DT
+from stable_engine import Body, Box, Circle, Rod, Rods, Spring, Springs, World
+
+
+def world_with(*names, floor=True, **surface):
+    """A ball of this surface above a floor, in a world with the effects of these names."""
+    world = World(effects=make(names))
+    if floor:
+        world.add(Body(Box((100, 10)), (0, 10)))
+    world.add(Body(Circle(10), (0, -10), mass=1, **surface))
+    return world
+
+
+def named(sentences):
+    """The effects that sentences are about, and whether each is called for."""
+    return {s.partition("()")[0].rpartition(" ")[2]: "calls for" in s for s in sentences}
+
+
+@pytest.mark.parametrize(
+    ("effects", "surface", "told"),
+    [
+        ([], {}, {"Contacts": True}),
+        (["Contacts"], {}, {}),
+        (["Contacts"], {"friction": 0.5}, {"Friction": True}),
+        (["Contacts"], {"friction": 0}, {}),
+        (["Contacts"], {"restitution": 0.5}, {"Bounce": True}),
+        (["Contacts"], {"restitution": 0}, {}),
+        (
+            [],
+            {"restitution": 1, "friction": 1},
+            dict.fromkeys(("Contacts", "Friction", "Bounce"), 1),
+        ),
+        (["Contacts", "Friction", "Bounce"], {"restitution": 1, "friction": 1}, {}),
+        (["Contacts", "Friction", "Bounce"], {}, {}),
+        (
+            ["Contacts", "Rods", "Springs", "Bullets"],
+            {},
+            dict.fromkeys(("Rods", "Springs", "Bullets"), 0),
+        ),
+        (["Contacts", "Sleep", "Damping"], {}, {}),
+    ],
+)
+def test_what_is_called_for_and_what_is_not_used_is_named(effects, surface, told):
+    assert named(world_with(*effects, **surface).check()) == told
+
+
+def test_friction_and_bounce_without_a_surface_for_them_are_not_used():
+    world = world_with("Contacts", "Friction", "Bounce", friction=0, restitution=0)
+    world.bodies[0].friction = world.bodies[0].restitution = 0
+    assert named(world.check()) == {"Friction": False, "Bounce": False}
+
+
+def test_a_peg_that_something_hangs_on_calls_for_no_contacts():
+    for effect, tie in ((Rods, Rod), (Springs, lambda a, b: Spring(a, b, 1.0))):
+        world = World(effects=[effect()])
+        peg = world.add(Body(Circle(5), (0, 0)))
+        world.add(tie(peg, world.add(Body(Circle(5), (50, 0), mass=1))))
+        assert world.check() == []
+
+
+def test_nothing_that_can_move_calls_for_nothing():
+    world = World()
+    world.add(Body(Box((9, 9)), (0, 0), friction=1))
+    assert world.check() == []
+
+
+def test_the_first_step_warns_with_body_value_and_remedy():
+    world = world_with("Contacts", friction=0.5)
+    with pytest.warns(UserWarning) as told:
+        world.step(DT)
+    (sentence,) = [str(warning.message) for warning in told]
+    assert "calls for Friction()" in sentence
+    assert repr(world.bodies[1])[:20] in sentence
+    assert "0.5" in sentence
+    assert sentence.endswith("Declare it: World(effects=[..., Friction()]).")
+    assert told[0].filename == __file__
+
+
+def test_only_the_first_step_warns_and_none_once_somebody_asked():
+    asked, warned = world_with(), world_with()
+    asked.check()
+    with pytest.warns(UserWarning):
+        warned.step(DT)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        asked.step(DT)
+        warned.step(DT)
+
+
+def test_what_is_not_used_is_no_reason_to_warn():
+    world = world_with("Contacts", "Rods", "Bullets")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        world.step(DT)
+
+
+def test_after_the_first_step_the_check_costs_no_opcode_and_runs_no_line():
+    warned, never = (world_with("Contacts") for _ in range(2))
+    never.detect_hooks = never.hooks("detect")  # a world without the check
+    assert "check.py" in files_run(lambda: warned.step(DT))
+    never.step(DT)
+    for _ in range(3):
+        with_check, without = (count_opcodes(lambda w=w: w.step(DT)) for w in (warned, never))
+        assert with_check == without
+        assert "check.py" not in with_check

@@ -1,0 +1,247 @@
+"""What a program does with a world while it runs: set, push, take out, ask, be told."""
+
+import math
+
+import pytest
+from pygame import Vector2
+from worlds_for_tests import balls, build
+
+from experiments.measures import run, watch
+from experiments.scenes import BOUNCE, DT, TOUCH, Ball, Block, G, Scene, chain, floor, on_floor
+from stable_engine import Body, Bounce, Box, Circle, Contacts, Friction, Rod, Spring, World
+
+SLEEPY = (*BOUNCE, "Sleep")
+
+
+# ---------------------------------------------------------------- setting what a body is like
+
+
+def test_friction_set_while_bodies_touch_counts_from_the_next_step():
+    world = build(on_floor(vel=(300.0, 0.0), friction=0.0))
+    ground, ball = world.bodies
+    run(world, 0.5)
+    assert (ball.vx, ball.w) == (300, 0)
+    ground.friction = ball.friction = 0.5
+    world.step(DT)
+    assert ball.vx == pytest.approx(300 - 0.5 * G * DT, rel=1e-3)
+    ball.friction = 0
+    slower = ball.vx
+    run(world, 0.5)
+    assert ball.vx == slower
+
+
+def test_restitution_set_while_bodies_touch_counts_from_the_next_step():
+    world = build(Scene([floor(restitution=1.0), Ball((0, -10))], BOUNCE))
+    ball = world.bodies[1]
+    run(world, 0.1)
+    ball.restitution = 0.5
+    ball.vel = (0, 200)
+    world.step(DT)
+    assert ball.vy == pytest.approx(-100, rel=0.1)
+
+
+def test_a_mass_set_while_bodies_touch_counts_from_the_next_step():
+    world = build(Scene([Ball((0, 0)), Ball((20, 0))], ("Contacts", "Bounce"), gravity=(0, 0)))
+    a, b = world.bodies
+    a.restitution = b.restitution = 1
+    world.step(DT)
+    b.mass = 3
+    a.vel = (200, 0)
+    world.step(DT)
+    assert (b.mass, a.vx, b.vx) == pytest.approx((3, -100, 100))
+
+
+def test_a_mass_set_counts_for_inertia_rods_and_springs():
+    world = build(chain(2), "Rods", "Springs")
+    _, a, b = world.bodies
+    (_, rod), spring = world.effects["Rods"].joints, world.add(Spring(a, b, 1.0))
+    b.mass = 4
+    assert (rod.m, spring.m) == pytest.approx((0.8, 0.8))
+    assert b.inv_inertia == pytest.approx(2 / (4 * b.radius**2))
+
+
+@pytest.mark.parametrize(("field", "value"), [("mass", 5), ("friction", 0), ("restitution", 1)])
+def test_setting_what_a_body_is_like_wakes_it_and_what_touches_it(field, value):
+    world = build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), *SLEEPY)
+    run(world, 2)
+    assert world.awake == []
+    setattr(world.bodies[1], field, value)
+    assert world.awake == balls(world)
+    if field != "mass":
+        run(world, 3)
+        setattr(world.bodies[0], field, value)
+        assert world.bodies[1] in world.awake
+
+
+# ---------------------------------------------------------------- pushing
+
+
+def test_an_impulse_changes_velocity_by_its_share_of_the_mass():
+    ball = Body(Circle(10), (5, 5), mass=4)
+    ball.apply_impulse((8, -4))
+    assert (ball.vel, ball.omega) == ((2, -1), 0)
+
+
+def test_an_impulse_at_the_rim_turns_the_ball_as_well():
+    ball = Body(Circle(10), (5, 5), mass=4)
+    ball.apply_impulse((8, 0), at=(5, -5))  # at the top, to the right: clockwise
+    assert ball.vel == (2, 0)
+    assert ball.omega == pytest.approx(8 * 10 / (4 * 10**2 / 2))
+
+
+# ---------------------------------------------------------------- reading
+
+
+def test_what_is_read_cannot_be_changed_in_part():
+    ball = Body(Circle(10), (5, 5), mass=1)
+
+    def by_index():
+        ball.vel[0] = 5
+
+    changes = [
+        lambda: setattr(ball.vel, "x", 5),
+        lambda: setattr(ball.pos, "y", 5),
+        lambda: setattr(ball.pos, "xy", (5, 6)),
+        by_index,
+        lambda: ball.vel.update(5, 5),
+        lambda: ball.pos.scale_to_length(3),
+        lambda: ball.pos.rotate_ip(90),
+    ]
+    for change in changes:
+        with pytest.raises(AttributeError, match=r"Body\.(vel|pos) cannot .* body\.(vel|pos) \+= "):
+            change()
+    assert (ball.pos, ball.vel) == ((5, 5), (0, 0))
+
+
+def test_what_is_read_is_set_whole_and_its_sums_are_ordinary_vectors():
+    ball = Body(Circle(10), (5, 5), mass=1)
+    ball.vel += (5, 0)
+    ball.pos = ball.pos + Vector2(1, 1)
+    assert (ball.pos, ball.vel) == ((6, 6), (5, 0))
+    for vector in (ball.pos + Vector2(1, 1), ball.pos * 2, ball.pos.copy(), Vector2(ball.pos)):
+        vector.x += 1
+        vector.scale_to_length(10)
+        assert vector.length() == pytest.approx(10)
+    assert isinstance(ball.pos, Vector2)
+
+
+def test_what_a_thing_is_can_be_read_off_its_repr():
+    world = World(effects=[Contacts(), Bounce()])
+    world.add(Body(Box((450, 20)), (450, 580)))
+    ball = world.add(Body(Circle(10), (1.5, 2), mass=3))
+    ball.vel = (4, 5)
+    assert repr(world) == "World(1 moving, 1 static, effects=[Contacts(), Bounce()])"
+    assert repr(world.bodies[0]) == "Body(Box((450, 20)), (450, 580))"
+    assert repr(ball) == "Body(Circle(10), (1.5, 2), mass=3, vel=(4, 5))"
+    rod = Rod(Body(Circle(1), (0, 0)), Body(Circle(1), (3, 4), mass=1))
+    assert repr(rod).startswith("Rod(Body(")
+    assert repr(rod).endswith("length 5)")
+
+
+def test_the_bodies_at_a_point_are_found():
+    world = build(Scene([Block((0, 0), (20, 10)), Ball((25, 0)), Ball((25, 10), 1)]))
+    block, large, small = world.bodies
+    assert world.bodies_at((0, 0)) == [block]
+    assert world.bodies_at((20, 0)) == [block, large]
+    assert world.bodies_at(Vector2(25, 9.5)) == [large, small]
+    assert world.bodies_at((21, 10)) == []
+
+
+# ---------------------------------------------------------------- taking out
+
+
+def test_a_body_taken_out_is_gone_and_what_lay_on_it_falls():
+    world = build(Scene([floor(), Ball((0, -10)), Ball((0, -30))]), *SLEEPY)
+    run(world, 2)
+    ground, lower, upper = world.bodies
+    world.remove(lower)
+    assert world.bodies == [ground, upper]
+    assert world.awake == [upper]
+    run(world, 2)
+    assert upper.y == pytest.approx(-10, abs=0.01)
+    world.remove(ground)
+    run(world, 1)
+    assert upper.y > 100
+    world.remove(upper)
+    world.step(DT)
+    assert world.bodies == world.awake == world.statics == []
+
+
+def test_a_body_takes_its_joints_along_and_can_be_added_again():
+    world = build(chain(3), "Rods", "Contacts")
+    bodies, rods = list(world.bodies), list(world.effects["Rods"].joints)
+    world.remove(bodies[2])
+    assert world.effects["Rods"].joints == rods[:1]
+    run(world, 1)
+    assert bodies[3].y > 200
+    again = world.add(bodies[2])
+    world.add(Rod(bodies[1], again))
+    assert len({body.id for body in world.bodies}) == 4
+    run(world, 1)
+
+
+def test_a_rod_taken_out_lets_go_and_its_bodies_touch_again():
+    world = build(Scene([Ball((0, 0)), Ball((15, 0))], ("Contacts", "Rods"), [(0, 1)]))
+    (rod,) = world.effects["Rods"].joints
+    run(world, 0.2)
+    assert world.bodies[1].x - world.bodies[0].x == pytest.approx(15, abs=0.01)
+    world.remove(rod)
+    run(world, 1)
+    assert world.bodies[1].x - world.bodies[0].x == pytest.approx(20, abs=0.01)
+    world.add(rod)
+
+
+def test_a_bullet_taken_out_is_swept_no_more():
+    world = build(Scene([floor(), Ball((0, -100), bullet=True)], (*BOUNCE, "Bullets")))
+    world.remove(world.bodies[1])
+    world.step(DT)
+    assert world.effects["Bullets"].bullets == []
+
+
+def test_a_world_goes_on_as_if_what_was_taken_out_had_never_been():
+    scene = Scene([floor(), Ball((0, -50)), Ball((3, -90)), Ball((500, -300))], BOUNCE)
+    full, less = build(scene), build(Scene(scene.bodies[:-1], BOUNCE))
+    run(full, 0.2)
+    run(less, 0.2)
+    full.remove(full.bodies[-1])
+    run(full, 2)
+    run(less, 2)
+    assert [(b.x, b.y, b.w) for b in full.bodies] == [(b.x, b.y, b.w) for b in less.bodies]
+
+
+# ---------------------------------------------------------------- being told
+
+
+def test_a_hit_is_told_once_with_its_speed():
+    hits = []
+    world = World(effects=[Contacts(lambda *hit: hits.append(hit)), Friction()])
+    ground = world.add(Body(Box((100, 50)), (0, 50)))
+    ball = world.add(Body(Circle(10), (0, -110), mass=1))
+    run(world, 2)
+    ((a, b, fast),) = hits
+    assert (a, b) == (ball, ground)
+    assert fast == pytest.approx(math.sqrt(2 * G * 100), rel=0.02)
+
+
+def test_every_bounce_is_a_hit():
+    hits = []
+    world = World(effects=[Contacts(lambda a, b, fast: hits.append(fast)), Bounce()])
+    world.add(Body(Box((100, 50)), (0, 50), restitution=0.5))
+    world.add(Body(Circle(10), (0, -510), mass=1, restitution=0.5))
+    run(world, 3)
+    assert hits[1] == pytest.approx(hits[0] / 2, rel=0.02)
+    assert hits[2] == pytest.approx(hits[0] / 4, rel=0.04)
+
+
+def test_who_is_told_of_a_hit_may_take_out_both_and_add():
+    def swap(a, b, _):
+        for body in (a, b):
+            world.remove(body)
+        world.add(Body(Circle(5), (0, -300), mass=1))
+
+    scene = Scene([Ball((0, 0)), Ball((50, 0), vel=(-500, 0)), Ball((0, 50), vel=(0, -500))])
+    world = build(scene, *TOUCH, "Bullets", "Sleep")
+    world.effects["Contacts"].on_hit = swap
+    counts = watch(world, 0.3, lambda: len(world.bodies))
+    assert counts[0] == 3
+    assert counts[-1] == 2
