@@ -5,6 +5,7 @@ import re
 import socket
 import subprocess
 import sys
+from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -157,16 +158,18 @@ class WarmWorker:
     """A process with everything loaded that forks a child per check.
 
     It is waited for when the first child is wanted: until then it loads and we do something else.
+    Layers of isolation in `without` are left out, to see what the others hold.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, without: Collection[str] = ()) -> None:
+        self.without = sorted(without)
         self._start()
 
     def _start(self) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
             self.process = subprocess.Popen(
-                command("grader.worker.warm", str(theirs.fileno())),
+                command("grader.worker.warm", str(theirs.fileno()), *self.without),
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 start_new_session=True,
@@ -235,7 +238,8 @@ class SpawnWorker:
     Some are started ahead: to load takes them longer than most checks take.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, without: Collection[str] = ()) -> None:
+        self.without = sorted(without)
         self.layers: list[str] = []
         self.processes: dict[int, subprocess.Popen[bytes]] = {}
         self.ahead: list[tuple[subprocess.Popen[bytes], Channel]] = []
@@ -269,7 +273,7 @@ class SpawnWorker:
             process.stdin.close()
             return process
         return subprocess.Popen(
-            command("grader.worker.spawned", str(theirs.fileno())),
+            command("grader.worker.spawned", str(theirs.fileno()), *self.without),
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
@@ -313,6 +317,10 @@ def clean_environment() -> dict[str, str]:
     return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
 
 
-def start_worker(spawn: bool = False) -> Worker:
-    """The fastest kind this platform has; `spawn` forces the portable one."""
-    return SpawnWorker() if spawn or not hasattr(os, "fork") else WarmWorker()
+def start_worker(spawn: bool = False, without: Collection[str] = ()) -> Worker:
+    """The fastest kind this platform has; `spawn` forces the portable one.
+
+    Its children go without the layers of isolation that `without` names.
+    """
+    kind = SpawnWorker if spawn or not hasattr(os, "fork") else WarmWorker
+    return kind(without)

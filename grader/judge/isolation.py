@@ -7,8 +7,8 @@ Isolation = Literal["auto", "strict", "none"]
 # What is confined, and the layers of which one is enough.
 LAYERS = {
     "files": {"landlock-files"},
-    "network": {"network-namespace", "landlock-tcp"},
-    "other processes": {"pid-namespace", "landlock-scope", "own-user"},
+    "network": {"system-calls", "network-namespace", "landlock-tcp"},
+    "other processes": {"system-calls", "pid-namespace", "landlock-scope", "own-user"},
 }
 STRICT = ("files", "network")  # what --isolation=strict insists on
 

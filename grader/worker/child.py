@@ -8,7 +8,7 @@ import contextlib
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -44,6 +44,7 @@ from grader.protocol import (
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
+from grader.worker.filter import refuse_system_calls
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.output import Output
@@ -56,16 +57,20 @@ pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the defaul
 decoder = msgspec.msgpack.Decoder(Asked)
 
 
-def serve(channel: Channel, setup: ChildSetup) -> None:
+def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) -> None:
     """Answer until the judge closes the channel. Whatever the submission raises is an answer.
 
     Rights are given up and clocks replaced before the submission is imported: later, its top level
-    would have run with the grader's rights and kept the real clock.
+    would have run with the grader's rights and kept the real clock. `without` names layers that are
+    left out, to see what the others hold.
     """
     tidy_environment(setup.scratch)
     sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
-    channel.send(Ready(os.getpid(), confine(setup)))
+    layers = confine(setup, without)
     folder = own_copy(Path(setup.submission), Path(setup.scratch))
+    if setup.confine and "system-calls" not in without:
+        layers += refuse_system_calls()  # last: what came before needs some of them
+    channel.send(Ready(os.getpid(), layers))
     os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
     output.install()

@@ -12,6 +12,7 @@ import os
 import signal
 import sys
 import sysconfig
+from collections.abc import Collection
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -64,7 +65,7 @@ def libc() -> ctypes.CDLL:
     return ctypes.CDLL(None, use_errno=True)
 
 
-def isolate_server(keep: int) -> list[str]:
+def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
     """Once for the warm process: leave the network and other processes behind; returns the layers.
 
     Without this a submission could send the questions out, or signal and trace the judge. The call
@@ -76,9 +77,11 @@ def isolate_server(keep: int) -> list[str]:
         return []
     libc().prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back here
     layers = []
-    if libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
+    if "network-namespace" not in without and (
+        libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET)
+    ):
         layers.append("network-namespace")
-    if libc().unshare(CLONE_NEWPID) == 0:
+    if "pid-namespace" not in without and libc().unshare(CLONE_NEWPID) == 0:
         layers.append("pid-namespace")
         first = os.fork()
         if first:
@@ -88,8 +91,12 @@ def isolate_server(keep: int) -> list[str]:
     return layers
 
 
-def confine(setup: ChildSetup) -> list[str]:
-    """Give up this process's rights for good; returns the names of the layers that hold."""
+def confine(setup: ChildSetup, without: Collection[str] = ()) -> list[str]:
+    """Give up this process's rights for good; returns the names of the layers that hold.
+
+    Those in `without` are left out: `landlock-files` with all of Landlock, `user-namespace` with
+    the namespaces that it allows.
+    """
     if not setup.confine:
         return []
     layers = []
@@ -101,12 +108,16 @@ def confine(setup: ChildSetup) -> list[str]:
     if sys.platform.startswith("linux"):
         # A user namespace of ours has one user only. So where Landlock is missing, and a user of
         # its own is what protects files, that comes first; the namespace may then be refused.
-        if landlock_version() < 1:
+        landlock = "landlock-files" not in without and landlock_version() >= 1
+        own_user = "own-user" not in without
+        if not landlock and own_user:
             layers += become_own_user(setup)
-        layers += enter_own_namespaces(setup)
-        if "user-namespace" not in layers:
+        if "user-namespace" not in without:
+            layers += enter_own_namespaces(setup)
+        if "user-namespace" not in layers and own_user and "own-user" not in layers:
             layers += become_own_user(setup)
-        layers += restrict_with_landlock(setup)
+        if landlock:
+            layers += restrict_with_landlock(setup)
     return layers
 
 

@@ -26,12 +26,13 @@ from grader.worker.confinement import isolate_server, readable_paths
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
-def main(control_fd: int) -> None:
+def main(control_fd: int, without: list[str]) -> None:
     """Serve the judge until it closes the control channel.
 
-    The first message says which layers of isolation all children are in already.
+    The first message says which layers of isolation all children are in already. Those in `without`
+    are left out, there and in the children.
     """
-    layers = isolate_server(keep=control_fd)
+    layers = isolate_server(control_fd, without)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
@@ -41,7 +42,7 @@ def main(control_fd: int) -> None:
         while True:
             match decoder.decode(control.receive()):
                 case Open(setup):
-                    fork(control, setup)
+                    fork(control, setup, without)
                 case End(pid, gone):
                     control.send(end(pid, gone))
     end_strays()
@@ -59,7 +60,7 @@ def warm_up() -> None:
     space.step(0.01)
 
 
-def fork(control: Channel, setup: ChildSetup) -> None:
+def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     """Fork the child that `setup` describes; its end of the channel comes as a file descriptor.
 
     The child never returns from here: whatever happens to it, it must not run the server's loop.
@@ -75,7 +76,7 @@ def fork(control: Channel, setup: ChildSetup) -> None:
     try:
         control.close()
         close_other_descriptors(descriptor)
-        serve(Channel(socket.socket(fileno=descriptor)), setup)
+        serve(Channel(socket.socket(fileno=descriptor)), setup, without)
     finally:
         os._exit(0)
 
@@ -90,7 +91,7 @@ def close_other_descriptors(descriptor: int) -> None:
     for standard in (0, 1, 2):
         os.dup2(null, standard)
     os.closerange(3, descriptor)
-    os.closerange(descriptor + 1, 256)
+    os.closerange(descriptor + 1, os.sysconf("SC_OPEN_MAX"))
 
 
 def end(pid: int, gone: bool) -> Ended:
@@ -155,5 +156,5 @@ def has_children() -> bool:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2:])
     os._exit(0)  # the judge waits for the end: nothing here needs to be put away
