@@ -190,7 +190,7 @@ class Grading:
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:
-            lab = Lab(module, lambda: self.sandbox.open_child(10, compiles=True), [])
+            lab = Lab(module, lambda: self.sandbox.open_child(10), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:

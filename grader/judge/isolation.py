@@ -6,7 +6,7 @@ Isolation = Literal["auto", "strict", "none"]
 
 # What is confined, and the layers of which one is enough.
 LAYERS = {
-    "files": {"landlock-files"},
+    "files": {"own-root", "landlock-files"},
     "network": {"system-calls", "network-namespace", "landlock-tcp"},
     "other processes": {"system-calls", "pid-namespace", "landlock-scope", "own-user"},
 }

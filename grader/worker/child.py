@@ -6,6 +6,7 @@ as well, so this loop ends only with the channel or the process.
 
 import contextlib
 import os
+import py_compile
 import sys
 import tempfile
 from collections.abc import Callable, Collection, Iterator
@@ -29,6 +30,7 @@ from grader.protocol import (
     Get,
     Import,
     Integrate,
+    Limits,
     MakeBody,
     MakeWorld,
     Missing,
@@ -64,12 +66,18 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     would have run with the grader's rights and kept the real clock. `without` names layers that are
     left out, to see what the others hold.
     """
+    name = Path(setup.submission).name
+    layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
-    sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
-    layers = confine(setup, without)
-    folder = own_copy(Path(setup.submission), Path(setup.scratch))
+    submission, bytecode = Path(setup.submission), Path(setup.bytecode)
+    folder = own_copy(submission, Path(setup.scratch, name), bytecode)
+    sys.dont_write_bytecode = True
     if setup.confine and "system-calls" not in without:
         layers += refuse_system_calls()  # last: what came before needs some of them
+    if setup.compiles:
+        compile_all(submission, bytecode, setup.limits)
+        channel.send(Ready(os.getpid(), layers))
+        return  # it has never seen a line of the submission run, and never will
     channel.send(Ready(os.getpid(), layers))
     os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
@@ -209,22 +217,46 @@ class LineCounter:
 Trace = Callable[[FrameType, str, object], Any]
 
 
-def own_copy(submission: Path, scratch: Path) -> Path:
+def own_copy(submission: Path, copy: Path, bytecode: Path) -> Path:
     """The submission once more, for this child alone: it may write there, and it ends with it.
 
-    Files keep their times, by which Python knows whether what it compiled before is still good.
+    Files keep their times, by which Python knows whether what was compiled before is still good.
     """
-    copy = scratch / submission.name
-    for folder, _, names in os.walk(submission):
-        here = copy / Path(folder).relative_to(submission)
-        here.mkdir()
+    copy.mkdir()
+    for folder, folders, names in os.walk(submission):
+        inside = Path(folder).relative_to(submission)
+        here, compiled = copy / inside, bytecode / inside
+        for name in folders:
+            with contextlib.suppress(OSError):  # more than a child may have: to be missed
+                (here / name).mkdir()
         for name in names:
             source, target = Path(folder, name), here / name
-            with contextlib.suppress(OSError):  # larger than a child's files may be: to be missed
+            with contextlib.suppress(OSError):  # or larger
                 target.write_bytes(source.read_bytes())
                 times = source.stat()
                 os.utime(target, ns=(times.st_atime_ns, times.st_mtime_ns))
+        if compiled.is_dir():
+            with contextlib.suppress(OSError):  # Windows may not allow it: each compiles for itself
+                (here / "__pycache__").symlink_to(compiled, target_is_directory=True)
     return copy
+
+
+def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
+    """Fill the folder of compiled files, which all other children only read.
+
+    No line of the submission runs here. What cannot be compiled is left for the child that imports
+    it, to say why; what lies deep is left when the folder is full or the time is over.
+    """
+    size = 0
+    sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
+    for source in sources[: limits.scratch_files]:
+        inside = source.relative_to(submission)
+        target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
+        with contextlib.suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
+            py_compile.compile(str(source), str(target), str(source), doraise=True)
+            size += target.stat().st_size
+        if size > limits.scratch_mb * 1024 * 1024:
+            return
 
 
 def tidy_environment(scratch: str) -> None:

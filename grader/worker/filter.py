@@ -16,6 +16,7 @@ import os
 import platform
 import struct
 import sys
+from collections.abc import Sequence
 
 PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
 PR_SET_NO_NEW_PRIVS = 38
@@ -276,9 +277,11 @@ def null(index: int) -> list[Instruction]:
     return lower + argument(index, upper=True) + unless_equal(0, answer(REFUSE)) + answer(ALLOW)
 
 
-def one_of(values: tuple[int, ...], inside: int, outside: int) -> list[Instruction]:
-    tests = [each for value in values for each in when(EQUAL, value, answer(inside))]
-    return tests + answer(outside)
+def one_of(values: Sequence[int], inside: int, outside: int) -> list[Instruction]:
+    """The one answer for each of these values, fewer than 256, and the other for the rest."""
+    end = len(values)
+    tests = [(EQUAL, end - index, 0, value) for index, value in enumerate(values)]
+    return tests + answer(outside) + answer(inside)
 
 
 def checked(pid: int) -> dict[str, list[Instruction]]:
@@ -308,7 +311,7 @@ def program(machine: str, pid: int) -> list[Instruction]:
     for name, body in checked(pid).items():
         text += when(EQUAL, CHECKED[name][column], body)
     numbers = [each[column] for each in REFUSED.values()]
-    return text + one_of(tuple(each for each in numbers if each is not None), REFUSE, ALLOW)
+    return text + one_of([each for each in numbers if each is not None], REFUSE, ALLOW)
 
 
 def refuse_system_calls() -> list[str]:

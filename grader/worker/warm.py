@@ -21,7 +21,7 @@ import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve, tidy_environment
-from grader.worker.confinement import isolate_server, readable_paths
+from grader.worker.confinement import isolate_server, prepare
 
 decoder = msgspec.msgpack.Decoder(Open | End)
 
@@ -66,7 +66,7 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     The child never returns from here: whatever happens to it, it must not run the server's loop.
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    readable_paths(tuple(setup.hidden))  # listed once here, known in every child
+    prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
     pid = os.fork()

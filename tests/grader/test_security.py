@@ -48,9 +48,25 @@ def fill(megabytes):
     for number in range(megabytes):
         with open(f"part{number}", "wb") as file: file.write(bytes(1024 * 1024))
     return True
+def fill_at(path):
+    with open(path, "wb") as file: file.write(b"x")
+    return True
 def many(files):
     for number in range(files): open(f"file{number}", "w").close()
     return True
+def look(path): return os.stat(path).st_size
+def connect(path): socket.socket(socket.AF_UNIX).connect(path); return True
+def change_mode(path): os.chmod(path, 0o4777); return True
+def change_times(path): os.utime(path, (1, 1)); return True
+def change_attribute(path): os.setxattr(path, "user.seen", b"1"); return True
+def a_library(): return os.__file__
+def in_root(): return " ".join(sorted(os.listdir("/")))
+def mount_anew(): return libc.mount(None, b"/", None, 0x1020, None)  # bound again, and writable
+def bounding(capability): return libc.prctl(23, capability, 0, 0, 0)
+def capabilities():
+    sets = ctypes.create_string_buffer(24)
+    libc.capget((0x20080522).to_bytes(4, "little") + bytes(4), sets)
+    return sum(sets.raw)
 def signal_all():
     os.kill(-1, 0)
     return True
@@ -61,6 +77,7 @@ def signal_all():
 SWITCHES = {
     "landlock-files",
     "network-namespace",
+    "own-root",
     "own-user",
     "pid-namespace",
     "system-calls",
@@ -69,6 +86,7 @@ SWITCHES = {
 NEEDS = {
     "ipc-namespace": "user-namespace",
     "mount-namespace": "user-namespace",
+    "own-root": "user-namespace",
     "landlock-tcp": "landlock-files",
     "landlock-scope": "landlock-files",
 }
@@ -85,7 +103,7 @@ class Prober:
         (folders[0] / "probes.py").write_text(PROBES, encoding="utf-8")
         submission, scratch, bytecode = map(str, folders)
         hidden = [str(KIT / "grader"), str(KIT / "solution")]
-        self.setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, True)
+        self.setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, False)
         self.children: list[Child] = []
 
     def __call__(self, name: str, *args: int | str) -> object:
@@ -158,7 +176,7 @@ def landlock_version() -> int:
 def expected_layers() -> set[str]:
     layers = {"process-group", "rlimits"}
     if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWIPC | confinement.CLONE_NEWNS):
-        layers |= {"user-namespace", "ipc-namespace", "mount-namespace"}
+        layers |= {"user-namespace", "ipc-namespace", "mount-namespace", "own-root"}
     if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWNET | confinement.CLONE_NEWPID):
         layers |= {"network-namespace", "pid-namespace"}
     if platform.machine() in AUDIT_ARCH:
@@ -246,6 +264,61 @@ def test_the_scratch_folder_is_small_and_ends_with_the_child(probe: Prober):
     assert refused(probe("many", limits.scratch_files + 1), "OSError")
     assert probe("fill", limits.scratch_mb // 2) is True
     assert list(Path(probe.setup.scratch).iterdir()) == []
+
+
+# ---------------------------------------------------------------- a root of its own
+
+
+@needs("own-root")
+def test_what_lies_outside_has_no_name(probe: Prober, tmp_path: Path):
+    other = tmp_path / "other" / "integrators.py"
+    other.parent.mkdir()
+    other.write_text("x = 1\n", encoding="utf-8")
+    before = other.stat()
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(path := f"/tmp/own-root-{os.getpid()}")
+        try:
+            server.listen()
+            assert refused(probe("connect", path), "FileNotFoundError")
+        finally:
+            os.unlink(path)
+    for name in ("look", "change_mode", "change_times", "change_attribute"):
+        assert refused(probe(name, str(other)), "FileNotFoundError")
+    after = other.stat()
+    assert (after.st_mode, after.st_ctime_ns) == (before.st_mode, before.st_ctime_ns)
+    assert isinstance(names := probe("in_root"), str)
+    needed = [*confinement.readable_paths(()), *confinement.links_to_libraries()]
+    assert set(names.split()) == {each.parts[1] for each in needed} | {"check", "dev"}
+
+
+@needs("own-root")
+def test_what_lies_inside_stays_as_it_is(probe: Prober):
+    library, before = str(probe("a_library")), Path(os.__file__).stat()
+    assert library == os.__file__
+    for name in ("change_mode", "change_times", "change_attribute"):
+        assert refused(probe(name, library), "OSError", "PermissionError")
+    assert refused(probe("fill_at", "/new"), "OSError", "PermissionError")
+    assert probe("mount_anew") == -1
+    after = Path(os.__file__).stat()
+    assert (after.st_mode, after.st_mtime_ns, after.st_ctime_ns) == (
+        before.st_mode,
+        before.st_mtime_ns,
+        before.st_ctime_ns,
+    )
+
+
+@needs("user-namespace")
+def test_no_capability_is_left(probe: Prober):
+    assert probe("capabilities") == 0
+    assert probe("bounding", 21) == 0  # CAP_SYS_ADMIN, which the namespace's root would have
+
+
+def test_a_kit_among_the_packages_is_left_out_however_deep(tmp_path: Path):
+    kit = tmp_path / "lib" / "python" / "packages" / "grader"
+    for folder in (kit, kit.parent / "numpy", tmp_path / "lib" / "python" / "json"):
+        folder.mkdir(parents=True)
+    left = set(confinement.all_but({kit}, tmp_path))
+    assert left == {kit.parent / "numpy", tmp_path / "lib" / "python" / "json"}
 
 
 # ---------------------------------------------------------------- Landlock
