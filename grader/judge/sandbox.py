@@ -46,10 +46,15 @@ class Sandbox:
         return self.work / "bytecode"
 
     def _compile(self) -> None:
-        """Fill the folder by a child that never runs the submission: those that do only read it."""
+        """Fill the folder by a child that never runs the submission: those that do only read it.
+
+        So say the modes as well: where no layer shuts files off, no child may change a mode.
+        """
         self.bytecode.mkdir()
         with suppress(ChildEnded):  # its limits: what is not compiled, each child compiles
             self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).end()
+        for path in [self.bytecode, *self.bytecode.rglob("*")]:
+            path.chmod(0o555 if path.is_dir() else 0o444)
 
     def _setup(self, cpu_seconds: int, compiles: bool = False) -> ChildSetup:
         return ChildSetup(

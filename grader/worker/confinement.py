@@ -123,11 +123,11 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
         if "user-namespace" not in without:
             entered, setup = enter_own_namespaces(setup, root="own-root" not in without)
             layers += entered
-            drop_capabilities()
         if "user-namespace" not in layers and own_user and "own-user" not in layers:
             layers += become_own_user(setup)
         if landlock:
             layers += restrict_with_landlock(setup)
+        drop_capabilities()
     return layers, setup
 
 
@@ -149,10 +149,11 @@ def become_own_user(setup: ChildSetup) -> list[str]:
         return []
     user = UNUSED_UIDS[os.getpid() % len(UNUSED_UIDS)]
     needed = [*map(str, readable_paths(tuple(setup.hidden))), setup.submission, setup.scratch]
+    own = [setup.scratch] + [setup.bytecode] * setup.compiles
     reached = False
     with suppress(OSError):  # a container may lack the right, or the number
         os.chmod(Path(setup.submission).parent, 0o711)  # to pass through, not to list
-        for folder in [setup.scratch] + [setup.bytecode] * setup.compiles:
+        for folder in own:
             os.chown(folder, user, user)
         os.setgroups([])
         os.setegid(user)
@@ -161,6 +162,9 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     os.seteuid(0)
     os.setegid(0)
     if not reached:
+        with suppress(OSError):
+            for folder in own:
+                os.chown(folder, 0, 0)
         return []
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)

@@ -13,6 +13,7 @@ import socket
 import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 
 import msgspec
 import psutil
@@ -69,6 +70,7 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
+    begin_numbers_anew()
     pid = os.fork()
     if pid:
         os.close(descriptor)
@@ -79,6 +81,16 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
         serve(Channel(socket.socket(fileno=descriptor)), setup, without)
     finally:
         os._exit(0)
+
+
+def begin_numbers_anew() -> None:
+    """Give the next child the lowest number that is free, in a PID namespace of ours.
+
+    Threads are numbered too: the number of a child would tell how many the one before has started.
+    """
+    if os.getpid() == 1:
+        with suppress(OSError):
+            Path("/proc/sys/kernel/ns_last_pid").write_text("1")
 
 
 def close_other_descriptors(descriptor: int) -> None:
