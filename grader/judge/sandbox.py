@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.judge.children import Child, ChildEnded, Worker
-from grader.judge.isolation import STRICT, Isolation, unconfined
+from grader.judge.isolation import Isolation, refusal
 from grader.judge.submission import CannotGrade
 from grader.protocol import ChildSetup, Limits
 
@@ -23,6 +23,7 @@ class Sandbox:
     isolation: Isolation
     hidden: list[str]  # folders that must be out of reach
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
+    trusted: bool = False  # one's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
 
     def open_child(self, cpu_seconds: int) -> Child:
@@ -73,11 +74,7 @@ class Sandbox:
         if self.isolation == "none":
             return ["processes"]
         layers = ["processes", *child.ready.layers, *self.worker.layers]
-        open_to_it = [what for what in unconfined(layers) if what in STRICT]
-        if self.isolation == "strict" and open_to_it:
+        if why := refusal(self.isolation, layers, self.trusted):
             child.end()
-            raise CannotGrade(
-                f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} "
-                f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
-            )
+            raise CannotGrade(why)
         return layers

@@ -107,7 +107,7 @@ def replaced_clocks(clock: ScriptedClock) -> Iterator[None]:
 
 def run_once(isolated: bool) -> Times:
     """One full grade of the solution."""
-    times, options = Times(), Options(shipped_reference())
+    times, options = Times(), Options(shipped_reference(), trusted=True)
     start = perf_counter()
     worker: Any = start_worker() if isolated else OpenWorker(times)
     clocks = nullcontext() if isolated else replaced_clocks(worker.clock)
