@@ -1,6 +1,8 @@
 """The command line: `python -m grader COMMAND`."""
 
 import os
+import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,7 +13,15 @@ from typing import Annotated, NoReturn
 import typer
 
 from grader import student
-from grader.commands import console, graded, known_todos, needs_checkout, refuse_ignored, stop
+from grader.commands import (
+    console,
+    graded,
+    known_todos,
+    needs_checkout,
+    refuse_ignored,
+    say_why,
+    stop,
+)
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
@@ -21,6 +31,7 @@ from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
+ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 FOR_CLASS = ("jobs", "roster", "adjust", "cluster")  # for a class alone
 
 app = typer.Typer(
@@ -210,7 +221,21 @@ def demonstrate(options: Options) -> None:
     show_isolation(result, console)
 
 
+def end_like_ctrl_c() -> None:
+    """Told to end, or the terminal closed: all is put away, as after Ctrl-C, and so only once."""
+
+    def stopped(number: int, _: object) -> NoReturn:
+        for name in ENDINGS:
+            signal.signal(name, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for name in ENDINGS:
+        if signal.getsignal(name) == signal.SIG_DFL:  # nohup has a terminal's end ignored
+            signal.signal(name, stopped)
+
+
 def main() -> None:
+    end_like_ctrl_c()
     app.add_typer(student.app)
     app.add_typer(report.app)
     if find_spec("grader.classroom"):  # students get neither of these two folders
@@ -219,4 +244,8 @@ def main() -> None:
 
         app.add_typer(classroom)
         app.add_typer(maintain)
-    app(prog_name="grader")
+    try:
+        app(prog_name="grader")
+    except OSError as error:  # exit status 1 would say that points are missing
+        say_why(f"{error}. Is there space, and a right to write?", "go on")
+        sys.exit(2)

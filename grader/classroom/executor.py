@@ -17,7 +17,8 @@ from typing import Protocol, Self
 
 from grader.classroom.intake.found import Package
 from grader.judge.children import Worker, start_worker
-from grader.judge.grade import Options, grade, work_folder
+from grader.judge.grade import Options, grade
+from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 
 AHEAD = 2  # submissions that wait, packed, for each one being graded

@@ -35,6 +35,7 @@ from grader.protocol import (
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
+STOPPED_SECONDS = 2  # a warm process that is stopped for so long was stopped by a child
 ASLEEP_SECONDS = 8  # a child that sleeps for so long without an answer waits for nothing
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
@@ -110,7 +111,8 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
 
-IDLE = {psutil.STATUS_SLEEPING, psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
+STOPPED = {psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
+IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 
 
 def activity(pid: int) -> tuple[bool, float]:
@@ -188,7 +190,7 @@ class WarmWorker:
         try:
             return self._open(Open(setup), setup)
         except (ChannelClosed, ChildEnded):  # something killed the warm process: a new one serves
-            self.close()
+            self._kill()
             self._start()
             return self._open(Open(setup), setup)
 
@@ -217,19 +219,50 @@ class WarmWorker:
         child.channel.close()
         try:
             self.control.send(End(child.ready.pid, gone))
-            ended = msgspec.msgpack.decode(self.control.receive(START_SECONDS), type=Ended)
+            ended = msgspec.msgpack.decode(self._hear(), type=Ended)
         except (ChannelClosed, ChannelTimeout):
+            self._kill()
             return "it took the worker down with it"
         code = -ended.code if ended.how == "signal" else ended.code
         return explain(child.cpu_seconds, code)
+
+    def _hear(self) -> bytes:
+        """What the warm process says; one that a child has stopped is not waited for."""
+        stopped = 0
+        for _ in range(int(START_SECONDS)):
+            if self.control.wait(1.0):
+                return self.control.receive(START_SECONDS)
+            stopped = stopped + 1 if self._is_stopped() else 0
+            if stopped >= STOPPED_SECONDS:
+                break
+        raise ChannelTimeout
+
+    def _is_stopped(self) -> bool:
+        """In a PID namespace the warm process is the only child of the one that we started."""
+        try:
+            process = psutil.Process(self.process.pid)
+            if "pid-namespace" in self.layers:
+                process = process.children()[0]
+            return process.status() in STOPPED
+        except (psutil.Error, IndexError):
+            return False
+
+    def _kill(self) -> None:
+        """End it with all its children, whatever state they are in."""
+        self.control.close()
+        with suppress(psutil.NoSuchProcess):
+            for process in psutil.Process(self.process.pid).children(recursive=True):
+                with suppress(psutil.NoSuchProcess):
+                    process.kill()
+        self.process.kill()
+        self.process.wait()
 
     def close(self) -> None:
         self.control.close()  # it ends what is left of its children, and then itself
         try:
             self.process.wait(5)
         except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+            self._kill()
 
 
 class SpawnWorker:

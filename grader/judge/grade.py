@@ -1,8 +1,5 @@
 """Grading one submission, from a path to a Result."""
 
-import os
-import shutil
-import stat
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -22,6 +19,7 @@ from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, take_in
+from grader.judge.workplace import work_folder
 from grader.todo_regions import shape_of
 
 KIT = Path(__file__).parents[2]
@@ -123,18 +121,6 @@ def load_stubs() -> dict[str, str]:
     """The shapes of the starter's stubs: of each region, and of the function around it."""
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
     return {name: shape_of(source) for name, source in stubs.items()}
-
-
-@contextmanager
-def work_folder() -> Iterator[Path]:
-    """A folder of our own, removed afterwards even where a submission made parts read-only."""
-    work = Path(tempfile.mkdtemp(prefix="grader-")).resolve()
-    try:
-        yield work
-    finally:
-        for folder, _, _ in os.walk(work):
-            os.chmod(folder, stat.S_IRWXU)
-        shutil.rmtree(work, ignore_errors=True)
 
 
 @dataclass

@@ -32,11 +32,11 @@ class Sandbox:
         Raises CannotGrade where none can be started: until then the submission has not run a line,
         so this says nothing about it.
         """
-        if not self.bytecode.exists():
-            self._compile()
         try:
+            if not self.bytecode.exists():
+                self._compile()
             child = self.worker.open(self._setup(cpu_seconds))
-        except ChildEnded as error:
+        except (ChildEnded, OSError) as error:
             raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
         return child
