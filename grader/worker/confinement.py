@@ -11,6 +11,7 @@ calls in filter.py.
 import ctypes
 import os
 import platform
+import re
 import signal
 import sys
 import sysconfig
@@ -49,6 +50,8 @@ FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
 ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule on a plain file takes
 TCP_BIND_AND_CONNECT = 0b11
 SCOPE_SOCKETS_AND_SIGNALS = 0b11
+
+PID_MAX_SINCE, MOST_NUMBERS = (6, 14), 512
 
 # User ids that no account has: systemd assigns them to services for a while (DynamicUser).
 UNUSED_UIDS = range(61184, 65520)
@@ -94,7 +97,19 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
             os.close(keep)
             os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        bound_namespace()
     return layers
+
+
+def bound_namespace() -> None:
+    """A limit on all processes and threads in here: the one for each user does not bind root.
+
+    A PID namespace has a limit of its own since Linux 6.14; before, it is that of the machine.
+    """
+    release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
+    if release >= PID_MAX_SINCE:
+        with suppress(OSError):
+            Path("/proc/sys/kernel/pid_max").write_text(str(MOST_NUMBERS))
 
 
 def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str], ChildSetup]:

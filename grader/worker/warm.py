@@ -24,6 +24,8 @@ from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve, tidy_environment
 from grader.worker.confinement import isolate_server, prepare
 
+MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
+
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
@@ -103,7 +105,7 @@ def close_other_descriptors(descriptor: int) -> None:
     for standard in (0, 1, 2):
         os.dup2(null, standard)
     os.closerange(3, descriptor)
-    os.closerange(descriptor + 1, os.sysconf("SC_OPEN_MAX"))
+    os.closerange(descriptor + 1, MOST_DESCRIPTORS)
 
 
 def end(pid: int, gone: bool) -> Ended:

@@ -3,6 +3,7 @@
 import ctypes
 import os
 import platform
+import re
 import socket
 import subprocess
 import sys
@@ -48,6 +49,15 @@ def fill(megabytes):
     for number in range(megabytes):
         with open(f"part{number}", "wb") as file: file.write(bytes(1024 * 1024))
     return True
+def threads(most):
+    import threading
+    libc.mallopt(-8, 1)  # M_ARENA_MAX: or each would want memory of its own
+    threading.stack_size(65536)
+    stop = threading.Event()
+    for number in range(most):
+        try: threading.Thread(target=stop.wait, daemon=True).start()
+        except RuntimeError: return number
+    return most
 def fill_at(path):
     with open(path, "wb") as file: file.write(b"x")
     return True
@@ -223,6 +233,17 @@ def test_no_other_process_has_a_number_in_there(probe: Prober):
 def test_a_signal_to_everybody_reaches_nobody_outside(probe: Prober):
     probe("signal_all")
     assert isinstance(probe.worker, WarmWorker) and probe.worker.process.poll() is None
+
+
+@needs("pid-namespace")
+def test_a_flood_of_threads_ends_soon_for_root_as_well(probe: Prober):
+    release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
+    if os.geteuid() == 0 and release < confinement.PID_MAX_SINCE:
+        pytest.skip("before Linux 6.14 only the machine as a whole has such a limit")
+    limit = Path("/proc/sys/kernel/pid_max").read_text()
+    started = probe("threads", 2000)
+    assert isinstance(started, int) and started < confinement.MOST_NUMBERS
+    assert Path("/proc/sys/kernel/pid_max").read_text() == limit
 
 
 @needs("network-namespace")
