@@ -110,6 +110,12 @@ class Child:
         if not self.over:
             self._give_up("the child was ended", gone=False)
 
+    def finish(self) -> None:
+        """Let it end by itself, as far as its time goes: for one that nothing is asked."""
+        with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
+            self.channel.receive(self.wall_seconds)
+        self.end()
+
 
 STOPPED = {psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
 IDLE = {psutil.STATUS_SLEEPING, *STOPPED}

@@ -1,7 +1,6 @@
 """The sandbox of one tree: what its children may reach, and which layers of isolation hold them."""
 
 import tempfile
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -52,8 +51,7 @@ class Sandbox:
         So say the modes as well: where no layer shuts files off, no child may change a mode.
         """
         self.bytecode.mkdir()
-        with suppress(ChildEnded):  # its limits: what is not compiled, each child compiles
-            self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).end()
+        self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).finish()
         for path in [self.bytecode, *self.bytecode.rglob("*")]:
             path.chmod(0o555 if path.is_dir() else 0o444)
 

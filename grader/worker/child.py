@@ -74,11 +74,10 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     sys.dont_write_bytecode = True
     if setup.confine and "system-calls" not in without:
         layers += refuse_system_calls()  # last: what came before needs some of them
+    channel.send(Ready(os.getpid(), layers))
     if setup.compiles:
         compile_all(submission, bytecode, setup.limits)
-        channel.send(Ready(os.getpid(), layers))
         return  # it has never seen a line of the submission run, and never will
-    channel.send(Ready(os.getpid(), layers))
     os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
     output.install()

@@ -22,9 +22,8 @@ from grader.protocol import Import, Integrate, Items, Returned, Vec
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux"
-    or os.geteuid() != 0
     or not {"system-calls", "own-root", "landlock-scope"} <= expected_layers(),
-    reason="the table is of root on a Linux that has all layers",
+    reason="the table is of a Linux that has all layers",
 )
 
 PAGE = KIT / "handouts" / "instructor" / "security.md"
@@ -101,6 +100,8 @@ def test_what_stops_it_is_what_the_page_says(member: str, workers, tmp_path: Pat
     assert through["nothing"] or member in NEEDS_RIGHTS, "this is no attack: nothing refuses it"
     why = dict(WHY.findall((KIT / "tests" / "bank" / "bank.toml").read_text(encoding="utf-8")))
     stopped = {world: not through[world] for world in ALONE}
+    if member in NEEDS_RIGHTS and os.geteuid() != 0:
+        return  # an ordinary user may do some of these to processes of the same account
     assert on_the_page(member) == row(member, why[member], stopped)
 
 

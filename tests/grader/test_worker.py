@@ -10,7 +10,8 @@ import pytest
 
 from grader.judge import children
 from grader.judge.children import Child, ChildEnded, SpawnWorker, WarmWorker, start_worker
-from grader.judge.grade import KIT
+from grader.judge.grade import KIT, Options, sandbox_for
+from grader.judge.submission import Submission
 from grader.protocol import (
     Call,
     ChildSetup,
@@ -23,6 +24,7 @@ from grader.protocol import (
     Returned,
     Vec,
 )
+from grader.worker.child import compile_all
 
 MODULE = """
 import os, select, socket, sys, threading, time
@@ -267,3 +269,37 @@ def test_the_warm_process_is_replaced_when_it_is_killed(tmp_path: Path):
     )
     child.end()
     worker.close()
+
+
+# ---------------------------------------------------------------- compiled files
+
+
+def test_to_compile_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Path):
+    tree, bytecode = tmp_path / "tree", tmp_path / "bytecode"
+    (tree / "deep").mkdir(parents=True)
+    (tree / "a_first.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w')\n", encoding="utf-8")
+    (tree / "broken.py").write_text("def (:\n", encoding="utf-8")
+    for number in range(8):
+        (tree / f"big{number}.py").write_text(f"x = {'x' * 300_000!r}\n", encoding="utf-8")
+    (tree / "deep" / "late.py").write_text("x = 1\n", encoding="utf-8")
+    compile_all(tree, bytecode, Limits(scratch_mb=1))
+    made = sorted(path.name.partition(".")[0] for path in bytecode.rglob("*.pyc"))
+    assert made == ["a_first", "big0", "big1", "big2", "big3"]
+    assert not (tmp_path / "ran").exists()
+
+
+@linux
+def test_children_read_what_was_compiled_and_cannot_write_it(tmp_path: Path, warm: WarmWorker):
+    tree = tmp_path / "tree"
+    tree.mkdir()
+    (tree / "hostile.py").write_text(MODULE, encoding="utf-8")
+    sandbox = sandbox_for(Submission("tree", tree), tmp_path, warm, Options(trusted=True))
+    child = sandbox.open_child(5)
+    child.ask(Import("hostile"))
+    (compiled,) = (tmp_path / "bytecode").glob("hostile.*.pyc")
+    before = compiled.read_bytes()
+    for name in (compiled.name, "new.pyc"):
+        reply = child.ask(Call("hostile:write", [f"__pycache__/{name}"])).reply
+        assert isinstance(reply, Raised) and reply.error in ("PermissionError", "OSError")
+    child.end()
+    assert compiled.read_bytes() == before and len(list(compiled.parent.iterdir())) == 1
