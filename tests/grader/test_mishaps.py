@@ -52,6 +52,19 @@ def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
 
 
 @posix
+def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
+    for name in ("ann", "ben"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        program = (KIT / "solution" / "integrators.py").read_bytes()
+        (tmp_path / "class" / name / "integrators.py").write_bytes(program)
+    process = started(tmp_path / "place", "--class", str(tmp_path / "class"), "--jobs", "1")
+    process.terminate()
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 2 and "what is graded stays" in said
+    assert list((tmp_path / "place").iterdir()) == []
+
+
+@posix
 def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path):
     place = tmp_path / "place"
     process = started(place)
