@@ -14,6 +14,7 @@ DEV := .venv/dev-is-installed
 SITE := .venv/site-is-installed
 NOTEBOOKS := .venv/notebooks-is-installed
 WHERE ?= starter
+ENGINE ?= docker
 
 LOCK := $(PY) -m uv pip compile pyproject.toml --group build --quiet --upgrade --universal \
 	--python-version 3.11 --generate-hashes --no-header --no-emit-index-url
@@ -31,7 +32,7 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade run dials accuracy effects cases compiled handouts \
+.PHONY: help setup grade contained run dials accuracy effects cases compiled handouts \
 	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
@@ -46,6 +47,15 @@ setup: $(CORE) ## Set up .venv for grading
 grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
 	@$(PY) -m grader grade \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
+
+contained: RESULTS ?= $(SUBMISSIONS)-results
+contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podman (SEED=number)
+	@$(ENGINE) build --tag physics-grader --file Containerfile .
+	@mkdir -p "$(RESULTS)"
+	@$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
+		--volume "$(abspath $(SUBMISSIONS)):/root/submissions:ro" \
+		--volume "$(abspath $(RESULTS)):/root/results" \
+		physics-grader $(if $(SEED),--seed $(SEED))
 
 dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)
 	@$(PY) -m grader dashboard "$(RESULTS)" $(if $(SUBMISSIONS),--submissions "$(SUBMISSIONS)")

@@ -15,7 +15,15 @@ from typing import Annotated, NoReturn
 import typer
 
 from grader import student
-from grader.commands import console, graded, known_todos, needs_checkout, refuse_ignored, stop
+from grader.commands import (
+    console,
+    graded,
+    known_todos,
+    needs_checkout,
+    refuse_ignored,
+    say_why,
+    stop,
+)
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
@@ -25,6 +33,7 @@ from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
+ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 FOR_CLASS = ("jobs", "roster", "adjust", "cluster")  # for a class alone
 
 app = typer.Typer(
@@ -79,9 +88,9 @@ def grade_command(
     Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
     """
     refuse_what_is_ignored(context, path, class_, cluster)
-    options = Options(
-        reference or shipped_reference(), isolation, only=known_todos(todo), seed=seed
-    )
+    complete = reference or shipped_reference()
+    own = complete is None  # a student's copy: there is nothing but their own work
+    options = Options(complete, isolation, only=known_todos(todo), seed=seed, trusted=own)
     if path is None:
         demonstrate(options)
     elif class_:
@@ -209,7 +218,7 @@ def demonstrate(options: Options) -> None:
     needs_checkout("grade", ", or name a submission")
     for name in ("solution", "starter"):
         console.rule(name)
-        result = graded(KIT / name, options)
+        result = graded(KIT / name, replace(options, trusted=True))
         show(result, console)
     show_isolation(result, console)
 
@@ -235,8 +244,22 @@ def interrupt() -> None:
         _thread.interrupt_main()
 
 
+def end_like_ctrl_c() -> None:
+    """Told to end, or the terminal closed: all is put away, as after Ctrl-C, and so only once."""
+
+    def stopped(number: int, _: object) -> NoReturn:
+        for name in ENDINGS:
+            signal.signal(name, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for name in ENDINGS:
+        if signal.getsignal(name) == signal.SIG_DFL:  # nohup has a terminal's end ignored
+            signal.signal(name, stopped)
+
+
 def main() -> None:
     sys.unraisablehook = interrupt_again
+    end_like_ctrl_c()
     app.add_typer(student.app)
     app.add_typer(report.app)
     if find_spec("grader.classroom"):  # students get neither of these two folders
@@ -245,4 +268,8 @@ def main() -> None:
 
         app.add_typer(classroom)
         app.add_typer(maintain)
-    app(prog_name="grader")
+    try:
+        app(prog_name="grader")
+    except OSError as error:  # exit status 1 would say that points are missing
+        say_why(f"{error}. Is there space, and a right to write?", "go on")
+        sys.exit(2)

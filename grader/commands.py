@@ -19,8 +19,12 @@ console = Console(highlight=False, markup=False)
 
 def stop(message: str, cannot: str = "grade") -> NoReturn:
     """End the command with exit status 2, and say why."""
-    Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {message}")
+    say_why(message, cannot)
     raise typer.Exit(2)
+
+
+def say_why(message: str, cannot: str) -> None:
+    Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {message}")
 
 
 def needs_checkout(command: str, instead: str = "") -> None:
@@ -65,3 +69,5 @@ def graded(path: Path, options: Options) -> Result:
         return grade(path, options)
     except CannotGrade as error:
         stop(str(error))
+    except KeyboardInterrupt:  # exit status 1 would say that points are missing
+        stop("stopped before the end; nothing is left behind")

@@ -436,7 +436,7 @@ class ChildSetup(Struct, frozen=True):
     confine: bool
     hidden: list[str]  # folders that must be out of reach
     bytecode: str  # a folder for compiled files
-    compiles: bool  # whether this child fills that folder; the others only read it
+    compiles: bool  # whether this child fills that folder, and does nothing else
     loads: list[str] = []  # libraries that are slow to load, to be loaded before the fork
 
 

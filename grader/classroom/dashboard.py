@@ -19,9 +19,10 @@ from grader.classroom.book import Book, Outcome, outcome_of
 from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.packing import pack
 from grader.judge.children import start_worker
-from grader.judge.grade import Options, grade, work_folder
+from grader.judge.grade import Options, grade
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
+from grader.judge.workplace import work_folder
 from grader.player.page import allowed, environment, one_line, theme
 from grader.report.files import write_whole
 from grader.report.html import write_report

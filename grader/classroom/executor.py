@@ -13,13 +13,16 @@ import time
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import cache
-from typing import Protocol, Self
+from multiprocessing.process import BaseProcess
+from typing import NoReturn, Protocol, Self
 
 from grader.classroom.intake.found import Package
 from grader.judge.children import Worker, start_worker
-from grader.judge.grade import Options, grade, work_folder
+from grader.judge.grade import Options, grade
+from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 
+PATIENCE = 5  # s that a process has to put away what it grades
 AHEAD = 2  # submissions that wait, packed, for each one being graded
 LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
 
@@ -82,8 +85,9 @@ class Pool:
 
     def __exit__(self, kind: object, *_: object) -> None:
         if kind is not None:  # somebody is tired of waiting
-            for process in multiprocessing.active_children():
-                process.kill()
+            under_way = multiprocessing.active_children()
+            self.processes.shutdown(wait=False, cancel_futures=True)
+            end_all(under_way)
         self.processes.shutdown(cancel_futures=True)
 
     def capacity(self) -> int:
@@ -107,9 +111,25 @@ class Pool:
             return executor.submit(self.work, package, self.options).result()
 
 
+def end_all(processes: list[BaseProcess]) -> None:
+    """End them when they have put away what they grade; those that do not are killed."""
+    for process in processes:
+        process.terminate()
+    until = time.monotonic() + PATIENCE
+    for process in processes:
+        process.join(max(0.0, until - time.monotonic()))
+        process.kill()
+
+
+def stop_grading(number: int, _: object) -> NoReturn:
+    signal.signal(number, signal.SIG_IGN)
+    raise SystemExit(1)
+
+
 def begin_process() -> None:
     """In a process of the pool: Ctrl-C is the parent's, and nobody works on without a parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, stop_grading)
     parent = multiprocessing.parent_process()
 
     def follow() -> None:

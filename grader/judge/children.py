@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -44,6 +45,7 @@ from grader.protocol import (
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
 AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
+STOPPED_SECONDS = 2  # a warm process that is stopped for so long was stopped by a child
 REST_SECONDS = 8.0  # for so long a child may rest in all; longer, and it waits for nothing
 LOOK_SECONDS = 1.0  # so long answers take, one or many, before somebody looks at whether it rests
 
@@ -157,6 +159,16 @@ class Child:
         if not self.over:
             self._give_up("the child was ended", gone=False)
 
+    def finish(self) -> None:
+        """Let it end by itself, as far as its time goes: for one that nothing is asked."""
+        with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
+            self.channel.receive(self.wall_seconds)
+        self.end()
+
+
+STOPPED = {psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
+IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
+
 
 def busy_seconds(pid: int) -> float | None:
     """For how long a process has worked or waited for a processor, s; None where it is gone.
@@ -173,9 +185,6 @@ def busy_seconds(pid: int) -> float | None:
     except (psutil.Error, OSError):
         return None
     return times.user + times.system + sum(int(each.split()[1]) for each in queues) / 1e9
-
-
-IDLE = {psutil.STATUS_SLEEPING, psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP}
 
 
 class Worker(Protocol):
@@ -213,22 +222,24 @@ class WarmWorker:
     """A process with everything loaded that forks a child per check.
 
     It is waited for when the first child is wanted: until then it loads and we do something else.
+    Layers of isolation in `without` are left out, to see what the others hold.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, without: Collection[str] = ()) -> None:
+        self.without = sorted(without)
         self._start()
 
     def _start(self) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
             self.process = subprocess.Popen(
-                command("grader.worker.warm", str(theirs.fileno())),
+                command("grader.worker.warm", str(theirs.fileno()), *self.without),
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 start_new_session=True,
                 env=clean_environment(),
             )
-        self.control = Channel(ours, eager=False)
+        self.control = Channel(ours)
         self.loading = True
         self.layers: list[str] = []  # what shuts all children in, once one was opened
 
@@ -241,7 +252,7 @@ class WarmWorker:
         try:
             return self._open(Open(setup), setup)
         except (ChannelClosed, ChildEnded):  # something killed the warm process: a new one serves
-            self.close()
+            self._kill()
             self._start()
             return self._open(Open(setup), setup)
 
@@ -270,20 +281,51 @@ class WarmWorker:
         child.channel.close()
         try:
             self.control.send(End(child.ready.pid, gone))
-            ended = msgspec.msgpack.decode(self.control.receive(START_SECONDS), type=Ended)
+            ended = msgspec.msgpack.decode(self._hear(), type=Ended)
         except (ChannelClosed, ChannelTimeout):
+            self._kill()
             return "it took the worker down with it"
         child.cpu = ended.cpu
         code = -ended.code if ended.how == "signal" else ended.code
         return explain(child.cpu_seconds, code)
+
+    def _hear(self) -> bytes:
+        """What the warm process says; one that a child has stopped is not waited for."""
+        stopped = 0
+        for _ in range(int(START_SECONDS)):
+            if self.control.wait(1.0):
+                return self.control.receive(START_SECONDS)
+            stopped = stopped + 1 if self._is_stopped() else 0
+            if stopped >= STOPPED_SECONDS:
+                break
+        raise ChannelTimeout
+
+    def _is_stopped(self) -> bool:
+        """In a PID namespace the warm process is the only child of the one that we started."""
+        try:
+            process = psutil.Process(self.process.pid)
+            if "pid-namespace" in self.layers:
+                process = process.children()[0]
+            return process.status() in STOPPED
+        except (psutil.Error, IndexError):
+            return False
+
+    def _kill(self) -> None:
+        """End it with all its children, whatever state they are in."""
+        self.control.close()
+        with suppress(psutil.NoSuchProcess):
+            for process in psutil.Process(self.process.pid).children(recursive=True):
+                with suppress(psutil.NoSuchProcess):
+                    process.kill()
+        self.process.kill()
+        self.process.wait()
 
     def close(self) -> None:
         self.control.close()  # it ends what is left of its children, and then itself
         try:
             self.process.wait(5)
         except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+            self._kill()
 
 
 class SpawnWorker:
@@ -292,7 +334,8 @@ class SpawnWorker:
     Some are started ahead: to load takes them longer than most checks take.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, without: Collection[str] = ()) -> None:
+        self.without = sorted(without)
         self.layers: list[str] = []
         self.processes: dict[int, subprocess.Popen[bytes]] = {}
         self.ahead: list[tuple[subprocess.Popen[bytes], Channel]] = []
@@ -326,7 +369,7 @@ class SpawnWorker:
             process.stdin.close()
             return process
         return subprocess.Popen(
-            command("grader.worker.spawned", str(theirs.fileno())),
+            command("grader.worker.spawned", str(theirs.fileno()), *self.without),
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
@@ -386,6 +429,10 @@ def clean_environment() -> dict[str, str]:
     return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
 
 
-def start_worker(spawn: bool = False) -> Worker:
-    """The fastest kind this platform has; `spawn` forces the portable one."""
-    return SpawnWorker() if spawn or not hasattr(os, "fork") else WarmWorker()
+def start_worker(spawn: bool = False, without: Collection[str] = ()) -> Worker:
+    """The fastest kind this platform has; `spawn` forces the portable one.
+
+    Its children go without the layers of isolation that `without` names.
+    """
+    kind = SpawnWorker if spawn or not hasattr(os, "fork") else WarmWorker
+    return kind(without)

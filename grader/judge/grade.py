@@ -1,8 +1,5 @@
 """Grading one submission, from a path to a Result."""
 
-import os
-import shutil
-import stat
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -15,13 +12,14 @@ import msgspec
 from grader.judge import misconceptions
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.failures import Broke, NotYet
-from grader.judge.isolation import Isolation
+from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, take_in
+from grader.judge.workplace import work_folder
 from grader.todo_regions import shape_of
 
 KIT = Path(__file__).parents[2]
@@ -34,8 +32,9 @@ class Options:
     `reference`: a complete tree, whose functions stand in for a submission's unfinished ones;
     `shipped_reference()` is the one that `make grade` takes. With None, checks that need an
     unfinished TODO wait for it.
-    `isolation`: "auto" confines as well as this machine can, "strict" refuses to grade where files
-    or the network cannot be shut off, "none" confines nothing.
+    `isolation`: "auto" confines as well as this machine can and refuses to grade where files would
+    be open, "strict" also where some may be read or the network is open, "none" confines nothing.
+    `trusted`: it is one's own work, and graded with what confinement there is.
     `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
     `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
     `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
@@ -50,6 +49,7 @@ class Options:
     spawn: bool = False
     progress: Callable[[CheckResult], None] | None = None
     replays: Path | None = None
+    trusted: bool = False
 
     def wants(self, todo: Todo) -> bool:
         return not self.only or todo.id in self.only
@@ -104,7 +104,7 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
         worker = start_worker()
         try:
             taken_in = take_in(tree, work / "tree", load_rubric(), {})
-            yield sandbox_for(taken_in, work, worker, DEFAULT_OPTIONS).open_child
+            yield sandbox_for(taken_in, work, worker, Options(trusted=True)).open_child
         finally:
             worker.close()
 
@@ -113,7 +113,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
     """The sandbox of a tree: the grader and the reference are out of its children's reach."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
     loads = ["numpy"] if tree.uses_numpy else []
-    return Sandbox(tree.folder, work, worker, options.isolation, hidden, loads)
+    return Sandbox(tree.folder, work, worker, options.isolation, hidden, loads, options.trusted)
 
 
 @cache
@@ -121,18 +121,6 @@ def load_stubs() -> dict[str, str]:
     """The shapes of the starter's stubs: of each region, and of the function around it."""
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
     return {name: shape_of(source) for name, source in stubs.items()}
-
-
-@contextmanager
-def work_folder() -> Iterator[Path]:
-    """A folder of our own, removed afterwards even where a submission made parts read-only."""
-    work = Path(tempfile.mkdtemp(prefix="grader-")).resolve()
-    try:
-        yield work
-    finally:
-        for folder, _, _ in os.walk(work):
-            os.chmod(folder, stat.S_IRWXU)
-        shutil.rmtree(work, ignore_errors=True)
 
 
 @dataclass
@@ -147,6 +135,8 @@ class Grading:
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
 
     def run(self) -> Result:
+        if self.options.isolation == "none":
+            load_everything()
         # Here for the time it takes, 0.2 s: pytest and hypothesis load while the worker loads.
         from grader.judge.plugin import GradingPlugin, run_pytest
 
@@ -190,7 +180,7 @@ class Grading:
         )
         unusable: dict[str, Broke | NotYet] = {}
         for module in modules:
-            lab = Lab(module, lambda: self.sandbox.open_child(10, compiles=True), [])
+            lab = Lab(module, lambda: self.sandbox.open_child(10), [])
             lab.ran(f"import {module}")
             with lab.opened():
                 try:

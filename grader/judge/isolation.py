@@ -1,18 +1,59 @@
 """What the layers around a submission hold back, told by their names."""
 
+import importlib
+import pkgutil
+from contextlib import suppress
 from typing import Literal
+
+import grader
 
 Isolation = Literal["auto", "strict", "none"]
 
 # What is confined, and the layers of which one is enough.
 LAYERS = {
-    "files": {"landlock-files"},
-    "network": {"network-namespace", "landlock-tcp"},
-    "other processes": {"pid-namespace", "landlock-scope", "own-user"},
+    "files": {"own-root", "landlock-files"},
+    "network": {"system-calls", "network-namespace", "landlock-tcp"},
+    "other processes": {"system-calls", "pid-namespace", "landlock-scope", "own-user"},
 }
 STRICT = ("files", "network")  # what --isolation=strict insists on
+
+# What keeps a submission from writing files outside of its own. A user of its own reads what every
+# account may, so that is not enough for `strict`.
+KEEPS_FILES = LAYERS["files"] | {"own-user"}
+
+
+def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
+    """Why nothing is to be graded behind these layers; empty where it may be.
+
+    `trusted`: the submission is one's own work, which may as well be run without a grader.
+    """
+    has = f"(it has {', '.join(layers)})"
+    open_to_it = [what for what in unconfined(layers) if what in STRICT]
+    if isolation == "strict" and open_to_it:
+        return (
+            f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} {has}. "
+            "Use a Linux with Landlock, or a virtual machine with one."
+        )
+    if isolation == "auto" and not trusted and not KEEPS_FILES & set(layers):
+        return (
+            f"this machine cannot keep somebody else's code from your files {has}. Grade in a "
+            "container with `make contained`, or on a Linux with Landlock; or, if you trust what "
+            "you grade as your own code, say --isolation none."
+        )
+    return ""
 
 
 def unconfined(layers: list[str]) -> list[str]:
     """What a submission can still reach."""
     return [what for what, any_of in LAYERS.items() if not any_of & set(layers)]
+
+
+def load_everything() -> None:
+    """Import all of the judge now, before a submission runs that could rewrite what comes later.
+
+    What needs a package that is not installed, such as Dask, is not needed here.
+    """
+    for found in pkgutil.walk_packages(grader.__path__, "grader."):
+        if not found.name.startswith("grader.worker") and not found.name.endswith("__main__"):
+            with suppress(ImportError):
+                importlib.import_module(found.name)

@@ -1,14 +1,15 @@
 """The sandbox of one tree: what its children may reach, and which layers of isolation hold them."""
 
 import tempfile
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.judge.children import Child, Worker
-from grader.judge.isolation import STRICT, Isolation, unconfined
+from grader.judge.children import Child, ChildEnded, Worker
+from grader.judge.isolation import Isolation, refusal
 from grader.judge.submission import CannotGrade
 from grader.protocol import ChildSetup, Limits
+
+COMPILING_SECONDS = 5  # of processor time, for all files of a submission
 
 
 @dataclass
@@ -21,52 +22,57 @@ class Sandbox:
     isolation: Isolation
     hidden: list[str]  # folders that must be out of reach
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
+    trusted: bool = False  # one's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
 
-    def open_child(self, cpu_seconds: int, compiles: bool = False) -> Child:
-        """A child with this budget; one that `compiles` keeps its bytecode for the others."""
-        scratch = Path(tempfile.mkdtemp(dir=self.work))
-        child = self.worker.open(
-            ChildSetup(
-                submission=str(self.tree),
-                scratch=str(scratch),
-                limits=Limits(cpu_seconds=cpu_seconds),
-                confine=self.isolation != "none",
-                hidden=self.hidden,
-                bytecode=str(shared_bytecode(self.work, scratch)),
-                compiles=compiles,
-                loads=self.loads,
-            )
-        )
+    def open_child(self, cpu_seconds: int) -> Child:
+        """A child with this budget, of processor seconds.
+
+        Raises CannotGrade where none can be started: until then the submission has not run a line,
+        so this says nothing about it.
+        """
+        try:
+            if not self.bytecode.exists():
+                self._compile()
+            child = self.worker.open(self._setup(cpu_seconds))
+        except (ChildEnded, OSError) as error:
+            raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
         return child
+
+    @property
+    def bytecode(self) -> Path:
+        """Compiled files, for all children: to compile takes longer than most checks."""
+        return self.work / "bytecode"
+
+    def _compile(self) -> None:
+        """Fill the folder by a child that never runs the submission: those that do only read it.
+
+        So say the modes as well: where no layer shuts files off, no child may change a mode.
+        """
+        self.bytecode.mkdir()
+        self.worker.open(self._setup(COMPILING_SECONDS, compiles=True)).finish()
+        for path in [self.bytecode, *self.bytecode.rglob("*")]:
+            path.chmod(0o555 if path.is_dir() else 0o444)
+
+    def _setup(self, cpu_seconds: int, compiles: bool = False) -> ChildSetup:
+        return ChildSetup(
+            submission=str(self.tree),
+            scratch=tempfile.mkdtemp(dir=self.work),
+            limits=Limits(cpu_seconds=cpu_seconds),
+            confine=self.isolation != "none",
+            hidden=self.hidden,
+            bytecode=str(self.bytecode),
+            compiles=compiles,
+            loads=self.loads,
+        )
 
     def _layers_around(self, child: Child) -> list[str]:
         """The layers around this child; raises CannotGrade, before it runs, if they are too few."""
         if self.isolation == "none":
             return ["processes"]
         layers = ["processes", *child.ready.layers, *self.worker.layers]
-        open_to_it = [what for what in unconfined(layers) if what in STRICT]
-        if self.isolation == "strict" and open_to_it:
+        if why := refusal(self.isolation, layers, self.trusted):
             child.end()
-            raise CannotGrade(
-                f"--isolation=strict: this machine cannot confine {' and '.join(open_to_it)} "
-                f"(it has {', '.join(layers)}). Use a Linux with Landlock, or --isolation=auto."
-            )
+            raise CannotGrade(why)
         return layers
-
-
-def shared_bytecode(work: Path, scratch: Path) -> Path:
-    """A folder of compiled files in which all copies of one submission find the same.
-
-    Python looks under it for the path of the source, and each child's copy has a path of its own:
-    so each gets a link to what they share.
-    """
-    bytecode = work / "bytecode"
-    shared = bytecode / "shared"
-    shared.mkdir(parents=True, exist_ok=True)
-    link = bytecode / scratch.relative_to(scratch.anchor)
-    link.parent.mkdir(parents=True, exist_ok=True)
-    with suppress(OSError):  # Windows may not allow it: then each compiles for itself
-        link.symlink_to(shared, target_is_directory=True)
-    return bytecode

@@ -162,7 +162,7 @@ def without_properties(rubric: Rubric) -> Rubric:
 
 def watch(path: Path, todos: frozenset[str], rubric: Rubric, worker: Worker) -> list[Observation]:
     """What these checks see of a submission."""
-    with grading(path, Options(reference=None, only=todos), worker, rubric) as run:
+    with grading(path, Options(reference=None, only=todos, trusted=True), worker, rubric) as run:
         run.run()
     return [each for observations in run.observations.values() for each in observations]
 

@@ -130,7 +130,7 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
         submission = Path(folder).resolve() / member.name
         member.build(KIT, submission)
         todos, worker = only or member.judged_by, shared_worker()
-        options = Options(shipped_reference(), only=todos)
+        options = Options(shipped_reference(), only=todos, trusted=True)
         start = time.monotonic()
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose

@@ -6,9 +6,11 @@ as well, so this loop ends only with the channel or the process.
 
 import contextlib
 import os
+import py_compile
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import FrameType
@@ -30,6 +32,7 @@ from grader.protocol import (
     Get,
     Import,
     Integrate,
+    Limits,
     MakeBody,
     MakeWorld,
     Missing,
@@ -45,6 +48,7 @@ from grader.protocol import (
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
+from grader.worker.filter import refuse_system_calls
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.output import Output
@@ -57,18 +61,25 @@ pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the defaul
 decoder = msgspec.msgpack.Decoder(Asked)
 
 
-def serve(channel: Channel, setup: ChildSetup) -> None:
+def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) -> None:
     """Answer until the judge closes the channel. Whatever the submission raises is an answer.
 
     Rights are given up and clocks replaced before the submission is imported: later, its top level
-    would have run with the grader's rights and kept the real clock.
+    would have run with the grader's rights and kept the real clock. `without` names layers that are
+    left out, to see what the others hold.
     """
+    name, files = Path(setup.submission).name, files_of(setup.submission)
+    layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
-    sys.pycache_prefix, sys.dont_write_bytecode = setup.bytecode, not setup.compiles
-    channel.send(Ready(os.getpid(), confine(setup)))
-    files = files_of(setup.submission)
-    folder = Path(setup.scratch, Path(setup.submission).name)
-    own_copy(files, str(folder))
+    folder = Path(setup.scratch, name)
+    own_copy(files, folder, Path(setup.bytecode))
+    sys.dont_write_bytecode = True
+    if setup.confine and "system-calls" not in without:
+        layers += refuse_system_calls()  # last: what came before needs some of them
+    channel.send(Ready(os.getpid(), layers))
+    if setup.compiles:
+        compile_all(Path(setup.submission), Path(setup.bytecode), setup.limits)
+        return  # it has never seen a line of the submission run, and never will
     os.chdir(folder)  # as a program is started: in the folder it is in
     output, clock = Output(), ScriptedClock()
     output.install()
@@ -212,26 +223,60 @@ class LineCounter:
 Trace = Callable[[FrameType, str, object], Any]
 
 
+@dataclass(frozen=True)
+class Kept:
+    """A file of the submission."""
+
+    data: bytes
+    time: int  # ns, of its last change
+
+
 @lru_cache(maxsize=1)
-def files_of(submission: str) -> dict[str, bytes]:
-    """What is in the files of a submission, by their paths: read once, before the forks."""
+def files_of(submission: str) -> dict[str, Kept]:
+    """The files of a submission by their paths, read once, before the forks."""
     root = Path(submission)
     files = (path for path in sorted(root.rglob("*")) if path.is_file())
-    return {path.relative_to(root).as_posix(): path.read_bytes() for path in files}
+    return {
+        path.relative_to(root).as_posix(): Kept(path.read_bytes(), path.stat().st_mtime_ns)
+        for path in files
+    }
 
 
-def own_copy(files: Mapping[str, bytes], folder: str) -> None:
+def own_copy(files: Mapping[str, Kept], folder: Path, bytecode: Path) -> None:
     """The submission once more, for this child alone: it may write there, and it ends with it.
 
-    All files are of one time, by which Python knows that what it compiled before is still good.
+    Files keep their times, by which Python knows whether what was compiled before is still good.
     """
     for inside in sorted({os.path.dirname(path) for path in files}):
-        os.makedirs(os.path.join(folder, inside), exist_ok=True)
-    for path, data in files.items():
+        here, compiled = folder / inside, bytecode / inside
+        with contextlib.suppress(OSError):  # more than a child may have: to be missed
+            here.mkdir(parents=True, exist_ok=True)
+        if compiled.is_dir():
+            with contextlib.suppress(OSError):  # Windows may not allow it: each compiles for itself
+                (here / "__pycache__").symlink_to(compiled, target_is_directory=True)
+    for path, kept in files.items():
         target = os.path.join(folder, path)
-        with contextlib.suppress(OSError), open(target, "wb", buffering=0) as file:
-            file.write(data)  # what is larger than a child's files may be is missed
-            os.utime(target, (0, 0))
+        with contextlib.suppress(OSError), open(target, "wb", buffering=0) as file:  # or larger
+            file.write(kept.data)
+            os.utime(target, ns=(kept.time, kept.time))
+
+
+def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
+    """Fill the folder of compiled files, which all other children only read.
+
+    No line of the submission runs here. What cannot be compiled is left for the child that imports
+    it, to say why; what lies deep is left when the folder is full or the time is over.
+    """
+    size = 0
+    sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
+    for source in sources[: limits.scratch_files]:
+        inside = source.relative_to(submission)
+        target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
+        with contextlib.suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
+            py_compile.compile(str(source), str(target), str(source), doraise=True)
+            size += target.stat().st_size
+        if size > limits.scratch_mb * 1024 * 1024:
+            return
 
 
 def tidy_environment(scratch: str) -> None:

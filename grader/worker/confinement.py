@@ -4,19 +4,34 @@ isolate_server runs once, in the warm process; confine runs in each child, befor
 submission. Each layer is for something else, and a missing one leaves the others in force.
 
 Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(7). The others are
-those of <sys/prctl.h>, <sched.h> and <sys/mount.h>.
+those of <sys/prctl.h> and <sched.h>. The root of a child's own is in root.py, the filter on system
+calls in filter.py.
 """
 
 import ctypes
 import os
+import platform
+import re
 import signal
 import sys
 import sysconfig
+from collections.abc import Collection, Iterator
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
 from grader.protocol import ChildSetup, Limits
+from grader.worker.root import (
+    CLONE_NEWNS,
+    MS_REC,
+    MS_SLAVE,
+    Root,
+    drop_capabilities,
+    file_system_in_memory,
+    libc,
+    mount,
+    shared_root,
+)
 
 LANDLOCK_CREATE_RULESET, LANDLOCK_ADD_RULE, LANDLOCK_RESTRICT_SELF = 444, 445, 446
 LANDLOCK_CREATE_RULESET_VERSION = 1
@@ -24,10 +39,9 @@ LANDLOCK_RULE_PATH_BENEATH = 1
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE = 1, 4
 PR_SET_NO_NEW_PRIVS = 38
 PR_SET_CHILD_SUBREAPER = 36
-CLONE_NEWNS, CLONE_NEWIPC, CLONE_NEWUSER = 0x00020000, 0x08000000, 0x10000000
+KEYCTL, KEYCTL_JOIN_SESSION_KEYRING = {"x86_64": 250, "aarch64": 219}, 1
+CLONE_NEWIPC, CLONE_NEWUSER = 0x08000000, 0x10000000
 CLONE_NEWPID, CLONE_NEWNET = 0x20000000, 0x40000000
-MS_NOSUID, MS_NODEV, MS_NOEXEC = 1 << 1, 1 << 2, 1 << 3
-MS_REC, MS_SLAVE = 1 << 14, 1 << 19
 
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
@@ -36,6 +50,8 @@ FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
 ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule on a plain file takes
 TCP_BIND_AND_CONNECT = 0b11
 SCOPE_SOCKETS_AND_SIGNALS = 0b11
+
+PID_MAX_SINCE, MOST_NUMBERS = (6, 14), 512
 
 # User ids that no account has: systemd assigns them to services for a while (DynamicUser).
 UNUSED_UIDS = range(61184, 65520)
@@ -58,13 +74,7 @@ class PathBeneathAttr(ctypes.Structure):
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
-@cache
-def libc() -> ctypes.CDLL:
-    """The C library, for calls that Python lacks; loaded once, before the fork."""
-    return ctypes.CDLL(None, use_errno=True)
-
-
-def isolate_server(keep: int) -> list[str]:
+def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
     """Once for the warm process: leave the network and other processes behind; returns the layers.
 
     Without this a submission could send the questions out, or signal and trace the judge. The call
@@ -76,22 +86,41 @@ def isolate_server(keep: int) -> list[str]:
         return []
     libc().prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back here
     layers = []
-    if libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET):
+    if "network-namespace" not in without and (
+        libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET)
+    ):
         layers.append("network-namespace")
-    if libc().unshare(CLONE_NEWPID) == 0:
+    if "pid-namespace" not in without and libc().unshare(CLONE_NEWPID) == 0:
         layers.append("pid-namespace")
         first = os.fork()
         if first:
             os.close(keep)
             os._exit(os.waitstatus_to_exitcode(os.waitpid(first, 0)[1]) & 0xFF)
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
+        bound_namespace()
     return layers
 
 
-def confine(setup: ChildSetup) -> list[str]:
-    """Give up this process's rights for good; returns the names of the layers that hold."""
+def bound_namespace() -> None:
+    """A limit on all processes and threads in here: the one for each user does not bind root.
+
+    A PID namespace has a limit of its own since Linux 6.14; before, it is that of the machine.
+    """
+    release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
+    if release >= PID_MAX_SINCE:
+        with suppress(OSError):
+            Path("/proc/sys/kernel/pid_max").write_text(str(MOST_NUMBERS))
+
+
+def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str], ChildSetup]:
+    """Give up this process's rights for good; returns the names of the layers that hold.
+
+    And the setup, with the paths as they are in a root of its own, where there is one. The layers
+    in `without` are left out: `landlock-files` with all of Landlock, `user-namespace` with the
+    namespaces that it allows and the root.
+    """
     if not setup.confine:
-        return []
+        return [], setup
     layers = []
     if hasattr(os, "setsid"):
         with suppress(PermissionError):  # a spawned child leads its session already
@@ -99,15 +128,29 @@ def confine(setup: ChildSetup) -> list[str]:
         layers.append("process-group")
     layers += set_resource_limits(setup.limits)
     if sys.platform.startswith("linux"):
+        join_own_keyring()
         # A user namespace of ours has one user only. So where Landlock is missing, and a user of
         # its own is what protects files, that comes first; the namespace may then be refused.
-        if landlock_version() < 1:
+        landlock = "landlock-files" not in without and landlock_version() >= 1
+        own_user = "own-user" not in without
+        if not landlock and own_user:
             layers += become_own_user(setup)
-        layers += enter_own_namespaces(setup)
-        if "user-namespace" not in layers:
+        if "user-namespace" not in without:
+            entered, setup = enter_own_namespaces(setup, root="own-root" not in without)
+            layers += entered
+        if "user-namespace" not in layers and own_user and "own-user" not in layers:
             layers += become_own_user(setup)
-        layers += restrict_with_landlock(setup)
-    return layers
+        if landlock:
+            layers += restrict_with_landlock(setup)
+        drop_capabilities()
+    return layers, setup
+
+
+def join_own_keyring() -> None:
+    """A session keyring for this process alone: otherwise a key is there for the next check."""
+    number = KEYCTL.get(platform.machine())
+    if number is not None:
+        libc().syscall(number, KEYCTL_JOIN_SESSION_KEYRING, None)
 
 
 def become_own_user(setup: ChildSetup) -> list[str]:
@@ -121,10 +164,12 @@ def become_own_user(setup: ChildSetup) -> list[str]:
         return []
     user = UNUSED_UIDS[os.getpid() % len(UNUSED_UIDS)]
     needed = [*map(str, readable_paths(tuple(setup.hidden))), setup.submission, setup.scratch]
+    own = [setup.scratch] + [setup.bytecode] * setup.compiles
     reached = False
     with suppress(OSError):  # a container may lack the right, or the number
         os.chmod(Path(setup.submission).parent, 0o711)  # to pass through, not to list
-        os.chown(setup.scratch, user, user)
+        for folder in own:
+            os.chown(folder, user, user)
         os.setgroups([])
         os.setegid(user)
         os.seteuid(user)
@@ -132,6 +177,9 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     os.seteuid(0)
     os.setegid(0)
     if not reached:
+        with suppress(OSError):
+            for folder in own:
+                os.chown(folder, 0, 0)
         return []
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
@@ -140,22 +188,38 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     return ["own-user"]
 
 
-def enter_own_namespaces(setup: ChildSetup) -> list[str]:
-    """Shared memory, keys and the scratch folder for this child alone.
+def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
+    """What all children share, once for the warm process: known in each when it is forked."""
+    readable_paths(tuple(setup.hidden))
+    if sys.platform.startswith("linux") and not {"own-root", "user-namespace"} & set(without):
+        own_root(setup)
+
+
+def own_root(setup: ChildSetup) -> Root | None:
+    """The shared part of the roots; None where this process has no right over mounts."""
+    hidden = tuple(setup.hidden)
+    paths = (*readable_paths(hidden), Path(os.devnull))
+    return shared_root(paths, tuple(links_to_libraries()))
+
+
+def enter_own_namespaces(setup: ChildSetup, root: bool) -> tuple[list[str], ChildSetup]:
+    """Files, shared memory, keys and the scratch folder for this child alone; where they are now.
 
     Otherwise one check could leave a message for a later one there, such as the reference's
-    answers. The folder becomes a small file system in memory, which ends with the child.
+    answers. The scratch folder becomes a small file system in memory, which ends with the child.
     """
     if not enter_user_namespace(CLONE_NEWIPC | CLONE_NEWNS):
-        return []
-    libc().mount(None, b"/", None, MS_REC | MS_SLAVE, None)
-    size = f"size={setup.limits.scratch_mb}m,nr_inodes={setup.limits.scratch_files}"
-    flags = MS_NOSUID | MS_NODEV | MS_NOEXEC
-    mounted = (
-        libc().mount(b"tmpfs", os.fsencode(setup.scratch), b"tmpfs", flags, size.encode()) == 0
-    )
-    os.chdir(setup.scratch)
-    return ["user-namespace", "ipc-namespace"] + ["mount-namespace"] * mounted
+        return [], setup
+    layers = ["user-namespace", "ipc-namespace"]
+    with suppress(OSError):  # some systems allow namespaces, and no mounts in them
+        mount(None, "/", None, MS_REC | MS_SLAVE)
+        made = own_root(setup) if root else None
+        if made is not None:
+            return [*layers, "mount-namespace", "own-root"], made.enter(setup)
+    with suppress(OSError):
+        file_system_in_memory(setup.scratch, setup.limits)
+        layers.append("mount-namespace")
+    return layers, setup
 
 
 def enter_user_namespace(others: int) -> bool:
@@ -203,21 +267,36 @@ def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
     """What Python and its packages need to read, and nothing that is hidden, such as the kit.
 
     An installation may put the kit among the packages; then their folder is allowed entry by
-    entry, without it.
+    entry, without it. None of the paths is a link.
     """
+    away = {Path(each).resolve() for each in hidden}
+    return sorted({each for root in libraries() for each in all_but(away, root.resolve())})
+
+
+def all_but(away: set[Path], path: Path) -> Iterator[Path]:
+    """The path, or where some of `away` lie below it, what is beside them."""
+    if not any(each.is_relative_to(path) for each in away):
+        yield path
+    elif path not in away:
+        for below in path.iterdir():
+            yield from all_but(away, below)
+
+
+@cache
+def libraries() -> list[Path]:
+    """Where Python looks, and the C library, by the names they go by."""
     paths = sysconfig.get_paths()
     roots = [Path(sys.base_prefix, "lib")]
     roots += [Path(paths[name]) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
     roots += map(Path, ("/usr/lib", "/usr/lib64", "/lib", "/lib64", "/etc/ld.so.cache"))
     roots += map(Path, ("/usr/local/lib", "/usr/share/zoneinfo", "/dev/urandom"))
-    hidden_paths = {Path(each).resolve() for each in hidden}
-    kept: set[Path] = set()
-    for root in {each.resolve() for each in roots if each.exists()}:
-        if any(each.is_relative_to(root) for each in hidden_paths):  # installed among the packages
-            kept.update(each for each in root.iterdir() if each.resolve() not in hidden_paths)
-        else:
-            kept.add(root)
-    return sorted(kept)
+    return [each for each in roots if each.exists()]
+
+
+@cache
+def links_to_libraries() -> list[Path]:
+    """Those that lie elsewhere than their name says, as /lib on most machines."""
+    return [each for each in libraries() if each.resolve() != each]
 
 
 def landlock_version() -> int:

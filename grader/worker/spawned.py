@@ -1,5 +1,6 @@
 """A child started as a process of its own, where there is no fork: the same, only slower.
 
+The first argument is the descriptor of its channel, the others name layers that are left out.
 The first message on its channel is the ChildSetup that a forked child gets from the warm process.
 """
 
@@ -21,4 +22,4 @@ def connect() -> Channel:
 
 if __name__ == "__main__":
     channel = connect()
-    serve(channel, msgspec.msgpack.decode(channel.receive(), type=ChildSetup))
+    serve(channel, msgspec.msgpack.decode(channel.receive(), type=ChildSetup), sys.argv[2:])

@@ -13,6 +13,7 @@ import socket
 import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 
 import msgspec
 import psutil
@@ -21,17 +22,20 @@ import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import files_of, serve, tidy_environment
-from grader.worker.confinement import isolate_server, readable_paths
+from grader.worker.confinement import isolate_server, prepare
+
+MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
 
 decoder = msgspec.msgpack.Decoder(Open | End)
 
 
-def main(control_fd: int) -> None:
+def main(control_fd: int, without: list[str]) -> None:
     """Serve the judge until it closes the control channel.
 
-    The first message says which layers of isolation all children are in already.
+    The first message says which layers of isolation all children are in already. Those in `without`
+    are left out, there and in the children.
     """
-    layers = isolate_server(keep=control_fd)
+    layers = isolate_server(control_fd, without)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
@@ -41,7 +45,7 @@ def main(control_fd: int) -> None:
         while True:
             match decoder.decode(control.receive()):
                 case Open(setup):
-                    fork(control, setup)
+                    fork(control, setup, without)
                 case End(pid, gone):
                     control.send(end(pid, gone))
     end_strays()
@@ -59,16 +63,17 @@ def warm_up() -> None:
     space.step(0.01)
 
 
-def fork(control: Channel, setup: ChildSetup) -> None:
+def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     """Fork the child that `setup` describes; its end of the channel comes as a file descriptor.
 
     The child never returns from here: whatever happens to it, it must not run the server's loop.
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    readable_paths(tuple(setup.hidden))  # listed once here, known in every child
     files_of(setup.submission)
+    prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
+    begin_numbers_anew()
     pid = os.fork()
     if pid:
         os.close(descriptor)
@@ -76,9 +81,19 @@ def fork(control: Channel, setup: ChildSetup) -> None:
     try:
         control.close()
         close_other_descriptors(descriptor)
-        serve(Channel(socket.socket(fileno=descriptor)), setup)
+        serve(Channel(socket.socket(fileno=descriptor)), setup, without)
     finally:
         os._exit(0)
+
+
+def begin_numbers_anew() -> None:
+    """Give the next child the lowest number that is free, in a PID namespace of ours.
+
+    Threads are numbered too: the number of a child would tell how many the one before has started.
+    """
+    if os.getpid() == 1:
+        with suppress(OSError):
+            Path("/proc/sys/kernel/ns_last_pid").write_text("1")
 
 
 def close_other_descriptors(descriptor: int) -> None:
@@ -91,7 +106,7 @@ def close_other_descriptors(descriptor: int) -> None:
     for standard in (0, 1, 2):
         os.dup2(null, standard)
     os.closerange(3, descriptor)
-    os.closerange(descriptor + 1, 256)
+    os.closerange(descriptor + 1, MOST_DESCRIPTORS)
 
 
 def end(pid: int, gone: bool) -> Ended:
@@ -158,5 +173,5 @@ def has_children() -> bool:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2:])
     os._exit(0)  # the judge waits for the end: nothing here needs to be put away

@@ -14,9 +14,10 @@ from rich.console import Console
 
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.packing import pack
-from grader.judge.grade import KIT, Options, grade, shipped_reference, work_folder
+from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
+from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import gradescope
 from grader.report.terminal import show, show_isolation

@@ -1,5 +1,6 @@
 """Gradescope's export: a folder for each submission, and a list of who handed in what, and when."""
 
+import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -52,6 +53,14 @@ class Exported(Struct):
 
 def is_export(folder: Path) -> bool:
     return (folder / METADATA).is_file()
+
+
+def is_whole_export(folder: Path) -> bool:
+    """Whether a folder among others is an export, and not a submission with such a list in it.
+
+    The list says whose the work is, and a folder that bears another name may be a student's.
+    """
+    return is_export(folder) and re.fullmatch(r"assignment_\d+_export", folder.name) is not None
 
 
 def submissions(folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:

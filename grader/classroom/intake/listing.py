@@ -1,6 +1,5 @@
 """Listing a class: whose each file and folder is, each submission once, and what is left out."""
 
-import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -22,6 +21,7 @@ from grader.classroom.intake.zips import unzip_class
 from grader.classroom.names import folded
 from grader.classroom.roster import ClassList
 from grader.judge.submission import CannotGrade
+from grader.judge.workplace import work_folder
 
 FORMS = (moodle.upload, canvas.upload, folders.upload)  # the first that knows a name decides
 
@@ -32,19 +32,19 @@ def opened_class(path: Path, people: ClassList | None = None) -> Iterator[Intake
     if path.is_dir():
         yield listed(path, people or ClassList())
     elif is_zip(path) and path.is_file():
-        with tempfile.TemporaryDirectory(prefix="class-") as temporary:
+        with work_folder() as temporary:
             try:
-                unzip_class(path, Path(temporary))
+                unzip_class(path, temporary)
             except CannotTake as error:
                 raise CannotGrade(f"{path}: {error}") from error
-            yield listed(without_wrapper(Path(temporary)), people or ClassList())
+            yield listed(without_wrapper(temporary), people or ClassList())
     else:
         raise CannotGrade(f"there is no folder of submissions at {path}, nor a zip of them")
 
 
 def listed(folder: Path, people: ClassList) -> Intake:
     inner = entries_of(folder)
-    if len(inner) == 1 and gradescope.is_export(inner[0]):
+    if len(inner) == 1 and gradescope.is_whole_export(inner[0]):
         folder = inner[0]  # Gradescope's zip holds one folder
     if holds_program(folder):
         raise CannotGrade(f"{folder} is one submission, not a folder of them: leave out --class")
@@ -65,6 +65,8 @@ def without_wrapper(folder: Path) -> Path:
     """A zip often holds one folder, and all submissions in that."""
     inner = entries_of(folder)
     wrapped = len(inner) == 1 and inner[0].is_dir() and not holds_program(inner[0])
+    if wrapped and gradescope.is_export(inner[0]):
+        wrapped = gradescope.is_whole_export(inner[0])
     return inner[0] if wrapped else folder
 
 

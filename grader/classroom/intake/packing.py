@@ -2,7 +2,6 @@
 
 import re
 import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,6 +19,7 @@ from grader.classroom.intake.places import (
 from grader.classroom.intake.zips import Bounds, check_size, unzip
 from grader.classroom.names import portable
 from grader.judge.submission import CannotGrade, plain_files
+from grader.judge.workplace import work_folder
 
 COPY = re.compile(r"-\d+(?=\.py$)")  # what an LMS adds to the name of a file that comes again
 
@@ -33,14 +33,14 @@ def opened_submission(path: Path) -> Iterator[Path]:
     if not is_zip(path) or not path.is_file():
         yield path
         return
-    with tempfile.TemporaryDirectory(prefix="submission-") as temporary:
+    with work_folder() as temporary:
         try:
             package = pack(Found(portable(path.stem), (path,)))
         except ManyPrograms as error:
             raise CannotGrade(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
             raise CannotGrade(f"{path}: {error}") from error
-        yield package.unpack(Path(temporary))
+        yield package.unpack(temporary)
 
 
 def pack(found: Found) -> Package:
@@ -64,10 +64,10 @@ def laid_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
     if len(found.sources) == 1 and folder.is_dir() and holds_program(root_of(folder)):
         yield root_of(folder), []
         return
-    with tempfile.TemporaryDirectory(prefix="unpacked-") as temporary:
+    with work_folder() as temporary:
         bounds = Bounds()
-        lay_out(found, Path(temporary), bounds)
-        yield root_of(Path(temporary)), bounds.left_out
+        lay_out(found, temporary, bounds)
+        yield root_of(temporary), bounds.left_out
 
 
 def lay_out(found: Found, folder: Path, bounds: Bounds) -> None:

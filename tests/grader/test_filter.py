@@ -1,0 +1,324 @@
+"""The filter on system calls: its numbers, its program on both machines, what it leaves alone."""
+
+import errno
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from grader.judge.children import Child, start_worker
+from grader.judge.grade import KIT
+from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
+from grader.worker import filter as wall
+
+MACHINES = list(wall.AUDIT_ARCH)
+CALLS = wall.REFUSED | wall.CHECKED | wall.UNSEEN
+HEADERS = {
+    "x86_64": "/usr/include/x86_64-linux-gnu/asm/unistd_64.h",
+    "aarch64": "/usr/include/asm-generic/unistd.h",
+}
+PID = 4711
+
+# ---------------------------------------------------------------- the program
+
+
+def verdict(machine: str, number: int, *arguments: int, architecture: int | None = None) -> int:
+    """What the kernel answers this call: 0 where it lets it through, else the error's number."""
+    given = [*arguments, *[0] * (6 - len(arguments))]
+    words = {wall.NUMBER: number, wall.ARCHITECTURE: architecture or wall.AUDIT_ARCH[machine]}
+    for index, value in enumerate(given):
+        words[wall.ARGUMENTS + 8 * index] = value & 0xFFFFFFFF
+        words[wall.ARGUMENTS + 8 * index + 4] = value >> 32
+    text, at, seen = wall.program(machine, PID), 0, 0
+    tests = {
+        wall.EQUAL: lambda value: seen == value,
+        wall.GREATER: lambda value: seen > value,
+        wall.ANY_BIT: lambda value: bool(seen & value),
+    }
+    while True:
+        code, yes, no, value = text[at]
+        assert yes < 256 and no < 256
+        at += 1
+        if code == wall.RETURN:
+            return 0 if value == wall.ALLOW else value & 0xFFFF
+        if code == wall.LOAD:
+            seen = words[value]
+        else:
+            at += yes if tests[code](value) else no
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_numbers_are_those_of_the_kernel(machine: str):
+    if not Path(HEADERS[machine]).exists():
+        pytest.skip("the kernel's headers are not here")
+    text = Path(HEADERS[machine]).read_text(encoding="utf-8")
+    numbers = dict(re.findall(r"#define __NR(?:3264)?_(\w+)[ \t]+(\d+)[ \t]*$", text, re.MULTILINE))
+    column = MACHINES.index(machine)
+    wrong = {
+        name: (each[column], numbers.get(name))
+        for name, each in CALLS.items()
+        if each[column] is not None and numbers.get(name) != str(each[column])
+    }
+    assert wrong == {}
+    there = {name for name, each in CALLS.items() if each[column] is None} & set(numbers)
+    assert there == set()  # None would leave such a call open
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_what_is_refused_is_refused(machine: str):
+    column = MACHINES.index(machine)
+    for name, numbers in wall.REFUSED.items():
+        if numbers[column] is not None:
+            assert verdict(machine, numbers[column]) == errno.EPERM, name
+    assert verdict(machine, wall.UNSEEN["clone3"][column]) == errno.ENOSYS
+    for unknown in (wall.LAST + 1, 1000, 0x40000000 + wall.REFUSED["execve"][0], 0xFFFFFFFF):
+        assert verdict(machine, unknown) == errno.ENOSYS
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_calls_of_another_architecture_are_refused(machine: str):
+    i386_getpid, i386 = 20, 0x40000003
+    assert verdict(machine, i386_getpid, architecture=i386) == errno.EPERM
+
+
+# A call, its arguments, and whether it is let through.
+THREAD = 0x3D0F00  # as the C library starts one: CLONE_VM, _FS, _FILES, _SIGHAND, _THREAD and more
+FORK = 0x1200011  # CLONE_CHILD_CLEARTID, CLONE_CHILD_SETTID, SIGCHLD
+BY_ARGUMENT = [
+    ("clone", (THREAD,), True),
+    ("clone", (FORK,), False),
+    ("clone", (0x4111,), False),  # CLONE_VFORK, as subprocess does
+    ("clone", (THREAD | 0x10000000,), False),
+    ("kill", (PID, 15), True),
+    ("kill", (0, 15), False),
+    ("kill", (0xFFFFFFFF, 9), False),  # everybody
+    ("kill", (1, 2), False),
+    ("tgkill", (PID, PID, 6), True),
+    ("tgkill", (1, 1, 2), False),
+    ("prlimit64", (0, 7, 0, 0x7FFF00000000), True),
+    ("prlimit64", (0, 7, 0x7FFF00000000, 0), False),  # its lower half is 0
+    ("prlimit64", (0, 7, 0x1000, 0), False),
+    ("sendto", (5, 0x1000, 10, 0, 0, 0), True),
+    ("sendto", (5, 0x1000, 10, 0, 0x7FFF00000000, 16), False),
+    ("socketpair", (1, 1, 0), True),
+    ("socketpair", (30, 1, 0), False),  # TIPC
+    ("fcntl", (5, 1, 0), True),
+    ("fcntl", (5, 4, 0x800), True),
+    ("fcntl", (5, 8, 1), False),
+    ("fcntl", (5, 1024, 0), False),
+    ("ioctl", (5, 0x5401), True),
+    ("ioctl", (5, 0x40086602), False),  # FS_IOC_SETFLAGS: chattr
+    ("ioctl", (5, 0x8901), False),  # FIOSETOWN
+    ("ioctl", (0, 0x5412), False),  # TIOCSTI
+]
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+@pytest.mark.parametrize(("name", "arguments", "passes"), BY_ARGUMENT)
+def test_arguments_decide(machine: str, name: str, arguments: tuple[int, ...], passes: bool):
+    number = wall.CHECKED[name][MACHINES.index(machine)]
+    assert verdict(machine, number, *arguments) == (0 if passes else errno.EPERM)
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_what_every_program_does_passes(machine: str):
+    needed = {  # read, write, close, mmap, munmap, futex, openat, exit_group, getrandom, recvfrom
+        "x86_64": (0, 1, 3, 9, 11, 202, 257, 231, 318, 45),
+        "aarch64": (63, 64, 57, 222, 215, 98, 56, 94, 278, 207),
+    }
+    for number in needed[machine]:
+        assert verdict(machine, number) == 0
+
+
+# ---------------------------------------------------------------- in a child
+
+PROGRAM = """
+import ctypes, os, sys
+libc = ctypes.CDLL(None, use_errno=True)
+
+def threads():
+    import concurrent.futures, threading
+    done = []
+    thread = threading.Thread(target=lambda: done.append(1))
+    thread.start(); thread.join()
+    with concurrent.futures.ThreadPoolExecutor(4) as pool: done += pool.map(abs, [-1, -2])
+    return sum(done) == 4
+
+def files():
+    from pathlib import Path
+    with open("notes.txt", "w") as file: file.write("one"); file.flush(); os.fsync(file.fileno())
+    with open("notes.txt", "a") as file: file.write(" two")
+    os.rename("notes.txt", "kept.txt")
+    Path("folder").mkdir(); Path("folder/new").touch(); Path("folder/new").touch()
+    names = sorted(os.listdir("folder"))
+    os.remove("folder/new"); os.rmdir("folder")
+    return Path("kept.txt").read_text() == "one two" and names == ["new"]
+
+def pygame_all():
+    import pygame
+    pygame.init()
+    window = pygame.display.set_mode((64, 48))
+    font = pygame.font.Font(None, 20)
+    window.blit(font.render("12 px/s", True, "white"), (0, 0))
+    window.blit(pygame.font.SysFont("arial", 12).render("0", True, "red"), (0, 0))
+    pygame.image.save(window, "window.png")
+    picture = pygame.image.load("window.png").convert()
+    pygame.mixer.init(); sound = pygame.mixer.Sound(buffer=bytes(4000)); sound.play()
+    pygame.mixer.quit()
+    pygame.draw.circle(window, "white", (5, 5), 3); pygame.display.flip(); pygame.event.get()
+    size = picture.get_size()
+    pygame.quit()
+    return size == (64, 48)
+
+def pymunk_all():
+    import pymunk
+    space = pymunk.Space(threaded=True); space.threads = 2
+    space.gravity = 0, 900
+    body = pymunk.Body(1, 1); space.add(body, pymunk.Circle(body, 5)); space.step(0.01)
+    return body.velocity.y > 0
+
+def numpy_all():
+    import numpy as np
+    a = np.arange(90000.0).reshape(300, 300)
+    np.save("a.npy", a @ a); np.linalg.solve(a + np.eye(300) * 1e6, a)
+    return np.load("a.npy", mmap_mode="r").shape == (300, 300)
+
+def temporary():
+    import tempfile
+    with tempfile.TemporaryDirectory() as folder, tempfile.NamedTemporaryFile() as file:
+        file.write(b"x"); open(os.path.join(folder, "y"), "w").close()
+    with tempfile.TemporaryFile() as file: file.write(b"z")
+    return not os.path.exists(folder)
+
+def logs():
+    import logging, logging.handlers
+    handler = logging.handlers.RotatingFileHandler("engine.log", maxBytes=50, backupCount=2)
+    log = logging.getLogger("engine"); log.addHandler(handler)
+    for step in range(9): log.warning("step %d", step)
+    handler.close()
+    return os.path.exists("engine.log.1")
+
+def chance():
+    import random, secrets, uuid
+    random.seed(); random.SystemRandom().random(); uuid.uuid4()
+    return len(os.urandom(8)) == 8 and secrets.randbelow(3) < 3
+
+def databases():
+    import sqlite3
+    with sqlite3.connect("marks.db") as base:
+        base.execute("create table t (x)"); base.execute("insert into t values (1)")
+    return base.execute("select x from t").fetchone() == (1,)
+
+def loops():
+    import asyncio
+    async def main():
+        await asyncio.sleep(0)
+        return await asyncio.to_thread(lambda: 3)
+    return asyncio.run(main()) == 3
+
+def machine():
+    import locale, platform, resource, shutil, time
+    time.sleep(0); resource.getrlimit(resource.RLIMIT_NOFILE); shutil.disk_usage(".")
+    locale.setlocale(locale.LC_ALL, ""); platform.platform(); platform.processor()
+    return os.cpu_count() >= 1 and bool(time.localtime().tm_year) and not sys.stdout.isatty()
+
+def imports():
+    import argparse, csv, dataclasses, decimal, fractions, json, multiprocessing, pickle, queue
+    import signal, socket, statistics, subprocess, typing, zipfile, shelve, urllib.request
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    return decimal.Decimal("0.1") + decimal.Decimal("0.2") == decimal.Decimal("0.3")
+
+def callbacks():
+    number = ctypes.POINTER(ctypes.c_int)
+    kind = ctypes.CFUNCTYPE(ctypes.c_int, number, number)
+    numbers = (ctypes.c_int * 3)(3, 1, 2)
+    libc.qsort(numbers, 3, ctypes.sizeof(ctypes.c_int), kind(lambda a, b: a[0] - b[0]))
+    return list(numbers) == [1, 2, 3]
+
+def ends_itself(): os.abort()
+def refused(number): ctypes.set_errno(0); libc.syscall(number, -1, 0, 0); return ctypes.get_errno()
+def fork(): os.fork()
+def subprocess_run():
+    import subprocess
+    subprocess.run(["/bin/true"])
+def new_socket():
+    import socket
+    socket.socket()
+def mode(): open("mine", "w").close(); os.chmod("mine", 0o600)
+def times(): open("mine", "w").close(); os.utime("mine", (1, 1))
+def attribute(): open("mine", "w").close(); os.setxattr("mine", "user.a", b"1")
+def signal_parent(): os.kill(os.getppid(), 0)
+def unnamed(): os.memfd_create("x")
+"""
+HONEST = [
+    "threads",
+    "files",
+    "pygame_all",
+    "pymunk_all",
+    "numpy_all",
+    "temporary",
+    "logs",
+    "chance",
+    "databases",
+    "loops",
+    "machine",
+    "imports",
+    "callbacks",
+]
+REFUSED = [
+    "fork",
+    "subprocess_run",
+    "new_socket",
+    "mode",
+    "times",
+    "attribute",
+    "signal_parent",
+    "unnamed",
+]
+
+
+@pytest.fixture(scope="module")
+def child(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Child]:
+    """One with the filter and nothing else, so that nothing else can be what refuses."""
+    folder = tmp_path_factory.mktemp("filtered")
+    places = [folder / name for name in ("submission", "scratch", "bytecode")]
+    for place in places:
+        place.mkdir()
+    (places[0] / "program.py").write_text(PROGRAM, encoding="utf-8")
+    submission, scratch, bytecode = map(str, places)
+    others = ("user-namespace", "landlock-files", "network-namespace", "pid-namespace", "own-user")
+    worker = start_worker(without=others)
+    hidden = [str(KIT / "grader"), str(KIT / "solution")]
+    setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, False, ["numpy"])
+    child = worker.open(setup)
+    if "system-calls" not in child.ready.layers:
+        worker.close()
+        pytest.skip("no filter on this machine")
+    child.ask(Import("program"))
+    yield child
+    child.end()
+    worker.close()
+
+
+@pytest.mark.parametrize("name", HONEST)
+def test_honest_programs_run(child: Child, name: str):
+    reply = child.ask(Call(f"program:{name}")).reply
+    assert isinstance(reply, Returned) and reply.value is True, reply
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_reaches_out_is_an_exception(child: Child, name: str):
+    reply = child.ask(Call(f"program:{name}")).reply
+    assert isinstance(reply, Raised) and reply.error == "PermissionError", reply
+
+
+def test_the_kernel_refuses_each_call(child: Child):
+    """With arguments that none of them takes: nothing would happen without the filter either."""
+    column = MACHINES.index(wall.platform.machine())
+    for name, numbers in wall.REFUSED.items():
+        if numbers[column] is not None:
+            reply = child.ask(Call("program:refused", [numbers[column]])).reply
+            assert isinstance(reply, Returned) and reply.value == errno.EPERM, name
+    newer = child.ask(Call("program:refused", [wall.LAST + 1])).reply
+    assert isinstance(newer, Returned) and newer.value == errno.ENOSYS
