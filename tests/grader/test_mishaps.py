@@ -61,7 +61,15 @@ def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
     process.terminate()
     _, said = process.communicate(timeout=60)
     assert process.returncode == 2 and "what is graded stays" in said
-    assert list((tmp_path / "place").iterdir()) == []
+    assert emptied(tmp_path / "place")  # by the process of the class's own, which ends by itself
+
+
+def emptied(folder: Path) -> bool:
+    for _ in range(2000):
+        if not any(folder.iterdir()):
+            return True
+        time.sleep(0.01)
+    return False
 
 
 @posix
