@@ -20,6 +20,12 @@ from grader.protocol import Call, ChildSetup, Import, Limits, Returned
 posix = pytest.mark.skipif(os.name == "nt", reason="signals and locks of POSIX")
 
 
+def hear_all_signals() -> None:
+    """What runs in the background, or under nohup, has some of them ignored from the start."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
     """A grade with a temporary folder of its own, when the submission lies there."""
     place.mkdir(exist_ok=True)
@@ -30,6 +36,7 @@ def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
+        preexec_fn=hear_all_signals,
     )
     for _ in range(6000):
         if any(place.glob(f"{PREFIX}*/tmp*")):  # a child has been asked for
