@@ -219,7 +219,7 @@ class Box2d:
     def __init__(self, scene, passes=BOX2D_PASSES, substeps=1):
         self.scene, self.passes, self.substeps = scene, passes, substeps
         gravity = (scene.gravity[0] / PX_PER_M, scene.gravity[1] / PX_PER_M)
-        self.world = Box2D.b2World(gravity, "Sleep" in scene.effects)
+        self.world = Box2D.b2World(gravity)
         self.bodies = [self.body(data) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
@@ -254,6 +254,7 @@ class Box2d:
             linearDamping=damping[0],
             angularDamping=damping[1],
             bullet=data.bullet and "Bullets" in effects,
+            allowSleep="Sleep" in effects,
         )
         area = math.pi * (data.radius / PX_PER_M) ** 2
         body.CreateFixture(shape=shape, density=data.mass / area, **surface)
@@ -290,7 +291,7 @@ class Box2d:
         return sum(contact.touching for contact in self.world.contacts)
 
     def asleep(self):
-        return sum(not body.awake for body in self.bodies)
+        return sum(not self.bodies[i].awake for i in self.scene.moving())
 
 
 BUILDERS = (Lesson, Stable, Pymunk, Box2d) if Box2D else (Lesson, Stable, Pymunk)

@@ -318,14 +318,24 @@ def dial_message(answers, error):
 # ---------------------------------------------------------------- piles
 
 
+PILE_LOOKS = {  # in a row: what it is called, its colour and its marker
+    "lesson": ("lesson", ENGINE_COLOURS["lesson"], "o"),
+    "stable": ("stable", ENGINE_COLOURS["stable"], "s"),
+    "compiled": ("stable, compiled", "#E69F00", "v"),
+    "pymunk": ("pymunk", ENGINE_COLOURS["pymunk"], "D"),
+    "asleep": ("stable, asleep", "#56B4E9", "^"),
+}
+
+
 def pile_figure(plot, rows):
     """Time per ball against the number of balls, one curve per engine."""
     figure, axes = plot.subplots(figsize=(7.4, 4.4))
     figure.subplots_adjust(left=0.11, right=0.76, bottom=0.13, top=0.88)
-    marks = {**ENGINE_COLOURS, "asleep": "#56B4E9"}
-    for (name, colour), marker in zip(marks.items(), "osD^", strict=True):
-        points = [(row["balls"], row[name]["ms"] / 60) for row in rows if row[name]["ms"]]
-        label = "stable, asleep" if name == "asleep" else name
+    for name, (label, colour, marker) in PILE_LOOKS.items():
+        known = [(row["balls"], row.get(name, {}).get("ms")) for row in rows]
+        points = [(balls, ms / 60) for balls, ms in known if ms]
+        if not points:
+            continue
         axes.loglog(*split(points), color=colour, marker=marker, label=label)
     axes.axhline(FRAME, color="0.35", linewidth=1, label="a frame, 16.7 ms")
     plain_ticks(axes)

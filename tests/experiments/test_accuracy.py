@@ -401,6 +401,17 @@ def test_figures_of_every_result_are_drawn(tiny):
         assert "<svg" in (tiny / f"{name}.svg").read_text(encoding="utf-8")
 
 
+def test_piles_of_several_sizes_are_drawn_with_the_engines_that_ran(tiny, tmp_path):
+    from experiments import figures
+
+    results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
+    row = results["piles"][0]
+    compiled = {**row, "balls": 40, "compiled": row["stable"]}
+    for piles in ([row, {**row, "balls": 40}], [{**compiled, "balls": 8}, compiled]):
+        results = {**results, "dials": {}, "piles": piles}
+        assert "piles" in figures.draw_all(results, tmp_path)
+
+
 def test_without_matplotlib_one_sentence_says_how_to_get_figures(tiny, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))

@@ -1,6 +1,7 @@
 """The same scenes in Box2D, where it is installed."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -8,7 +9,18 @@ pytest.importorskip("Box2D")
 
 from experiments.engines import ENGINES
 from experiments.measures import energy, finite, run
-from experiments.scenes import NAMED, Ball, G, Scene, drop, oscillator, pendulum, slide
+from experiments.scenes import (
+    NAMED,
+    TOUCH,
+    Ball,
+    G,
+    Scene,
+    drop,
+    oscillator,
+    pendulum,
+    slide,
+    tower,
+)
 
 Box2d = ENGINES["box2d"]
 
@@ -46,6 +58,13 @@ def test_a_spring_has_its_frequency():
     run(engine, 0.5)  # half a period of 1 Hz
     assert engine.read(1).x == pytest.approx(50, abs=10)
     assert energy(engine) > 0
+
+
+def test_balls_sleep_only_where_that_is_declared():
+    for effects, asleep in ((TOUCH, 0), ((*TOUCH, "Sleep"), 5)):
+        engine = Box2d(replace(tower(5), effects=effects))
+        run(engine, 3)
+        assert engine.asleep() == asleep
 
 
 def test_effects_that_are_not_declared_do_nothing():
