@@ -15,6 +15,7 @@ from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission
 from grader.protocol import Call, Import, Returned
 
+soak = pytest.mark.soak
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="Linux's layers")
 
 # `leave` gets the folder that the judge keeps for the submission, `find` answers whether the word
@@ -182,7 +183,10 @@ OPEN = {
 }
 
 
-@pytest.fixture(scope="module", params=WORLDS)
+@pytest.fixture(
+    scope="module",
+    params=["all", *(pytest.param(name, marks=soak) for name in ("no filter", "filter alone"))],
+)
 def world(request: pytest.FixtureRequest) -> str:
     name: str = request.param
     return name

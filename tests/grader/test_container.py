@@ -48,6 +48,7 @@ def test_the_refusal_comes_before_a_line_of_it_runs(monkeypatch: pytest.MonkeyPa
     assert grade(KIT / "solution", own).complete
 
 
+@pytest.mark.soak
 def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs():
     program = (
         "import sys; from grader.judge.isolation import load_everything; load_everything(); "

@@ -17,6 +17,7 @@ from grader.judge.grade import KIT
 from grader.judge.workplace import PREFIX, locked, remove_leftovers, work_folder
 from grader.protocol import Call, ChildSetup, Import, Limits, Returned
 
+soak = pytest.mark.soak
 posix = pytest.mark.skipif(os.name == "nt", reason="signals and locks of POSIX")
 
 
@@ -49,7 +50,9 @@ def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
 
 
 @posix
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+@pytest.mark.parametrize(
+    "name", ["SIGTERM", pytest.param("SIGHUP", marks=soak), pytest.param("SIGINT", marks=soak)]
+)
 def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
     process = started(tmp_path / "place")
     process.send_signal(getattr(signal, name))
@@ -58,6 +61,7 @@ def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
     assert list((tmp_path / "place").iterdir()) == []
 
 
+@soak
 @posix
 def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
     for name in ("ann", "ben"):
@@ -108,7 +112,7 @@ def test_a_folder_that_is_in_use_is_nobodys_leftover():
     assert not work.exists()
 
 
-@pytest.mark.parametrize("option", ["--out", "--json"])
+@pytest.mark.parametrize("option", [pytest.param("--out", marks=soak), "--json"])
 def test_a_place_that_cannot_be_written_is_a_sentence_and_status_2(tmp_path: Path, option: str):
     (tmp_path / "file").write_text("in the way", encoding="utf-8")
     target = tmp_path / "file" / "below"
@@ -119,6 +123,7 @@ def test_a_place_that_cannot_be_written_is_a_sentence_and_status_2(tmp_path: Pat
     assert str(tmp_path / "file") in done.stderr.replace("\n", "")
 
 
+@soak
 @posix
 def test_a_full_disk_is_a_sentence_and_status_2(tmp_path: Path):
     """Files of more than 100 kB are refused: the copy of a submission, as on a full disk."""
