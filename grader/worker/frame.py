@@ -57,7 +57,7 @@ class Frame:
         self.subject = subject
         self.refs = list(dict.fromkeys([*refs, *list(subject.objects)[-LATEST:]]))
         self.arguments = arguments
-        self.modules = own_modules(str(subject.folder), len(sys.modules))  # those of before
+        self.constants = own_constants(str(subject.folder), len(sys.modules))  # those of before
         self.before = self.state()
 
     def state(self) -> dict[tuple[int, str], Numbers]:
@@ -70,10 +70,8 @@ class Frame:
         for number, argument in enumerate(self.arguments, 1):
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
-        for names in self.modules:
-            for name in CONSTANTS:
-                if name in names:  # in each module that has it
-                    found[0, name] = (*found.get((0, name), ()), names[name])
+        for name, places in self.constants:
+            found[0, name] = tuple(names.get(name) for names in places)
         return found
 
     def changes(self) -> list[Change]:
@@ -87,10 +85,15 @@ class Frame:
 
 
 @cache
-def own_modules(folder: str, loaded: int) -> list[dict[str, Any]]:
-    """The names of each module from a folder, looked up anew when more is `loaded`."""
+def own_constants(folder: str, loaded: int) -> list[tuple[str, list[dict[str, Any]]]]:
+    """The constants of a folder's modules, each with the names of all modules that have it.
+
+    They are looked up anew when more is `loaded`.
+    """
     found = (vars(module) for module in list(sys.modules.values()) if type(module) is ModuleType)
-    return [names for names in found if str(names.get("__file__")).startswith(folder)]
+    own = [names for names in found if str(names.get("__file__")).startswith(folder)]
+    places = ((name, [names for names in own if name in names]) for name in CONSTANTS)
+    return [(name, modules) for name, modules in places if modules]
 
 
 def fields_of(thing: Any) -> tuple[str, ...]:
