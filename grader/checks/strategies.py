@@ -73,17 +73,16 @@ def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
     """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
     Up to the cap each is a tenth longer than another one, so that no range is left out. Some are
-    exactly as long as nothing, a step, or as many steps as may run.
+    exactly as long as nothing, a step, or as many steps as may run, and some hardly longer.
     """
     shift = draw(st.integers(0, 15)) / 16
     numbers = draw(st.permutations([*range(45), *range(45, 80, 6)]))
     rests = draw(st.permutations(range(17)))
-    lengths = [0.001 * 1.1 ** (number + shift) for number in numbers] + [
-        0.0,
-        STEP,
-        MAX_STEPS * STEP,
-    ]
-    return [(rests[place % len(rests)] / 2000, each) for place, each in enumerate(lengths)]
+    lengths = (0.001 * 1.1 ** (number + shift) for number in numbers)
+    most = MAX_STEPS * STEP
+    exact = [0.0, STEP, most, most + 0.0004, 0.1, 2.0]
+    drawn = [(rests[n % len(rests)] / 2000, each) for n, each in enumerate(lengths)]
+    return [*drawn, *((0.0, each) for each in exact)]
 
 
 pairs = st.tuples(coordinates, coordinates)

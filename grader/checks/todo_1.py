@@ -134,6 +134,10 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
         Disc(3, 12, 8),
         Disc(35, 1, 8),
         Disc(29, -10, 8),  # nearer to the top, though closer to the right by shares of the box
+        Disc(-30, -6, 8),  # each nearer to a face than to the next one, by a little
+        Disc(30, 6, 8),
+        Disc(-25, -8, 8),
+        Disc(25, 8, 8),
     )
     want_exact(lab, discs)
 
