@@ -97,6 +97,7 @@ def spawned(processor: int, code: str) -> int:
     return os.posix_spawn(sys.executable, [sys.executable, "-c", pin + code], os.environ)
 
 
+@pytest.mark.soak  # ten seconds of it
 @LINUX
 def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Path):
     """Two checks of 8a are cut; the third of their program is none of its business."""
