@@ -19,7 +19,7 @@ from grader.todo_regions import python_files, read_source, regions_in
 EVERY = [*members(KIT)]
 MEMBERS = [member for member in EVERY if member.kind != "ladder"]
 RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
-MOST = {"wrong": 2, "right": 6, "hostile": 6}  # of a group of this kind
+MOST = {"wrong": 1, "right": 5, "hostile": 5}  # of a group of this kind
 MOST_OF_ANOTHER = 8
 SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
 
@@ -33,6 +33,8 @@ def chosen(every: list[Member]) -> list[Member]:
     """
     groups: dict[tuple[str, ...], list[Member]] = {}
     for member in every:
+        if member.name.endswith("in-every-todo"):  # it uses up all that a submission may
+            continue
         spoiled = sorted(member.todos) if member.kind == "wrong" else [str(bool(member.todos))]
         groups.setdefault((member.kind, *spoiled), []).append(member)
     drawn = []
