@@ -65,7 +65,9 @@ def grade_command(
         int, typer.Option(help="For a class: submissions at a time; 0 for one per core.")
     ] = 0,
     isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
-    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="A secret seed: other numbers in every check.")
+    ] = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     ci: Annotated[
         Path | None, typer.Option(help="For CI: write its reports into this folder, tell GitHub.")

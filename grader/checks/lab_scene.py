@@ -1,7 +1,7 @@
 """The lab scene as the lesson describes it, part by part, for the mini engine and for pymunk.
 
 The lesson draws each ball's colour after its radius and says no more of colours. So of the radii
-that come from random.Random(12) only the first is known.
+that come from a random.Random only the first is known.
 """
 
 import math
@@ -14,7 +14,6 @@ from grader.protocol import BodyValue, Played, Rng, SpaceBody, SpaceValue
 
 SEED = 12
 RADII = range(10, 23)  # px
-FIRST_RADIUS = random.Random(SEED).randint(10, 22)  # px
 
 
 class Part(NamedTuple):
@@ -60,22 +59,21 @@ def turning_as_a_disc(part: Part) -> Part:
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 
-def want_parts(lab: Lab, found: list[Part], expected: list[Part]) -> None:
-    """Insist on these parts, on eight balls, and on nothing else."""
+def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int = SEED) -> None:
+    """Insist on these parts, on eight balls drawn by this seed, and on nothing else."""
+    first = random.Random(seed).randint(10, 22)  # px
     for part in expected:
         want_part(lab, found, part)
     own_moments = any(part.moment for part in expected if len(part.shape) == 1)
     for number, pos in enumerate(BALLS):
         radius = next((p.shape[0] for p in found if len(p.shape) == 1 and close(p.pos, pos)), 0.0)
-        allowed = [FIRST_RADIUS] if number == 0 else RADII
+        allowed = [first] if number == 0 else RADII
         lab.want(
             radius in allowed,
             f"a ball at ({pos[0]:g}, {pos[1]:g}) with a radius "
-            + (
-                f"of {FIRST_RADIUS} px, the first number drawn" if number == 0 else "of 10 to 22 px"
-            ),
+            + (f"of {first} px, the first number drawn" if number == 0 else "of 10 to 22 px"),
             f"a radius of {radius:g} px" if radius else "no ball there",
-            f"random.Random({SEED}) draws the balls, each radius before its colour.",
+            f"random.Random({seed}) draws the balls, each radius before its colour.",
         )
         like = ball(pos, radius)
         want_part(lab, found, turning_as_a_disc(like) if own_moments else like)
@@ -109,9 +107,9 @@ def close(first: Pair, second: Pair) -> bool:
 # ---------------------------------------------------------------- what the submission has
 
 
-def world_parts(lab: Lab) -> list[Part]:
+def world_parts(lab: Lab, seed: int = SEED) -> list[Part]:
     """The bodies that make_world(random.Random(12)) puts into the mini engine's world."""
-    world = lab.thing(lab.call("make_world", Rng(SEED)), "a World")
+    world = lab.thing(lab.call("make_world", Rng(seed)), "a World")
     bodies = lab.items(lab.get(world, "bodies"), "the bodies of the scene")
     return [body_part(lab, lab.body(each)) for each in bodies]
 
@@ -131,9 +129,9 @@ def body_part(lab: Lab, body: BodyValue) -> Part:
     )
 
 
-def pymunk_scene(lab: Lab) -> tuple[SpaceValue, list[Thing]]:
+def pymunk_scene(lab: Lab, seed: int = SEED) -> tuple[SpaceValue, list[Thing]]:
     """The space that make_space(random.Random(12)) returns, and the boxes of its stack."""
-    items = lab.items(lab.call("make_space", Rng(SEED)), "what make_space returns")
+    items = lab.items(lab.call("make_space", Rng(seed)), "what make_space returns")
     lab.want(len(items) == 2, "make_space to return (space, stack)", f"{len(items)} things")
     boxes = lab.items(items[1], "the stack")
     return lab.space(items[0]), [lab.thing(box, "a box of the stack") for box in boxes]

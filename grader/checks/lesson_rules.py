@@ -47,8 +47,8 @@ def want_impact(lab: Lab, impact: Impact) -> None:
         f"a disc {impact.depth:g} px deep in a static one, closing at {impact.closing:g} px/s, "
         f"restitution {first:g} on {second:g}, one step"
     )
-    anchor = lab.circle((0, 0), 50, 0, restitution=second)
-    disc = lab.circle((0, impact.depth - 60), 10, 2, restitution=first, vel=(0, impact.closing))
+    anchor, mass = lab.circle((0, 0), 50, 0, restitution=second), lab.about(2.0)
+    disc = lab.circle((0, impact.depth - 60), 10, mass, restitution=first, vel=(0, impact.closing))
     done = lab.simulate(lab.world(anchor, disc), [disc], 1, contacts=True)
     after, touching = done.body(0)[0], done.contacts[0]
     lab.want(
@@ -57,7 +57,7 @@ def want_impact(lab: Lab, impact: Impact) -> None:
         f"it leaves at {-after.vy:.9g} px/s",
         "The larger of bounce (the smaller restitution, above 30 px/s) and push-out counts.",
     )
-    pushed = 2 * (impact.closing + impact.leaves)
+    pushed = mass * (impact.closing + impact.leaves)
     lab.want(
         len(touching) == 1 and abs(touching[0].jn - pushed) < EXACT,
         f"one contact, with jn {pushed:g} kg px/s in the end",
@@ -66,12 +66,12 @@ def want_impact(lab: Lab, impact: Impact) -> None:
 
 
 def pressed_discs(lab: Lab, friction: Pair, vel: Pair, jn: float) -> tuple[Thing, Thing, Thing]:
-    """Two discs of 1 kg that touch, B above A, and their contact."""
-    a = lab.circle((0, 0), 10, friction=friction[0])
-    b = lab.circle((0, -20), 10, friction=friction[1], vel=vel)
+    """Two discs of 1 kg that touch, B above A, and their contact. All masses by a factor."""
+    a = lab.circle((0, 0), 10, lab.factor, friction=friction[0])
+    b = lab.circle((0, -20), 10, lab.factor, friction=friction[1], vel=vel)
     made = lab.call("Contact", a, b, (0, -1), 0.0, (0, -10))
     contact = lab.thing(made, "a Contact")
-    lab.put(contact, target=0.0, jn=jn)
+    lab.put(contact, target=0.0, jn=lab.factor * jn)
     lab.tell(lab.world(a, b), "solve_contact", contact, STEP)
     return a, b, contact
 
@@ -79,8 +79,8 @@ def pressed_discs(lab: Lab, friction: Pair, vel: Pair, jn: float) -> tuple[Thing
 def want_one_pass(lab: Lab) -> None:
     """The pressure first, then the friction that it limits; both turn both bodies."""
     lab.ran(
-        "one pass over two discs of 1 kg, friction 0.9 on 0.4, sliding at 300 px/s and closing at "
-        "20 px/s"
+        f"one pass over two discs of {lab.factor:g} kg, friction 0.9 on 0.4, sliding at 300 px/s "
+        "and closing at 20 px/s"
     )
     a, b = map(lab.state, pressed_discs(lab, (0.9, 0.4), (300, 20), 0.0)[:2])
     # jn = 20 / (1/1 + 1/1) = 10, and the friction is sqrt(0.9 * 0.4) of it: 6. Inertia 50.
@@ -98,13 +98,16 @@ def say(body: BodyValue) -> str:
 
 def want_a_total_that_is_clamped(lab: Lab) -> None:
     """What an earlier pass gave too much is taken back."""
-    lab.ran("one pass over two discs of 1 kg that part at 5 px/s, with jn 3 from earlier passes")
+    lab.ran(
+        f"one pass over two discs of {lab.factor:g} kg that part at 5 px/s, with jn "
+        f"{3 * lab.factor:g} from earlier passes"
+    )
     a, b, contact = pressed_discs(lab, (0, 0), (0, -5), 3.0)
     speeds = lab.state(a).vel.y, lab.state(b).vel.y
-    jn = lab.number(lab.get(contact, "jn"), "jn")
+    jn, right = lab.number(lab.get(contact, "jn"), "jn"), 0.5 * lab.factor
     lab.want(
-        math.dist((-2.5, -2.5, 0.5), (*speeds, jn)) < EXACT,
-        "both at 2.5 px/s, and jn 0.5: the total is clamped, not the change",
+        math.dist((-2.5, -2.5, right), (*speeds, jn)) < EXACT,
+        f"both at 2.5 px/s, and jn {right:g}: the total is clamped, not the change",
         f"{-speeds[0]:.9g} and {-speeds[1]:.9g} px/s, and jn {jn:.9g}",
     )
 
@@ -112,7 +115,8 @@ def want_a_total_that_is_clamped(lab: Lab) -> None:
 def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
     """There is no direction from one centre to the other, so the lesson gives one."""
     lab.ran("circle_circle of two discs with one centre")
-    discs = lab.circle((3, 4), 10), lab.circle((3, 4), 6)
+    centre = lab.about(3.0), lab.about(4.0)
+    discs = lab.circle(centre, 10), lab.circle(centre, 6)
     contact = lab.contact_or_none(lab.call("circle_circle", *discs))
     lab.want(contact is not None, "a contact", "None")
     if contact is not None:
@@ -130,17 +134,18 @@ def want_a_way_out_for_coincident_discs(lab: Lab) -> None:
 def want_gravity_then_damping(lab: Lab) -> None:
     """And then a move with the new velocity."""
     lab.ran("a disc that falls from rest, damped at 5 per second, one step of 0.1 s")
-    disc = lab.circle((0, 0))
+    disc = lab.circle((0, 0), mass=lab.factor)
     world = lab.world(disc, gravity=(0, 980), linear_damping=5.0)
     want_state(lab, lab.simulate(world, [disc], 1, 0.1).body(0)[0], (0, 9.8 * KEPT, 0, 98 * KEPT))
 
 
 def want_a_free_flight(lab: Lab) -> None:
     """What meets nothing and is not damped keeps its velocity, however large."""
-    lab.ran("a disc at 5000 px/s that meets nothing, one step")
-    disc = lab.circle((0, 0), vel=(3000, -4000))
+    vx, vy = lab.about(3000.0), lab.about(-4000.0)
+    lab.ran(f"a disc at ({vx:g}, {vy:g}) px/s that meets nothing, one step")
+    disc = lab.circle((0, 0), vel=(vx, vy))
     after = lab.simulate(lab.world(disc), [disc], 1).body(0)[0]
-    want_state(lab, after, (3000 * STEP, -4000 * STEP, 3000, -4000))
+    want_state(lab, after, (vx * STEP, vy * STEP, vx, vy))
 
 
 def want_state(lab: Lab, got: Moment, expected: tuple[float, float, float, float]) -> None:
@@ -170,14 +175,15 @@ def want_eight_passes(lab: Lab) -> None:
     Solving the one spoils the other. Each time the speed shrinks by the cosine between the two, so
     that it tells how many passes there were, and the rod is right as the last one solved.
     """
-    lab.ran("a disc on a static one and on a slanting rod, pushed at 100 px/s, one step")
+    push = lab.about(100.0)
+    lab.ran(f"a disc on a static one and on a slanting rod, pushed at {push:g} px/s, one step")
     along = math.sqrt(1 - LEAN**2), -LEAN  # the rod, from its hook
     anchor, place = lab.circle((0, 0), 50, 0, friction=0.0), (0.0, 1e-9 - 60)
-    disc = lab.circle(place, restitution=0.0, friction=0.0, vel=(100, 0))
+    disc = lab.circle(place, restitution=0.0, friction=0.0, vel=(push, 0))
     hook = lab.circle((-100 * along[0], place[1] - 100 * along[1]), 6, 0, friction=0.0)
     rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
     after = lab.simulate(lab.world(anchor, hook, disc, joints=[rod]), [disc], 1).body(0)[0]
-    left = 100 * LEAN ** (2 * PASSES - 1)
+    left = push * LEAN ** (2 * PASSES - 1)
     slip = after.vx * along[0] + after.vy * along[1]
     lab.want(
         abs(slip) < EXACT and abs(after.speed - left) < EXACT,
@@ -204,9 +210,12 @@ def want_the_same_pile(lab: Lab) -> None:
 
 def want_a_rod_put_right(lab: Lab) -> None:
     """A fifth of its error in a step, however long the step is."""
-    lab.ran("a disc on a rod 10 px too long, at rest, one step of 1/60 s")
+    off = lab.about(10.0)  # px
+    lab.ran(f"a disc on a rod {off:g} px too long, at rest, one step of 1/60 s")
     hook, disc = lab.circle((0, 0), mass=0), lab.circle((0, 100))
     rod = lab.thing(lab.call("DistanceJoint", hook, disc), "a DistanceJoint")
-    lab.put(disc, pos=(0, 110))
+    lab.put(disc, pos=(0, 100 + off))
     world = lab.world(hook, disc, joints=[rod])
-    want_state(lab, lab.simulate(world, [disc], 1, 1 / 60).body(0)[0], (0, 108, 0, -120))
+    want_state(
+        lab, lab.simulate(world, [disc], 1, 1 / 60).body(0)[0], (0, 100 + 0.8 * off, 0, -12 * off)
+    )

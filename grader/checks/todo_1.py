@@ -94,10 +94,13 @@ def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = ""
 
 
 def want_exact(lab: Lab, discs: Iterable[Disc], **circle: Any) -> None:
-    """The right answers about these discs and the box."""
-    for disc in discs:
-        things = pair(lab, disc, BOX, circle)
-        want(lab, touch(lab, *things, disc, BOX), exact.circle_box(disc, BOX))
+    """The right answers about these discs and the box, all of them as large and where they are."""
+    size, x, y = lab.about(1.0), lab.about(0.0, 64.0), lab.about(0.0, 64.0)
+    box = Rect(x, y, size * BOX.hx, size * BOX.hy)
+    for each in discs:
+        disc = Disc(x + size * each.x, y + size * each.y, size * each.r)
+        things = pair(lab, disc, box, circle)
+        want(lab, touch(lab, *things, disc, box), exact.circle_box(disc, box))
 
 
 def same(answer: Touch | None, right: Touch | None) -> bool:
@@ -205,10 +208,13 @@ def a_mirrored_or_moved_pair_touches_alike(
 def a_world_finds_the_ball_on_its_floor(lab: Lab) -> None:
     """A world finds the contacts of balls with their floor, in any order"""
     lab.ran("find_contacts in a world with a floor, two balls 2 px deep in it, and a ball above")
+    x, y = lab.about(0.0, 64.0), lab.about(0.0, 64.0)
     first, second = (
-        lab.circle((x, -8.0), 10.0, vel=(0.0, vy)) for x, vy in ((30.0, 50.0), (-90.0, -50.0))
+        lab.circle((x + left, y - 8.0), 10.0, vel=(0.0, vy))
+        for left, vy in ((30.0, 50.0), (-90.0, -50.0))
     )
-    high, floor = lab.circle((-60.0, -40.0), 10.0), lab.box((0.0, 20.0), (200.0, 20.0))
+    high = lab.circle((x - 60.0, y - 40.0), 10.0)
+    floor = lab.box((x, y + 20.0), (200.0, 20.0))
     for bodies in ((first, second, high, floor), (floor, high, second, first)):
         world = lab.world(*bodies)
         found = lab.tell(world, "find_contacts") or lab.get(world, "contacts")

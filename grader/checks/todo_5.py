@@ -17,12 +17,20 @@ SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
 Shares = tuple[float, float]  # of speed and spin
 
 
-def damp(lab: Lab, linear: float, angular: float, dt: float, steps: int) -> Shares:
+def damp(
+    lab: Lab,
+    linear: float,
+    angular: float,
+    dt: float,
+    steps: int,
+    motion: tuple[float, float] = (SPEED, SPIN),
+) -> Shares:
     """The shares of speed and spin that one ball has left after some steps."""
-    ball = lab.circle((0.0, 0.0), vel=(SPEED, 0.0), omega=SPIN)
+    speed, spin = motion
+    ball = lab.circle((0.0, 0.0), vel=(speed, 0.0), omega=spin)
     world = lab.world(ball, linear_damping=linear, angular_damping=angular)
     last = lab.simulate(world, [ball], steps, dt, every=steps).body(0)[-1]
-    shares = last.vx / SPEED, last.omega / SPIN
+    shares = last.vx / speed, last.omega / spin
     lab.saw("damping", (linear, angular, dt, steps), shares)
     return shares
 
@@ -42,23 +50,26 @@ def alike(answer: Iterable[float], right: Iterable[float], within: float = 1e-9)
 
 def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
     """Damping per second, whatever the step"""
-    lab.ran("one ball, no gravity, linear_damping = 0.5, for one second")
+    rate, motion = lab.about(0.5), (lab.about(SPEED), lab.about(SPIN))
+    lab.ran(f"one ball, no gravity, linear_damping = {rate:g}, for one second")
     rates_per_second = (60, 120, 240)
-    kept = {n: damp(lab, 0.5, 0.5, 1 / n, n)[0] for n in rates_per_second}
-    right = exact.damped(0.5, 1.0)
+    kept = {n: damp(lab, rate, rate, 1 / n, n, motion)[0] for n in rates_per_second}
+    right = exact.damped(rate, 1.0)
     # A straight line instead of exp is near enough here, and not in the properties below.
     lab.want(
         alike(kept.values(), [right] * 3, within=0.01),
-        f"{say(right)} of its speed left at every step size (e^-0.5)",
+        f"{say(right)} of its speed left at every step size (e^-{rate:g})",
         ", ".join(f"{say(share)} at 1/{n} s" for n, share in kept.items()),
     )
 
 
 def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
     """Speed and spin are damped by a rate of their own"""
-    for linear, angular in ((1.0, 0.25), (0.0, 2.0), (2.0, 0.0), (0.25, 1.0)):
+    for usual in ((1.0, 0.25), (0.0, 2.0), (2.0, 0.0), (0.25, 1.0)):
+        linear, angular = (lab.about(rate, min(rate / 4, 1 / 16)) for rate in usual)
         lab.ran(f"linear_damping = {linear:g}, angular_damping = {angular:g}, half a second")
-        speed, spin = damp(lab, linear, angular, 1 / 120, 60)
+        motion = lab.about(SPEED), lab.about(SPIN)
+        speed, spin = damp(lab, linear, angular, 1 / 120, 60, motion)
         right = exact.damped(linear, 0.5), exact.damped(angular, 0.5)
         lab.want(
             alike((speed, spin), right, within=0.01),
@@ -182,15 +193,16 @@ def say_moment(each: Moment, n: int) -> str:
 
 def no_damping_loses_nothing(lab: Lab) -> None:
     """A rate of 0 loses nothing"""
+    motion, rate = (lab.about(SPEED), lab.about(SPIN)), lab.about(0.5)
     lab.ran("one ball, both dampings 0, for one second")
-    speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120)
+    speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
     n = decimals((1.0, 1.0), (speed, spin))
     left = f"{say(speed, n)} and {say(spin, n)}"
     lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)
     # A world may leave damping out where both rates are 0: one at a time is asked of the student.
-    lab.ran("one ball, angular_damping = 0.5 and the other 0, for one second")
-    speed, _ = damp(lab, 0.0, 0.5, 1 / 120, 120)
+    lab.ran(f"one ball, angular_damping = {rate:g} and the other 0, for one second")
+    speed, _ = damp(lab, 0.0, rate, 1 / 120, 120, motion)
     lab.want(speed == 1.0, "all of its speed", say(speed, decimals([1.0], [speed])))
-    lab.ran("one ball, linear_damping = 0.5 and the other 0, for one second")
-    _, spin = damp(lab, 0.5, 0.0, 1 / 120, 120)
+    lab.ran(f"one ball, linear_damping = {rate:g} and the other 0, for one second")
+    _, spin = damp(lab, rate, 0.0, 1 / 120, 120, motion)
     lab.want(spin == 1.0, "all of its spin", say(spin, decimals([1.0], [spin])))

@@ -28,8 +28,9 @@ STRETCH = 3.0  # px; pymunk's own rod gives way by 1.2 px here, or for a step by
 
 
 def scene(lab: Lab) -> SpaceValue:
-    """The space of the lab scene."""
-    return lab.space(lab.items(lab.call("make_space", Rng(12)), "what make_space returns")[0])
+    """The space of the lab scene, with balls of some sizes."""
+    made = lab.call("make_space", Rng(lab.whole(12, 12)))
+    return lab.space(lab.items(made, "what make_space returns")[0])
 
 
 def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
@@ -54,7 +55,7 @@ SETTINGS = (
 
 def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
     """The space is otherwise as it was given: damping 0.95, and pymunk's own settings"""
-    lab.ran("make_space(random.Random(12)), and looked at the space's settings")
+    lab.ran("make_space, and looked at the space's settings")
     space = scene(lab)
     lab.want(space.damping == 0.95, "damping 0.95", f"damping {space.damping:g}")
     still = space.bodies[0]
@@ -75,19 +76,20 @@ def want_usual_settings(lab: Lab, space: Thing) -> None:
 
 def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
     """A ball far from everything falls"""
-    lab.ran("the lab scene without damping, a ball added far above it, half a second")
+    lab.ran("the lab scene without damping, a ball added far above it, about half a second")
     space = lab.thing(scene(lab))
     lab.put(space, damping=1.0)
     ball = lab.thing(lab.call("pymunk:Body", 1.0, 100.0))
-    lab.put(ball, position=(450.0, -5000.0))
+    x, y, steps = lab.about(450.0), lab.about(-5000.0), lab.whole(60, 9)
+    lab.put(ball, position=(x, y))
     lab.tell(space, "add", ball)
-    last = lab.simulate(space, [ball], 60, every=60).body(0)[-1]
-    fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, 60)
+    last = lab.simulate(space, [ball], steps, every=steps).body(0)[-1]
+    fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, steps)
     lab.want(
-        near((last.x, last.y), (450.0, -5000.0 + fallen), 1e-6)
+        near((last.x, last.y), (x, y + fallen), 1e-6)
         and near((last.vx, last.vy), (0.0, speed), 1e-6),
         f"{fallen:.1f} px further down, at (0, {speed:.1f}) px/s",
-        f"{last.y + 5000:.1f} px further down, at ({last.vx:.1f}, {last.vy:.1f}) px/s",
+        f"{last.y - y:.1f} px further down, at ({last.vx:.1f}, {last.vy:.1f}) px/s",
     )
 
 
@@ -147,12 +149,13 @@ def want_full_disc(lab: Lab, ball: Ball) -> None:
 
 def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     """A ball has the moment of inertia of a full disc"""
-    for seed in (1, 12, 15):
+    for seed in map(lab.whole, (1, 12, 15), (90, 90, 90)):
         lab.ran(f"add_ball with random.Random({seed}) in an empty space")
         space = lab.thing(lab.call("pymunk:Space"))
         want_full_disc(lab, drop(lab, space, Rng(seed), (450.0, 300.0)))
-    lab.ran("add_ball eight times with one random.Random(12)")
-    rng = lab.thing(lab.call("random:Random", 12))
+    seed = lab.whole(12, 12)
+    lab.ran(f"add_ball eight times with one random.Random({seed})")
+    rng = lab.thing(lab.call("random:Random", seed))
     radii = {drop(lab, space, rng, (100.0 * number, 300.0)).radius for number in range(8)}
     lab.want(len(radii) > 1, "balls of several sizes", f"eight of radius {max(radii):g} px")
 
@@ -180,14 +183,15 @@ def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: 
 
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
     """A ball that slides comes to roll at two thirds of its speed"""
-    lab.ran("a ball of add_ball set on a floor, sliding at 300 px/s, no damping, one second")
+    speed = lab.about(300.0)
+    lab.ran(f"a ball of add_ball set on a floor, sliding at {speed:g} px/s, no damping, one second")
     space = lab.thing(lab.call("pymunk:Space"))
     lab.put(space, gravity=GRAVITY)
     lab.call("add_static_box", space, (450.0, 580.0), (900.0, 40.0))
-    ball = drop(lab, space, Rng(12), (200.0, 300.0))
-    lab.put(ball.body, position=(200.0, 560.0 - ball.radius), velocity=(300.0, 0.0))
+    ball = drop(lab, space, Rng(lab.whole(12, 12)), (200.0, 300.0))
+    lab.put(ball.body, position=(200.0, 560.0 - ball.radius), velocity=(speed, 0.0))
     last = lab.simulate(space, [ball.body], 120, every=120).body(0)[-1]
-    right = exact.rolling_speed(300.0)
+    right = exact.rolling_speed(speed)
     lab.want(
         math.isclose(last.vx, right, rel_tol=0.01)
         and math.isclose(last.omega * ball.radius, right, rel_tol=0.01),
@@ -268,7 +272,7 @@ def want_the_length(lab: Lab, moments: list[Moment], within: float = STRETCH) ->
 
 def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
     """A joint from (700, 90) holds the bob by its centre"""
-    lab.ran("make_space(random.Random(12)), and looked at the joints of the bob")
+    lab.ran("make_space, and looked at the joints of the bob")
     rods = pendulum(lab)[2]
     lab.want(
         any(
@@ -282,7 +286,7 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
 
 def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
     """The bob is as given: a disc of 24 px and 6 kg, at rest, in a usual space"""
-    lab.ran("make_space(random.Random(12)), and looked at the bob")
+    lab.ran("make_space, and looked at the bob")
     space = scene(lab)
     found = [each for each in space.bodies if each.kind == "dynamic" and of_bob(each)]
     lab.want(len(found) == 1, "one disc of 24 px at rest at (840, 90)", f"{len(found)} of them")
@@ -313,7 +317,8 @@ def say_rod(rod: Rod) -> str:
 
 def the_rod_pushes_and_pulls(lab: Lab) -> None:
     """The rod pushes and pulls: a pushed bob keeps its distance"""
-    for push in ((-200.0, 0.0), (200.0, 0.0), (0.0, -200.0), (0.0, 200.0)):
+    speed = lab.about(200.0)
+    for push in ((-speed, 0.0), (speed, 0.0), (0.0, -speed), (0.0, speed)):
         lab.ran(f"the bob pushed at ({push[0]:g}, {push[1]:g}) px/s, no gravity, half a second")
         want_the_length(lab, watch_bob(lab, 0.0, 0.5, velocity=push))
     for words, y in (("hangs", PIVOT[1] + LENGTH), ("stands", PIVOT[1] - LENGTH)):
@@ -337,12 +342,13 @@ def the_bob_swings_through_to_the_other_side(lab: Lab) -> None:
 
 def the_bob_turns_freely_while_it_swings(lab: Lab) -> None:
     """The bob turns freely while it swings"""
-    lab.ran("the bob let go at (840, 90) with a spin of 10 rad/s, no damping, 2 seconds")
-    moments = watch_bob(lab, GRAVITY[1], 2.0, angular_velocity=10.0)
+    begin = lab.about(10.0)
+    lab.ran(f"the bob let go at (840, 90) with a spin of {begin:g} rad/s, no damping, 2 seconds")
+    moments = watch_bob(lab, GRAVITY[1], 2.0, angular_velocity=begin)
     want_the_length(lab, moments)
     spins = [each.omega for each in moments]
     lab.want(
-        all(math.isclose(spin, 10.0, rel_tol=1e-6) for spin in spins),
-        "a spin of 10 rad/s all the time: the rod holds the centre and turns nothing",
+        all(math.isclose(spin, begin, rel_tol=1e-6) for spin in spins),
+        f"a spin of {begin:g} rad/s all the time: the rod holds the centre and turns nothing",
         f"the spin is between {min(spins):.2f} and {max(spins):.2f} rad/s",
     )

@@ -46,7 +46,7 @@ def ball(
     angle: float = 0.0,
 ) -> Thing:
     fields = {"vel": vel, "omega": omega, "angle": angle}
-    return lab.circle((x, y), RADIUS, mass, friction=0.6, restitution=0.0, **fields)
+    return lab.circle((x, y), RADIUS, lab.factor * mass, friction=0.6, restitution=0.0, **fields)
 
 
 def room(
@@ -77,7 +77,7 @@ def run(lab: Lab, world: Thing, seconds: float, dt: float = STEP) -> None:
 
 
 def put_to_sleep(lab: Lab, world: Thing, *bodies: Thing) -> None:
-    run(lab, world, 0.75)
+    run(lab, world, lab.about(0.75, 0.125))
     for body in bodies:
         want(lab, True, body, AT_REST)
 
@@ -89,9 +89,9 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
         lying, ground = ball(lab), floor(lab)
         world = room(lab, ground, lying)
         start = lab.state(lying)
-        run(lab, world, 0.45, dt)
+        run(lab, world, lab.about(0.45, 0.04), dt)
         want(lab, False, lying, AT_FIRST)
-        run(lab, world, 0.3, dt)
+        run(lab, world, lab.about(0.3, 0.05), dt)
         want(lab, True, lying, AT_REST)
         static = not asleep(lab, ground)
         lab.want(static, "a floor that is static and never asleep", "a floor asleep")
@@ -101,12 +101,12 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
             "a ball that fell asleep where it lay",
             f"it moved by {math.dist(start.pos, before.pos):.3g} px",
         )
-        run(lab, world, 0.5, dt)
+        run(lab, world, lab.about(0.5), dt)
         stays(lab, before, lab.state(lying))
     lab.ran("a ball that creeps over the floor at 3 px/s")
     creeping = ball(lab, vel=(3.0, 0.0), omega=3.0 / RADIUS)
     world = room(lab, floor(lab), creeping)
-    run(lab, world, 0.75)
+    run(lab, world, lab.about(0.75, 0.125))
     want(lab, True, creeping, CREEPING)
     lab.ran("a ball of 0.05 kg and one of 300 kg that lie on the floor")
     light, heavy = ball(lab, mass=0.05), ball(lab, 60.0, mass=300.0)
@@ -189,24 +189,24 @@ def time_at_rest_begins_anew(lab: Lab) -> None:
     lab.ran("a ball that lies for 0.4 s, is pushed at 1500 px/s for 0.1 s and lies again for 0.4 s")
     pushed = ball(lab)
     world = room(lab, floor(lab), pushed)
-    run(lab, world, 0.4)
+    run(lab, world, lab.about(0.4, 0.05))
     lab.put(pushed, vel=(1500.0, 0.0))
     run(lab, world, 0.1)
     lab.put(pushed, vel=(0.0, 0.0), omega=0.0)
-    run(lab, world, 0.4)
+    run(lab, world, lab.about(0.4, 0.05))
     want(lab, False, pushed, AFTER_A_PUSH)
     lab.ran("a ball that touches the floor for 0.4 s, nothing for 0.1 s, and then the floor again")
     lifted = ball(lab)
     world = room(lab, floor(lab), lifted, gravity=0.0)
     for y, seconds in ((LYING, 0.4), (LYING - 50.0, 0.1), (LYING, 0.4)):
         lab.put(lifted, pos=(0.3, y))
-        run(lab, world, seconds)
+        run(lab, world, lab.about(seconds, seconds / 8))
     want(lab, False, lifted, AFTER_THE_AIR)
 
 
 def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
     for _ in range(4):
-        run(lab, world, 0.25)
+        run(lab, world, lab.about(0.25, 0.03))
         if asleep(lab, body):
             break
     want(lab, False, body, why)
@@ -247,7 +247,7 @@ def a_hit_wakes(lab: Lab) -> None:
     lab.saw("sleep", (AFTER_A_HIT,), not woke)
     lab.want(woke, f"awake {AFTER_A_HIT}", "asleep")
     lab.want(
-        abs(lab.state(sleeper).inv_mass * 50.0 - 1.0) < 1e-9 or asleep(lab, sleeper),
+        abs(lab.state(sleeper).inv_mass * lab.factor * 50.0 - 1.0) < 1e-9 or asleep(lab, sleeper),
         "a ball that has its 50 kg again",
         "another mass",
     )

@@ -7,7 +7,7 @@ from itertools import pairwise
 from grader.checks import exact
 from grader.checks.exact import Rod, Spring
 from grader.checks.telling import want_told
-from grader.checks.todo_3 import FAST, SLOW, STILL, velocities, weight
+from grader.checks.todo_3 import FAST, SLOW, STILL, like, velocities, weight
 from grader.judge.lab import STEP, Lab, Moment, Pair, Thing
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
@@ -26,6 +26,12 @@ def want_exact(lab: Lab, spring: Spring, *later: Rod) -> None:
     joint = lab.thing(made, "a SpringJoint")
     for each in (rod, *later):
         apply_once(lab, joint, (a, b), Spring(each, spring.stiffness, spring.damping))
+
+
+def want_about(lab: Lab, spring: Spring) -> None:
+    """The same for a spring on a rod like this one."""
+    stiffness, damping = lab.about(spring.stiffness), lab.about(spring.damping)
+    want_exact(lab, Spring(like(lab, spring.rod), stiffness, damping))
 
 
 def apply_once(lab: Lab, joint: Thing, ends: tuple[Thing, Thing], spring: Spring) -> None:
@@ -102,28 +108,30 @@ def some_rod(draw: random.Random, masses: list[float], rest: float, dt: float) -
 def a_stretched_spring_pulls_and_a_squeezed_one_pushes(lab: Lab) -> None:
     """A stretched spring pulls, a squeezed one pushes, each end by its mass"""
     for length in (50.0, 140.0):
-        want_exact(lab, Spring(Rod(3.0, 1.0, length, (60.0, 80.0), STILL, STILL, STEP), 120.0, 0.0))
-    want_exact(lab, Spring(Rod(0.0, 2.0, 80.0, (-60.0, 0.0), STILL, FAST, 2 * STEP), 90.0, 0.0))
-    want_exact(lab, Spring(Rod(2.0, 0.0, 30.0, (0.0, -50.0), SLOW, STILL, STEP), 90.0, 0.0))
-    for spring, later in springs(1):
+        want_about(lab, Spring(Rod(3.0, 1.0, length, (60.0, 80.0), STILL, STILL, STEP), 120.0, 0.0))
+    want_about(lab, Spring(Rod(0.0, 2.0, 80.0, (-60.0, 0.0), STILL, FAST, 2 * STEP), 90.0, 0.0))
+    want_about(lab, Spring(Rod(2.0, 0.0, 30.0, (0.0, -50.0), SLOW, STILL, STEP), 90.0, 0.0))
+    for spring, later in springs(1 + 2 * abs(lab.whole(0, 500))):
         want_exact(lab, spring._replace(damping=0.0), later)
 
 
 def damping_brakes_the_speed_along_the_spring(lab: Lab) -> None:
     """Damping brakes the speed along the spring, and no other"""
     for vel_a, vel_b in ((SLOW, FAST), (FAST, SLOW), (SLOW, SLOW)):
-        want_exact(lab, Spring(Rod(3.0, 1.0, 50.0, (30.0, 40.0), vel_a, vel_b, STEP), 0.0, 12.0))
-    want_exact(lab, Spring(Rod(1.0, 4.0, 80.0, (60.0, -80.0), FAST, SLOW, STEP), 120.0, 12.0))
-    for spring, later in springs(2):
+        want_about(lab, Spring(Rod(3.0, 1.0, 50.0, (30.0, 40.0), vel_a, vel_b, STEP), 0.0, 12.0))
+    want_about(lab, Spring(Rod(1.0, 4.0, 80.0, (60.0, -80.0), FAST, SLOW, STEP), 120.0, 12.0))
+    for spring, later in springs(2 + 2 * abs(lab.whole(0, 500))):
         want_exact(lab, spring, later)
 
 
 def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
     """A mass on a spring swings and fades by the closed form"""
-    stiffness, damping, mass, seconds = 800.0, 4.0, 2.0, 1.5
+    mass, seconds = lab.about(2.0), 1.5
+    stiffness, damping = 400.0 * mass, 2.0 * mass
     rate, fading = math.sqrt(stiffness / mass), damping / (2 * mass)  # 1/s
     lab.ran(f"{mass:g} kg on a spring of {stiffness:g} kg/s² and {damping:g} kg/s, for {seconds} s")
-    hook, bob = lab.circle(STILL, 5.0, 0.0), lab.circle((130.0, 0.0), 10.0, mass)
+    begin = 100.0 + lab.about(30.0)
+    hook, bob = lab.circle(STILL, 5.0, 0.0), lab.circle((begin, 0.0), 10.0, mass)
     made = lab.call("SpringJoint", hook, bob, stiffness, damping, 100.0)
     world = lab.world(hook, bob, bonus=True)
     lab.tell(world, "springs.append", lab.thing(made, "a SpringJoint"))

@@ -20,6 +20,7 @@ Contacts = Counter[tuple[int, ...]]  # how many each two bodies have, by their n
 BALLS = 200
 STATES = 8  # balls of a scene that may be of any weight, and move
 PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
+WHOLE_CELLS = 4800.0  # px: many cells of each size that AT_THE_RIM asks about
 GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
 
 
@@ -47,7 +48,10 @@ def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contact
 
 
 def want_the_same_contacts(lab: Lab, balls: list[Disc], boxes: list[Rect]) -> None:
-    """Compare with all pairs."""
+    """Compare with all pairs; where they are is left of 0, and as it was to cells of many sizes."""
+    left = -WHOLE_CELLS * abs(lab.whole(0, 9))
+    balls = [each._replace(x=each.x + left) for each in balls]
+    boxes = [each._replace(x=each.x + left) for each in boxes]
     compare(lab, *crowd(lab, balls, boxes), balls, boxes)
 
 
@@ -151,9 +155,10 @@ def any_scene_has_the_contacts_of_all_pairs(
 def contacts_follow_the_bodies(lab: Lab) -> None:
     """What moved since the last step is looked for where it is now"""
     lab.ran("find_contacts with two balls far apart, and again after one moved to the other")
-    world, bodies = crowd(lab, [Disc(0.0, 0.0, 10.0), Disc(500.0, 0.0, 10.0)], [])
+    x, y = lab.about(0.0, 256.0), lab.about(0.0, 256.0)
+    world, bodies = crowd(lab, [Disc(x, y, 10.0), Disc(x + 500.0, y, 10.0)], [])
     want_no_other(lab, *without_and_with(lab, world, bodies))
-    lab.put(bodies[1], pos=(15.0, 0.0))
+    lab.put(bodies[1], pos=(x + 15.0, y))
     want_no_other(lab, *without_and_with(lab, world, bodies))
     lab.ran(f"{lab.running}, and a third time when that one is asleep")
     lab.put(bodies[1], asleep=True)
@@ -163,9 +168,10 @@ def contacts_follow_the_bodies(lab: Lab) -> None:
 def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
     """Of 200 balls only those near each other are looked at"""
     growths = []
+    x = lab.about(0.0, 256.0)
     for down in (45.0, 0.0):  # px; some ways are at their best in the one scene or in the other
         lab.ran(f"find_contacts with {BALLS // 2} balls, two and two in a long row, and {BALLS}")
-        few, many = (work(lab, row(balls, down)) for balls in (BALLS // 2, BALLS))
+        few, many = (work(lab, row(balls, down, x)) for balls in (BALLS // 2, BALLS))
         growths.append(many / few)
         if growths[-1] <= GROWTH:
             break
@@ -186,10 +192,10 @@ def work(lab: Lab, balls: list[Disc]) -> int:
     return lab.work(world, "find_contacts")
 
 
-def row(balls: int, down: float) -> list[Disc]:
+def row(balls: int, down: float, x: float) -> list[Disc]:
     """Balls two and two, each pair 60 px further to the right than the one before, and one more."""
     pairs = [
-        Disc(60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
+        Disc(x + 60.0 * pair + 15.0 * which, down * pair + 6.0 * which, 8.5 + (pair + which) % 3)
         for pair in range(-balls // 4, balls // 4)
         for which in range(2)
     ]

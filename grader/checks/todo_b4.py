@@ -25,6 +25,7 @@ class Course:
     box: Thing
     data: Thing  # what count_hits returned
     elasticity: float  # of a ball and a peg, multiplied as pymunk does
+    speed: float  # px/s, of what is thrown
 
 
 def course(lab: Lab) -> Course:
@@ -40,7 +41,14 @@ def course(lab: Lab) -> Course:
     pegs = [each for each in static_shapes(found) if each.kind == "Circle"]
     peg = min(pegs, key=lambda each: math.dist(middle(each), PEGS[0]))
     product = peg.elasticity * balls[0].shapes[0].elasticity
-    return Course(space, [lab.thing(each) for each in balls], lab.thing(boxes[0]), data, product)
+    return Course(
+        space,
+        [lab.thing(each) for each in balls],
+        lab.thing(boxes[0]),
+        data,
+        product,
+        lab.about(SPEED, 60.0),
+    )
 
 
 def static_shapes(space: SpaceValue) -> list[ShapeValue]:
@@ -64,7 +72,7 @@ def step_on(lab: Lab, course: Course, body: Thing) -> Moment:
 def throw(lab: Lab, course: Course, body: Thing, target: Pair, way: int = 1) -> Moment:
     """Throw a body from 100 px away straight down (way 1) or up (-1); how it moves in the end."""
     x, y = target
-    lab.put(body, position=(x, y - 100.0 * way), velocity=(0.0, SPEED * way))
+    lab.put(body, position=(x, y - 100.0 * way), velocity=(0.0, course.speed * way))
     return step_on(lab, course, body)
 
 
@@ -94,9 +102,9 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
     lab.saw("hits", ("touch", STEPS), counts[-1] - counts[-2])
     want_hits(lab, counts, [0, 1, 2, 3, 4])
     lab.want(last.vy < 0, "a ball that bounces off the peg", f"its speed is {last.vy:.0f} px/s")
-    bounce = here.elasticity * SPEED  # both surfaces count, as a product
+    bounce = here.elasticity * here.speed  # both surfaces count, as a product
     lab.want(
-        abs(last.vy + bounce) < 0.05 * SPEED,
+        abs(last.vy + bounce) < 0.05 * here.speed,
         f"a ball that bounces off the peg at {bounce:.0f} px/s, counted or not",
         f"at {-last.vy:.0f} px/s",
         "count_hits only counts: what bounces must bounce as it would without it.",
@@ -108,7 +116,7 @@ def two_balls_hit_two_pegs_at_once(lab: Lab, here: Course) -> None:
     lab.ran("no gravity: two balls thrown at two pegs at the same time")
     before = hits(lab, here)
     for ball, (x, y) in zip(here.balls, PEGS, strict=False):
-        lab.put(ball, position=(x, y - 100.0), velocity=(0.0, SPEED))
+        lab.put(ball, position=(x, y - 100.0), velocity=(0.0, here.speed))
     step_on(lab, here, here.balls[0])
     want_hits(lab, [hits(lab, here) - before], [2])
 
@@ -138,6 +146,6 @@ def only_balls_on_pegs_count_in_each_space_apart(lab: Lab) -> None:
     lab.ran("count_hits in a space of its own")
     space = lab.thing(lab.call("pymunk:Space"), "the space")
     body = lab.thing(lab.call("pymunk:Body", 1.0, 100.0), "the body in it")
-    lab.put(body, velocity=(40.0, -30.0), angular_velocity=0.5)
+    lab.put(body, velocity=(lab.about(40.0), -30.0), angular_velocity=0.5)
     lab.tell(space, "add", body)
     lab.call("count_hits", space, changes=NOTHING)

@@ -25,7 +25,10 @@ RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enoug
 
 def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
     """A body is drawn part of its way, and stays where it is"""
-    for before, now, dt in STEPS:
+    x, y, angle = lab.about(0.0, 64.0), lab.about(0.0, 64.0), lab.about(0.0, 1.0)
+    for begin, end, dt in STEPS:
+        before = begin[0] + x, begin[1] + y, begin[2] + angle
+        now = end[0] + x, end[1] + y, end[2] + angle
         body = moved(lab, before, now, dt)
         lab.put(body, vel=(-90.0, 10.0), omega=-3.0)  # as if it had just hit something
         want_all_shares(lab, body, before, now)
@@ -103,11 +106,12 @@ def drawn(lab: Lab, body: Thing, share: float) -> Place:
 
 def frames_without_a_step_show_something_new(lab: Lab) -> None:
     """Frames without a step show something new, too"""
-    frames = frames_at(RATE, FALLING + 0.2)
-    lab.ran(f"the lab scene with its {1 / STEP:.0f} steps a second, at {RATE} frames a second")
+    rate = RATE + 6 * abs(lab.whole(0, 9))
+    frames = frames_at(rate, FALLING + 0.2)
+    lab.ran(f"the lab scene with its {1 / STEP:.0f} steps a second, at {rate} frames a second")
     played = lab.play(frames, pictures=True)
     want_a_proper_end(lab, played, len(frames))
-    pictures = played.pictures[round(FALLING * RATE) : len(frames)]
+    pictures = played.pictures[round(FALLING * rate) : len(frames)]
     same = sum(one == other for one, other in pairwise(pictures))
     lab.want(
         len(pictures) > 1 and same == 0,

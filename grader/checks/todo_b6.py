@@ -29,13 +29,15 @@ ROUNDING = 1e-9
 def shift_drops_heavier_balls(lab: Lab) -> None:
     """A ball that is dropped with Shift held is ten times as heavy, whichever Shift"""
     lab.ran("the lab scene, clicks with no key held, one Shift or both, and other keys")
+    right, down = lab.whole(0, 40), lab.whole(0, 40)
+    places = [(x + right, y + down) for x, y in PLACES]
     clicks = [
         Event(3 + number, "click", place, held=keys)
-        for number, (place, (keys, _)) in enumerate(zip(PLACES, CLICKS, strict=True))
+        for number, (place, (keys, _)) in enumerate(zip(places, CLICKS, strict=True))
     ]
     played = lab.play([17] * (len(clicks) + 5), clicks, physics=False)
     want_a_proper_end(lab, played, len(clicks) + 5)
-    balls = [dropped(lab, played, place) for place in PLACES]
+    balls = [dropped(lab, played, place) for place in places]
     weights = [1 / (each.inv_mass * usual_mass(each)) for each in balls]
     lab.saw("heaviness", (), weights)
     for (keys, right), found in zip(CLICKS, weights, strict=True):

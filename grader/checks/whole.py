@@ -51,8 +51,9 @@ WITHIN_A_ROUNDING = 0.0051  # px, of a number printed with two digits
 TIPPED = 0.2  # rad
 
 
-def run(lab: Lab, seconds: float, rate: int = 20, every: int = 12) -> Played:
+def run(lab: Lab, seconds: float, rate: int | None = None, every: int = 12) -> Played:
     """Play the program and insist that it ran its steps, with finite numbers."""
+    rate = rate or lab.whole(20, 2)
     lab.ran(f"the program as it is for {seconds:g} s, at {rate} frames a second")
     frames = frames_at(rate, seconds)
     played = lab.play(frames, trail_every=every)
@@ -102,10 +103,12 @@ def movers(played: Played) -> list[Mover]:
 
 def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
     """The scene holds what the lesson says, and the program begins with it"""
-    lab.ran(f"make_world(random.Random({SEED}))")
-    want_parts(lab, world_parts(lab), [turning_as_a_disc(part) for part in [*FIXED, BOB]])
+    seed = lab.whole(SEED, SEED)
+    lab.ran(f"make_world(random.Random({seed}))")
+    parts = [turning_as_a_disc(part) for part in [*FIXED, BOB]]
+    want_parts(lab, world_parts(lab, seed), parts, seed)
     lab.ran("the program without running its steps, and what there is in its world")
-    frames = frames_at(60, 0.2)
+    frames = frames_at(60, 0.2 + abs(lab.whole(0, 9)) / 60)
     played = lab.play(frames, physics=False)
     want_a_proper_end(lab, played, len(frames))
     want_the_first_scene(lab, played, "at the start")
@@ -240,7 +243,7 @@ def want_all_inside(lab: Lab, played: Played) -> None:
 
 def frame_rates_do_not_change_the_motion(lab: Lab) -> None:
     """The same motion at 30, 60 and 144 frames a second, bit for bit"""
-    want_the_same_motion(lab, (30, 60, 144), 0.6)
+    want_the_same_motion(lab, (30, 60, 144), 0.6 + abs(lab.whole(0, 6)) / 30)
 
 
 def want_the_same_motion(lab: Lab, rates: tuple[int, ...], seconds: float) -> None:
@@ -271,15 +274,16 @@ REPEATED = 75  # steps, fewer than before the click; by then balls have met
 
 def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
     """A click drops a ball, MAX_BALLS at most, and R brings back the same scene"""
-    lab.ran("a turn of the wheel, 40 clicks at (450, 300), one in each frame, and R at the end")
+    place = lab.whole(450, 40), lab.whole(300, 20)
+    lab.ran(f"a turn of the wheel, 40 clicks at {place}, one in each frame, and R at the end")
     wheel = [Event(3, "click", (300, 100), button=4), Event(4, "click", (300, 100), button=5)]
-    clicks = [Event(frame, "click", (450, 300)) for frame in range(5, 45)]
+    clicks = [Event(frame, "click", place) for frame in range(5, 45)]
     reset = Event(48, "key", key="r")
     played = lab.play([17] * 52, [*wheel, *clicks, reset], physics=False, trail_every=1)
     want_a_proper_end(lab, played, 52)
     rows = list(map(moments, played.trail))
     lab.want(bool(rows), "fixed steps", "none")
-    want_a_first_ball(lab, rows)
+    want_a_first_ball(lab, rows, place)
     most = max(map(len, rows))
     lab.want(most == MAX_BALLS, f"{MAX_BALLS} moving bodies in the end", f"{most}")
     lab.want(
@@ -289,7 +293,7 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
     )
     want_the_first_scene(lab, played, "after R")
     lab.ran("the program for 0.7 s, a click, R, and 0.7 s more")
-    events = [Event(40, "click", (300, 200)), Event(42, "key", key="r")]
+    events = [Event(40, "click", (lab.whole(300, 40), 200)), Event(42, "key", key="r")]
     trail = lab.play([17] * 84, events, trail_every=1).trail
     again = [number for number, row in enumerate(trail) if number and row == trail[0]]
     lab.want(
@@ -299,7 +303,7 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
     )
 
 
-def want_a_first_ball(lab: Lab, rows: list[list[Moment]]) -> None:
+def want_a_first_ball(lab: Lab, rows: list[list[Moment]], place: tuple[int, int]) -> None:
     """Insist that the first click, and nothing before it, drops one ball where it is."""
     more = next((row for row in rows if len(row) > len(rows[0])), [])
     lab.want(
@@ -308,8 +312,8 @@ def want_a_first_ball(lab: Lab, rows: list[list[Moment]]) -> None:
         f"{max(len(more) - len(rows[0]), 0)} more",
     )
     lab.want(
-        any((each.x, each.y) == (450.0, 300.0) for each in more),
-        "a ball at (450, 300) after the first click",
+        any((each.x, each.y) == place for each in more),
+        f"a ball at {place} after the first click",
         "no ball there",
     )
 
@@ -319,14 +323,15 @@ def want_a_first_ball(lab: Lab, rows: list[list[Moment]]) -> None:
 
 def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
     """In pymunk the same scene: the stack stands, the rod holds, balls roll to rest"""
-    lab.ran(f"make_space(random.Random({SEED}))")
-    space, _ = pymunk_scene(lab)
+    seed = lab.whole(SEED, SEED)
+    lab.ran(f"make_space(random.Random({seed}))")
+    space, _ = pymunk_scene(lab, seed)
     lab.want(
         abs(space.damping - 0.95) < EXACT,
         "damping 0.95, the share of the speed kept per second",
         f"{space.damping:.6g}",
     )
-    want_parts(lab, space_parts(space), [*FIXED, BOB, *STACK])
+    want_parts(lab, space_parts(space), [*FIXED, BOB, *STACK], seed)
     bodies = [body for body in run(lab, 5.0).bodies if isinstance(body, SpaceBody)]
     moving = [body for body in bodies if body.kind == "dynamic" and body.shapes]
     bobs = [body for body in moving if body.shapes[0].radius == BOB_RADIUS]
@@ -361,7 +366,7 @@ def the_pymunk_stack_stands_and_its_rod_holds(lab: Lab) -> None:
     )
     most = max(abs(ball.angle) for ball in balls)
     lab.want(most > 1.0, "balls that have rolled", f"none has turned by more than {most:.2f} rad")
-    want_the_same_motion(lab, (30, 144), 0.4)
+    want_the_same_motion(lab, (30, 144), 0.4 + abs(lab.whole(0, 6)) / 30)
 
 
 def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
@@ -369,7 +374,8 @@ def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
     for level in (0, 3):
         want_a_free_box(lab, level)
     lab.ran("the pymunk program, with 8 balls dropped into the right edge of the top box")
-    clicks = [Event(20 + number, "click", (785, 430)) for number in range(8)]
+    first = lab.whole(20, 4)
+    clicks = [Event(first + number, "click", (785, 430)) for number in range(8)]
     knocked = lab.play(frames_at(20, 3.5), clicks)
     want_a_proper_end(lab, knocked, 70)
     tipped = max(abs(box.angle) for box in boxes_of(knocked))
@@ -399,12 +405,13 @@ def boxes_of(played: Played) -> list[SpaceBody]:
 
 def want_a_free_box(lab: Lab, level: int) -> None:
     """A ball hits one box of the stack: that one moves, and leaves the lowest or the top one."""
-    lab.ran(f"make_space, and a ball at 3000 px/s against the box on level {level} of the stack")
+    speed = lab.about(3000.0, 400.0)
+    lab.ran(f"make_space, and a ball at {speed:g} px/s against box {level} of the stack")
     space, stack = pymunk_scene(lab)
     lab.want(len(stack) == 4, "a stack of 4 boxes", f"{len(stack)}")
     thing = lab.thing(space)
     ball = lab.thing(lab.call("add_ball", thing, Rng(1), (650, 542 - 36 * level)), "a ball")
-    lab.put(ball, velocity=(3000, 0))
+    lab.put(ball, velocity=(speed, 0))
     last = lab.simulate(thing, stack, 60, every=60)
     hit, other = last.body(level)[-1], last.body(3 - level)[-1]
     lab.want(
@@ -418,7 +425,8 @@ def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
     """In pymunk clicks drop balls, B drops boxes, and R brings back the same scene"""
     lab.ran("the pymunk program: B four times, a click, B in 50 frames, R, and B once more")
     keys = [Event(frame, "key", key="b") for frame in (*range(5, 9), *range(14, 64), 72)]
-    events = [*keys, Event(11, "click", (450, 300)), Event(68, "key", key="r")]
+    place = lab.whole(450, 40), lab.whole(300, 20)
+    events = [*keys, Event(11, "click", place), Event(68, "key", key="r")]
     events += [Event(3, "click", (300, 100), button=4)]
     played = lab.play([17] * 76, events, physics=False, trail_every=1)
     want_a_proper_end(lab, played, 76)
@@ -438,8 +446,8 @@ def clicks_b_and_r_work_in_pymunk(lab: Lab) -> None:
         f"all of them at x = {boxes[0].x:.0f}",
     )
     lab.want(
-        any((each.x, each.y) == (450.0, 300.0) for each in row_of(rows, begin + 5)),
-        "a ball at (450, 300) after the click",
+        any((each.x, each.y) == place for each in row_of(rows, begin + 5)),
+        f"a ball at {place} after the click",
         "no ball there",
     )
     most = max(map(len, rows))

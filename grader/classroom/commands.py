@@ -68,7 +68,9 @@ def bridge_command(
     course: Course = Path("."),
     jobs: Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")] = 0,
     isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
-    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="A secret seed: other numbers in every check.")
+    ] = None,
 ) -> None:
     """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
     if results:
@@ -120,7 +122,9 @@ def gradescope_command(
         str, typer.Option(help="Put all packages in, for this Python, such as 3.11.")
     ] = "",
     isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
-    seed: Annotated[int | None, typer.Option(help="A secret seed for the property tests.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="A secret seed: other numbers in every check.")
+    ] = None,
 ) -> None:
     """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
     needs_checkout("gradescope")

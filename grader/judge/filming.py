@@ -146,9 +146,15 @@ class Recorder:
 class FilmingLab(Lab):
     """A lab whose connection is recorded."""
 
-    def __init__(self, module: str, open_child: Callable[[], Child], pieces: list[Piece]) -> None:
+    def __init__(
+        self,
+        module: str,
+        open_child: Callable[[], Child],
+        pieces: list[Piece],
+        secret: str | None = None,
+    ) -> None:
         self.recorder = Recorder(Translator(module))
-        super().__init__(module, open_child, pieces, self.recorder.send)
+        super().__init__(module, open_child, pieces, self.recorder.send, secret)
 
     def ran(self, text: str) -> None:
         super().ran(text)
@@ -209,7 +215,8 @@ def on_a_curve(request: Integrate, answers: list[Value]) -> list[Shot]:
 def filmed(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -> FilmingLab:
     """The same once more, before the camera; it fails again, or ends where it did."""
     todo, check = failing.todo, failing.check
-    lab = FilmingLab(check.module or todo.module, lambda: open_child(check.cpu_seconds), pieces)
+    module = check.module or todo.module
+    lab = FilmingLab(module, lambda: open_child(check.cpu_seconds), pieces, failing.secret)
     with lab.opened(), suppress(Exception):
         failing.again(lab=lab)
     return lab

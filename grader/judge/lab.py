@@ -5,6 +5,7 @@ strictly typed and finite, or the check fails with a sentence that says what was
 """
 
 import math
+import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -66,8 +67,11 @@ class Lab(Decoder):
         open_child: Callable[[], Child],
         pieces: list[Piece],
         send: Send = ask_child,
+        secret: str | None = None,  # of an instructor who has a seed
     ) -> None:
         super().__init__()
+        self.drawn = None if secret is None else random.Random(secret)
+        self.factor = self.about(1.0)  # for all of one kind in a check, such as masses
         self.module = module
         self.connection = Connection(module, open_child, pieces, send)
         self.observations: list[Observation] = []
@@ -94,6 +98,24 @@ class Lab(Decoder):
         """Remember an answer, so that a known mistake can be told by its numbers."""
         if len(self.observations) < MAX_OBSERVATIONS:
             self.observations.append(Observation(about, inputs, answer))
+
+    def about(self, number: float, within: float | None = None) -> float:
+        """The number; under an instructor's secret seed another one near it, and never the same.
+
+        It is off by eighths of `within`, which is a quarter of the number where nothing else is
+        said: so sums and products of round numbers stay exact. What is asked with the numbers that
+        it gives cannot be answered by heart. Not for properties: those draw by themselves.
+        """
+        if self.drawn is None:
+            return number
+        most = number / 4 if within is None else within
+        return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, 8) / 8 * most
+
+    def whole(self, number: int, within: int) -> int:
+        """The same for a whole number, which is off by 1 to `within`."""
+        if self.drawn is None:
+            return number
+        return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, within)
 
     # ------------------------------------------------------------ asking
 

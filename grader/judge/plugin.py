@@ -30,6 +30,16 @@ class Failing:
     check: Check
     again: Example
     pieces: list[Piece]
+    seed: int | None = None
+
+    @property
+    def secret(self) -> str | None:
+        return secret_of(self.seed, self.todo, self.check)
+
+
+def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
+    """What the numbers of a check are drawn by; None where they are the usual ones."""
+    return None if seed is None else f"{seed} {todo.id} {check.id}"
 
 
 @dataclass
@@ -137,7 +147,7 @@ class GradingPlugin:
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if told.failure is not None:
             if not told.ended:
-                failing = Failing(todo, check, again, told.connection.pieces)
+                failing = Failing(todo, check, again, told.connection.pieces, self.seed)
                 self.failing[todo.id, check.id] = failing
             return self._failure(todo, check, title, told.failure)
         return self._result(todo, check, title, "passed")
@@ -166,7 +176,8 @@ class GradingPlugin:
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
-        lab = Lab(module, lambda: self._child_for(todo, check), pieces)
+        secret = secret_of(self.seed, todo, check)
+        lab = Lab(module, lambda: self._child_for(todo, check), pieces, secret=secret)
         little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
