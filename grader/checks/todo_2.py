@@ -17,6 +17,7 @@ FLOOR = Lever(0.0, 100.0, 30.0, -100.0)
 DOWN = (0.0, 1.0)
 ALONG_THE_FLOOR = (1.0, 0.0)
 DIAGONAL = (0.6, 0.8)
+PLACES = (-30.3125, 70.6875), (12.4375, -5.8125)  # px; the arms say where they are touched
 Motion = dict[str, Any]  # vel, omega and angle
 
 
@@ -24,8 +25,8 @@ def discs(lab: Lab, a: Lever, b: Lever, *fields: Motion) -> tuple[Thing, Thing]:
     """Both discs; `fields` are how A and B move, or nothing where they rest."""
     moving = fields or ({}, {})
     first, second = (
-        lab.circle((0.0, 0.0), lever.radius, lever.mass, **how)
-        for lever, how in zip((a, b), moving, strict=True)
+        lab.circle(place, lever.radius, lever.mass, **how)
+        for place, lever, how in zip(PLACES, (a, b), moving, strict=True)
     )
     return first, second
 

@@ -13,15 +13,18 @@ from grader.checks.telling import want_told
 from grader.judge.lab import STEP, Broke, Lab, Pair, Thing
 from grader.protocol import BodyValue
 
+ANGLES = (0.7, -2.4)  # rad, by which A and B are turned
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
 def joined(lab: Lab, rod: Rod, spins: Pair = STILL) -> tuple[Thing, Thing, Thing]:
     """The joint, its A and its B, ready to be solved."""
     smooth, rough = {"restitution": 0.96875, "friction": 0.0}, {"restitution": 0.0, "friction": 1.5}
-    a = lab.circle(STILL, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], **rough)
+    a = lab.circle(STILL, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], angle=ANGLES[0], **rough)
     at_first = (rod.length, 0.0)
-    b = lab.circle(at_first, 10.0, rod.mass_b, vel=rod.vel_b, omega=spins[1], **smooth)
+    b = lab.circle(
+        at_first, 10.0, rod.mass_b, vel=rod.vel_b, omega=spins[1], angle=ANGLES[1], **smooth
+    )
     joint = lab.thing(lab.call("DistanceJoint", a, b), "a DistanceJoint")
     lab.put(b, pos=rod.offset)
     lab.tell(joint, "prepare", rod.dt)
@@ -217,7 +220,7 @@ def a_static_end_never_moves(lab: Lab, rod: Rod, first: bool, spin: float) -> No
     else:
         end, place = want_exact(lab, rod.turned, (spin, 0.0))[1], rod.turned.offset
     lab.want(
-        (*end.pos, *end.vel, end.angle, end.omega) == (*place, 0.0, 0.0, 0.0, 0.0),
+        (*end.pos, *end.vel, end.omega) == (*place, 0.0, 0.0, 0.0) and end.angle in ANGLES,
         f"the static end exactly at {place}, at rest",
         f"at ({end.pos.x!r}, {end.pos.y!r}), speed ({end.vel.x!r}, {end.vel.y!r}) px/s",
     )

@@ -164,6 +164,7 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
 def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
     """Every ball has the moment of its own size, and is else as it was given"""
     space = lab.thing(lab.call("pymunk:Space"), "the space")
+    lab.put(space, gravity=(3.5, 700.25), damping=0.8125, iterations=7)
     for number in range(3):
         lab.ran(f"add_ball with random.Random({seed + number}) at ({x + 50.0 * number:g}, {y:g})")
         # The first that is drawn; how a colour is drawn behind it is left open.

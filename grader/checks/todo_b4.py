@@ -145,6 +145,7 @@ def only_balls_on_pegs_count_in_each_space_apart(lab: Lab) -> None:
     want_hits(lab, [*counts, hits(lab, afresh)], [1, 0, 1])
     lab.ran("count_hits in a space of its own")
     space = lab.thing(lab.call("pymunk:Space"), "the space")
+    lab.put(space, gravity=(3.5, 700.25), damping=0.8125, iterations=7)
     body = lab.thing(lab.call("pymunk:Body", 1.0, 100.0), "the body in it")
     lab.put(body, velocity=(lab.about(40.0), -30.0), angular_velocity=0.5)
     lab.tell(space, "add", body)
