@@ -21,6 +21,7 @@ import pygame.sysfont
 
 from grader.protocol import (
     ENVIRONMENT,
+    MAX_TEXT,
     Answered,
     Asked,
     Call,
@@ -45,6 +46,7 @@ from grader.protocol import (
     Returned,
     Set,
     Simulate,
+    cut,
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
@@ -114,7 +116,7 @@ def attempt(
     try:
         return [answer(subject, clock, output, camera, request) for request in requests][-1]
     except ContractError as error:
-        return Missing(str(error))
+        return Missing(cut(str(error), MAX_TEXT))
     except BaseException as error:
         return subject.raised(error)
 
