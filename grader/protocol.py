@@ -9,12 +9,12 @@ import select
 import socket
 import struct
 import time
-from typing import Literal
+from typing import Annotated, Literal
 
 import msgspec
-from msgspec import Struct
+from msgspec import Meta, Struct
 
-MAX_MESSAGE = 8 * 1024 * 1024  # bytes; a longer answer is refused unread
+MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; usual are up to 250 KB
 RUNAWAY = 2000  # steps in one frame at which a program is stopped
 MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot of a film
 HEADER = struct.Struct(">I")
@@ -30,6 +30,27 @@ ENVIRONMENT = {
     "TZ": "UTC",
     "OPENBLAS_NUM_THREADS": "1",  # or numpy wants memory for each core that there is
 }
+
+# ---------------------------------------------------------------- texts
+
+# Each text has a greatest length, and a message with a longer one is none: what a child sends is
+# kept, written and shown, so its length would be multiplied. A child of ours cuts its texts before.
+MAX_NAME, MAX_TEXT = 200, 2000  # characters
+MAX_PRINTED = 65 * 1024  # of one answer
+MAX_LINES, MAX_FRAMES = (
+    200,
+    12,
+)  # printed lines of a program, and functions that an error went through
+
+Name = Annotated[str, Meta(max_length=MAX_NAME)]
+Text = Annotated[str, Meta(max_length=MAX_TEXT)]
+Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
+
+
+def cut(text: str, most: int) -> str:
+    """At most so many characters of a text; what is missing is told by its last one."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
 
 # ---------------------------------------------------------------- values
 
@@ -48,7 +69,7 @@ class Ref(Struct, frozen=True, tag="ref"):
     """An object that lives in the child; `kind` is its type's name."""
 
     id: int
-    kind: str = ""
+    kind: Name = ""
 
 
 class Items(Struct, frozen=True, tag="items"):
@@ -80,7 +101,7 @@ class ContactValue(Struct, frozen=True, tag="contact"):
 
 
 class ShapeValue(Struct, frozen=True):
-    kind: str  # Circle, Segment or Poly
+    kind: Name  # Circle, Segment or Poly
     radius: float
     box: tuple[float, float, float, float]  # left, bottom, right, top in px
     friction: float
@@ -102,7 +123,7 @@ class SpaceBody(Struct, frozen=True, tag="space_body"):
 
 
 class SpaceJoint(Struct, frozen=True):
-    kind: str
+    kind: Name
     a: int
     b: int
     anchor_a: Vec | None  # in world coordinates
@@ -124,7 +145,7 @@ Value = (
     | bool
     | int
     | float
-    | str
+    | Text
     | Vec
     | Ref
     | Items
@@ -282,7 +303,7 @@ class Change(Struct, frozen=True, array_like=True):
     """
 
     ref: int
-    name: str
+    name: Name
 
 
 class Returned(Struct, frozen=True, tag="returned"):
@@ -296,22 +317,24 @@ class Returned(Struct, frozen=True, tag="returned"):
 
 
 class CodeLine(Struct, frozen=True):
-    file: str
+    file: Text
     line: int
-    function: str
-    text: str
+    function: Name
+    text: Text
 
 
 class Raised(Struct, frozen=True, tag="raised"):
-    error: str
-    message: str
-    frames: list[CodeLine]  # the student's own frames, outermost first
+    error: Name
+    message: Text
+    frames: Annotated[
+        list[CodeLine], Meta(max_length=MAX_FRAMES)
+    ]  # the student's own frames, outermost first
 
 
 class Missing(Struct, frozen=True, tag="missing"):
     """A name or file that the contract asks for is not there."""
 
-    what: str
+    what: Text
 
 
 class ContactRow(Struct, frozen=True, array_like=True):
@@ -337,7 +360,7 @@ class Played(Struct, frozen=True, tag="played"):
     clock: list[float]  # the scripted time when they had run, ms since the start
     dts: list[float]  # the different step sizes seen, at most 16 of them
     ended: Literal["returned", "stopped", "runaway"]  # stopped: it ran on after QUIT
-    lines: list[str]  # what it printed, the last 200 of them
+    lines: Annotated[list[Text], Meta(max_length=MAX_LINES)]  # what it printed, the last of them
     bodies: list[BodyValue | SpaceBody]
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
@@ -413,7 +436,7 @@ class Asked(Struct, frozen=True):
 class Answered(Struct, frozen=True):
     number: int
     reply: Reply | Filmed
-    output: str = ""  # what the submission printed since the last answer, cut to a bound
+    output: Printed = ""  # what the submission printed since the last answer, cut to a bound
 
 
 # ---------------------------------------------------------------- starting a child
@@ -442,7 +465,7 @@ class ChildSetup(Struct, frozen=True):
 
 class Ready(Struct, frozen=True):
     pid: int
-    layers: list[str]
+    layers: list[Name]
 
 
 class Open(Struct, frozen=True, tag="open"):

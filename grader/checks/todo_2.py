@@ -89,14 +89,16 @@ def like(lab: Lab, lever: Lever) -> Lever:
 def the_first_body_adds_its_spin_term(lab: Lab) -> None:
     """The first body adds (ra x axis)²/I_a, a static second body nothing"""
     want_about(lab, Lever(2.0, 10.0, 10.0, 0.0), FLOOR, DOWN)
-    want_about(lab, Lever(0.5, 20.0, -9.75, 17.0), FLOOR, DOWN)
+    for rx in (-9.75, 9.75):
+        want_about(lab, Lever(0.5, 20.0, rx, 17.0), FLOOR, DOWN)
     want_about(lab, Lever(4.0, 15.0, 8.0, 12.0), FLOOR, DIAGONAL)
 
 
 def the_second_body_adds_its_spin_term(lab: Lab) -> None:
     """The second body adds (rb x axis)²/I_b, a static first body nothing"""
     want_about(lab, FLOOR, Lever(2.0, 10.0, 10.0, 0.0), DOWN)
-    want_about(lab, FLOOR, Lever(0.5, 20.0, -9.75, 17.0), DOWN)
+    for rx in (-9.75, 9.75):
+        want_about(lab, FLOOR, Lever(0.5, 20.0, rx, 17.0), DOWN)
     want_about(lab, FLOOR, Lever(4.0, 15.0, 8.0, 12.0), DIAGONAL)
 
 

@@ -49,7 +49,7 @@ def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
 
 SETTINGS = (
     *("iterations", "sleep_time_threshold", "idle_speed_threshold"),
-    *("collision_slop", "collision_bias"),
+    *("collision_slop", "collision_bias", "current_time_step"),
 )
 
 

@@ -5,7 +5,8 @@ before each answer, or run in circles in every check. So seconds are added up, b
 Who has used up much has little for each check that is left, and who goes on like that has none.
 
 Seconds are those of a processor that worked for the submission, and those in which it could have
-worked and rested. How long it waits for a processor that others use counts for neither.
+worked and rested. How long it waits for a processor that others use counts for neither. Added up is
+also what it answers: the judge has to read that, and keeps some of it.
 """
 
 from collections import defaultdict
@@ -18,6 +19,7 @@ TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
 END_CPU, END_REST = 90.0, 32.0  # s; then no check is run any more
+END_HEARD = 64 * 1024 * 1024  # bytes of answers; real ones send 3 to 5 MB
 
 
 @dataclass
@@ -26,6 +28,7 @@ class Budget:
 
     cpu: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     rest: dict[str, float] = field(default_factory=lambda: defaultdict(float))
+    heard: int = 0  # bytes of answers
 
     def cpu_for(self, todo: str, usual: int) -> int:
         """Processor seconds for a process of a check that would have so many as usual."""
@@ -40,6 +43,7 @@ class Budget:
     def charge(self, todo: str, connection: Connection) -> None:
         self.cpu[todo] += connection.cpu
         self.rest[todo] += connection.rested
+        self.heard += connection.heard
 
     @property
     def cut(self) -> str:
@@ -48,6 +52,8 @@ class Budget:
             return f"not run: the checks before it used up {END_CPU:g} s of processor time"
         if sum(self.rest.values()) >= END_REST:
             return f"not run: in the checks before it the code rested for {END_REST:g} s"
+        if self.heard >= END_HEARD:
+            return f"not run: the answers to the checks before it had {END_HEARD >> 20} MB"
         return ""
 
     def why_little(self, todo: str) -> str:

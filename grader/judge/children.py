@@ -47,6 +47,9 @@ WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + e
 AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
 STOPPED_SECONDS = 2  # a warm process that is stopped for so long was stopped by a child
 REST_SECONDS = 8.0  # for so long a child may rest in all; longer, and it waits for nothing
+# What a child may send in all: answers are kept by checks, and take up to thirty times their length
+# in memory. The most that real ones send is 1 MB.
+MAX_HEARD = 8 * 1024 * 1024  # bytes
 LOOK_SECONDS = 1.0  # so long answers take, one or many, before somebody looks at whether it rests
 
 ready_decoder = msgspec.msgpack.Decoder(Ready)
@@ -76,6 +79,7 @@ class Child:
         self.rested = 0.0  # s, in which it owed an answer and did nothing
         self.waited = self.looked = 0.0  # s, for its answers: in all, and when somebody last looked
         self.asked = 0
+        self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
         self.over = ""
@@ -116,7 +120,11 @@ class Child:
             self.asked += 1
             first, self.first = self.first, []
             self.channel.send(Asked(self.asked, request, first))
-            answered = answer_decoder.decode(self._receive())
+            body = self._receive()
+            self.heard += len(body)
+            if self.heard > MAX_HEARD:
+                raise ProtocolError(f"more than {MAX_HEARD >> 20} MB of answers")
+            answered = answer_decoder.decode(body)
             if answered.number != self.asked:
                 raise ProtocolError("an answer to another question")
         except ChannelTimeout as error:

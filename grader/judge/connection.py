@@ -47,6 +47,7 @@ class Connection:
     child: Child | None = None
     cpu: float = 0.0  # s, of processor time that its children used
     rested: float = 0.0  # s, in which they could have worked
+    heard: int = 0  # bytes of their answers
     over: NotYet | Broke | None = None  # why nothing more can be asked
 
     def ask(self, request: Request, ran: str) -> Answer:
@@ -79,6 +80,7 @@ class Connection:
             self.child.end()
             self.cpu += self.child.cpu
             self.rested += self.child.rested
+            self.heard += self.child.heard
             self.child = None
 
     def _ask(self, child: Child, request: Request, ran: str) -> Answer:

@@ -2,28 +2,103 @@
 
 A folder often holds more than runs: a kept copy of the starter, a second try, a file of notes. So
 the names of imports are followed from the program's module to the one definition that counts.
+
+The text may be made to cost its reader much. So one file is parsed at a time, and no tree is kept;
+files have a greatest size, alone and together; and a name is looked up once in each module.
 """
 
 import ast
 import textwrap
-import warnings
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
+from grader.todo_regions import parsed
 
-@dataclass(frozen=True)
+MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
+MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function as it stands in a file."""
+
+    name: str
+    lineno: int
+    end_lineno: int
+    parameters: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Definition:
     """The module in which a name ends up, and its function there, if the module can be read."""
 
     module: str
-    function: ast.FunctionDef | None
+    function: Function | None
+
+
+@dataclass(frozen=True, slots=True)
+class Alias:
+    """Another name for what has one already, as in `step = world_step` or `World.step = step`."""
+
+    target: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class Class:
+    members: dict[str, Function | Alias]
+    bases: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class From:
+    """What another module has, under this name."""
+
+    module: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Star:
+    """All that another module has."""
+
+    module: str
+
+
+@dataclass(frozen=True, slots=True)
+class Imported:
+    """A module."""
+
+    module: str
+
+
+Binding = Function | Class | Alias | From | Star | Imported
+
+
+@dataclass
+class Module:
+    """What the names of a module are bound to, and which others its import loads."""
+
+    empty: bool = True  # nothing in it, or no Python
+    names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
+    stars: list[tuple[int, Binding]] = field(default_factory=list)
+    imports: dict[str, None] = field(default_factory=dict)
+
+    def bindings(self, path: str, first: str) -> list[Binding]:
+        """What may say something about a path, the last statement first."""
+        found = [*self.names.get(first, ()), *self.stars]
+        if path != first:
+            found += self.names.get(path, ())
+        return [each for _, each in sorted(found, key=lambda each: -each[0])]
 
 
 class Program:
     """The modules of a submission, and what their names stand for.
 
-    A file is parsed when a name leads to it: most of what lies about never is.
+    A file is parsed when a name leads to it: most of what lies about never is. `unread` are those
+    that a name led to and that were too much.
     """
 
     def __init__(self, texts: Mapping[Path, str]) -> None:
@@ -32,26 +107,28 @@ class Program:
         self.paths: dict[str, Path] = {}  # by the dotted name of a module
         for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
             self.paths.setdefault(dotted(path), path)  # a package hides a file of its name
-        self.parsed: dict[str, list[ast.stmt]] = {}
-        self.imports: dict[str, list[str]] = {}  # the modules that each imports, as far as known
+        self.depth = max((name.count(".") + 1 for name in self.paths), default=0)
+        self.modules: dict[str, Module] = {}
+        self.unread: list[Path] = []
+        self.read = 0  # characters that were parsed
+        self.found: dict[tuple[str, str], Definition | None] = {}  # of one question
 
     def tree(self, module: str) -> list[ast.stmt]:
         """The statements of a module; none where it is no Python."""
-        if module not in self.parsed:
-            self.parsed[module] = statements(self.texts[self.paths[module]])
-        return self.parsed[module]
+        return statements(self.texts[self.paths[module]])
 
-    def source(self, module: str, function: ast.FunctionDef) -> str:
+    def source(self, module: str, function: Function) -> str:
         """The lines of a function of a module, moved to the left edge."""
         return source_of(self.texts[self.paths[module]], function)
 
     def definition(self, module: str, path: str) -> Definition | None:
         """Where `module` gets `name` or `Class.name` from."""
-        found = self._bound(module, path, frozenset())
+        self.found = {}
+        found = self._bound(module, path)
         if found is not None and found.function is not None:
             return found
         # A package need not pass the name on: any part of it that runs may have it.
-        others = (self._bound(each, path, frozenset()) for each in self.loaded(module))
+        others = (self._bound(each, path) for each in self.loaded(module))
         return next((each for each in others if each and each.function), found)
 
     def loaded(self, module: str) -> list[str]:
@@ -62,20 +139,67 @@ class Program:
             name = waiting.pop()
             if name in self.paths and name not in seen:
                 seen.add(name)
-                if name not in self.imports:
-                    self.imports[name] = list(dict.fromkeys(self._imports(name)))
-                waiting += self.imports[name]
+                waiting += self._module(name).imports
         return sorted(seen)
 
-    def _imports(self, module: str) -> Iterator[str]:
-        for node in ast.walk(ast.Module(self.tree(module), [])):
+    # ------------------------------------------------------------ reading a module
+
+    def _module(self, name: str) -> Module:
+        if name not in self.modules:
+            self.modules[name] = self._summary(name)
+        return self.modules[name]
+
+    def _summary(self, name: str) -> Module:
+        """All that is kept of a module's tree."""
+        text = self.texts[self.paths[name]]
+        if self.read + len(text) > MAX_READ:
+            self.unread.append(self.paths[name])
+            return Module()
+        self.read += len(text)
+        tree = statements(text)
+        module = Module(empty=not tree)
+        module.imports = dict.fromkeys(self._imports(name, tree))
+        for number, node in enumerate(top_level(tree)):
+            match node:
+                case ast.FunctionDef():
+                    module.names[node.name].append((number, function_at(node)))
+                case ast.ClassDef():
+                    module.names[node.name].append((number, class_at(node)))
+                case ast.Assign(targets=[target], value=value):
+                    left, right = dotted_name(target), dotted_name(value)
+                    if left and right:
+                        module.names[left].append((number, Alias(left, right)))
+                case ast.ImportFrom():
+                    source = self._source(name, node)
+                    for each in node.names:
+                        if each.name == "*":
+                            module.stars.append((number, Star(source)))
+                        else:
+                            bound = module.names[each.asname or each.name]
+                            bound.append((number, From(source, each.name)))
+                case ast.Import():
+                    for each in node.names:
+                        bound = module.names[each.asname or each.name]
+                        bound.append((number, Imported(each.name)))
+        return module
+
+    def _imports(self, module: str, tree: list[ast.stmt]) -> Iterator[str]:
+        """The modules of the submission that an import loads, wherever in the file it stands."""
+        for node in ast.walk(ast.Module(tree, [])):
             if isinstance(node, ast.Import):
                 for alias in node.names:
-                    yield from ancestors(alias.name)
+                    yield from self._known(alias.name)
             elif isinstance(node, ast.ImportFrom):
                 source = self._source(module, node)
-                yield from ancestors(source)
-                yield from (f"{source}.{alias.name}" for alias in node.names)
+                yield from self._known(source)
+                names = (f"{source}.{each.name}" for each in node.names)
+                yield from (each for each in names if each in self.paths)
+
+    def _known(self, name: str) -> Iterator[str]:
+        """A module and the packages around it, as far as they are the submission's."""
+        parts = name.split(".", self.depth)[: self.depth]
+        paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
+        return (each for each in paths if each in self.paths)
 
     def _source(self, module: str, node: ast.ImportFrom) -> str:
         """The module that a `from ... import` takes its names from."""
@@ -86,72 +210,80 @@ class Program:
         package = package[: len(package) - node.level + inside]
         return ".".join([*package, *filter(None, [node.module])])
 
-    def _bound(self, module: str, path: str, seen: frozenset[tuple[str, str]]) -> Definition | None:
+    # ------------------------------------------------------------ following a name
+
+    def _bound(self, module: str, path: str, hops: int = 0) -> Definition | None:
         """What a name of a module, or `Class.name`, is bound to at last."""
-        if module not in self.paths or (module, path) in seen:
+        if module not in self.paths or hops > MAX_HOPS:
             return None
-        seen |= {(module, path)}
+        if (module, path) not in self.found:
+            self.found[module, path] = None  # a name in a circle stands for nothing
+            self.found[module, path] = self._looked_up(module, path, hops + 1)
+        return self.found[module, path]
+
+    def _looked_up(self, module: str, path: str, hops: int) -> Definition | None:
         first, _, rest = path.partition(".")
-        tree = self.tree(module)
-        for node in reversed(list(top_level(tree))):
-            match node:
-                case ast.FunctionDef(name=name) if name == path:
-                    return Definition(module, node)
-                case ast.ClassDef(name=name) if name == first and rest:
-                    return self._in_class(module, node, rest, seen)
-                case ast.Assign(targets=[target], value=value) if ast.unparse(target) == path:
-                    if isinstance(value, ast.Name | ast.Attribute):
-                        return self._bound(module, ast.unparse(value), seen)
-                case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
-                    if name == first and rest:
-                        return self._bound(module, f"{other}.{rest}", seen)
-                case ast.ImportFrom():
-                    found = self._imported(module, node, first, rest, seen)
-                    if found is not None:
-                        return found
-                case ast.Import(names=aliases) if rest:
-                    for alias in aliases:
-                        if (alias.asname or alias.name) == first:
-                            return self._bound(alias.name, rest, seen)
-        return None if tree else Definition(module, None)  # empty, or no Python: nothing to tell
+        known = self._module(module)
+        for binding in known.bindings(path, first):
+            found: Definition | None = None
+            match binding:
+                case Function(name=name) if name == path:
+                    return Definition(module, binding)
+                case Class() if rest:
+                    return self._in_class(module, binding, rest, hops)
+                case Alias(target=target, path=other) if target == path:
+                    return self._bound(module, other, hops)
+                case Alias(target=target, path=other) if "." not in target + other:
+                    return self._bound(module, f"{other}.{rest}", hops)
+                case From(module=source, name=name):
+                    inside = f"{source}.{name}"
+                    if rest and inside in self.paths:  # a module, not a name in one
+                        found = self._bound(inside, rest, hops)
+                    else:
+                        found = self._bound(source, ".".join(filter(None, [name, rest])), hops)
+                case Star(module=source):
+                    found = self._bound(source, path, hops)
+                    found = found if found and found.function else None
+                case Imported(module=source) if rest:
+                    return self._bound(source, rest, hops)
+            if found is not None:
+                return found
+        return Definition(module, None) if known.empty else None  # nothing to tell
 
-    def _imported(
-        self,
-        module: str,
-        node: ast.ImportFrom,
-        first: str,
-        rest: str,
-        seen: frozenset[tuple[str, str]],
-    ) -> Definition | None:
-        source = self._source(module, node)
-        for alias in node.names:
-            if (alias.asname or alias.name) == first:
-                if f"{source}.{alias.name}" in self.paths and rest:  # a module, not a name in one
-                    return self._bound(f"{source}.{alias.name}", rest, seen)
-                return self._bound(source, ".".join(filter(None, [alias.name, rest])), seen)
-            if alias.name == "*":
-                found = self._bound(source, ".".join(filter(None, [first, rest])), seen)
-                if found is not None and found.function is not None:
-                    return found
-        return None
-
-    def _in_class(
-        self, module: str, owner: ast.ClassDef, name: str, seen: frozenset[tuple[str, str]]
-    ) -> Definition | None:
+    def _in_class(self, module: str, owner: Class, name: str, hops: int) -> Definition | None:
         """A method of a class, its own or one that it inherits."""
-        for node in reversed(list(top_level(owner.body))):
-            match node:
-                case ast.FunctionDef(name=here) if here == name:
-                    return Definition(module, node)
-                case ast.Assign(targets=[ast.Name(id=here)], value=ast.Name(id=other)):
-                    if here == name:
-                        return self._bound(module, other, seen)
-        for base in owner.bases:
-            if isinstance(base, ast.Name | ast.Attribute):
-                found = self._bound(module, f"{ast.unparse(base)}.{name}", seen)
-                if found is not None:
-                    return found
-        return None
+        match owner.members.get(name):
+            case Function() as function:
+                return Definition(module, function)
+            case Alias(path=other):
+                return self._bound(module, other, hops)
+        bases = (self._bound(module, f"{base}.{name}", hops) for base in owner.bases)
+        return next((found for found in bases if found is not None), None)
+
+
+def function_at(node: ast.FunctionDef) -> Function:
+    parameters = tuple(each.arg for each in node.args.args)
+    return Function(node.name, node.lineno, node.end_lineno or node.lineno, parameters)
+
+
+def class_at(node: ast.ClassDef) -> Class:
+    members: dict[str, Function | Alias] = {}
+    for each in top_level(node.body):
+        match each:
+            case ast.FunctionDef():
+                members[each.name] = function_at(each)
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+                members[name] = Alias(name, other)
+    return Class(members, list(filter(None, map(dotted_name, node.bases))))
+
+
+def dotted_name(node: ast.expr) -> str:
+    """`a.b.c` as it stands there; empty for what is no name."""
+    parts = []
+    while isinstance(node, ast.Attribute):
+        parts.append(node.attr)
+        node = node.value
+    return ".".join([node.id, *reversed(parts)]) if isinstance(node, ast.Name) else ""
 
 
 def dotted(path: PurePath) -> str:
@@ -160,33 +292,31 @@ def dotted(path: PurePath) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def ancestors(name: str) -> Iterator[str]:
-    """A module and the packages around it, all of which its import loads."""
-    parts = name.split(".")
-    return (".".join(parts[: number + 1]) for number in range(len(parts)))
+def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements that run when a module or class is made, those under `if` and `try` too.
 
-
-def top_level(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements that run when a module or class is made, those under `if` and `try` too."""
-    for node in body:
+    In the order of the text; without recursion, since an `elif` may follow on thousands of others.
+    """
+    waiting = list(reversed(body))
+    while waiting:
+        node = waiting.pop()
         yield node
+        inside: list[ast.stmt] = []
         match node:
-            case ast.If() | ast.Try():
-                for part in (node.body, *(h.body for h in getattr(node, "handlers", []))):
-                    yield from top_level(part)
-                yield from top_level(node.orelse)
-                yield from top_level(getattr(node, "finalbody", []))
+            case ast.If():
+                inside = [*node.body, *node.orelse]
+            case ast.Try():
+                handled = [each for handler in node.handlers for each in handler.body]
+                inside = [*node.body, *handled, *node.orelse, *node.finalbody]
             case ast.With():
-                yield from top_level(node.body)
+                inside = node.body
+        waiting += reversed(inside)
 
 
 def statements(text: str) -> list[ast.stmt]:
     """The statements of a source text; none where it is no Python."""
-    try:
-        with warnings.catch_warnings(action="ignore"):
-            return ast.parse(text).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return []
+    tree = parsed(text)
+    return tree.body if tree else []
 
 
 def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
@@ -203,7 +333,7 @@ def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
     return found[-1] if found else None
 
 
-def source_of(text: str, function: ast.FunctionDef) -> str:
+def source_of(text: str, function: Function | ast.FunctionDef) -> str:
     """The lines of a function, moved to the left edge."""
     lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
     return textwrap.dedent("\n".join(lines))

@@ -219,7 +219,7 @@ class Grading:
             isolation=self.sandbox.layers,
             todos=[],
         )
-        return nothing.with_todos(todos)
+        return nothing.with_todos(todos).in_bounds()
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:

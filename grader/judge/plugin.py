@@ -16,10 +16,12 @@ from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
-from grader.judge.result import CheckResult, State, Where
+from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission
 from grader.protocol import Piece
+
+UNREAD = 3  # files of which is told that they were too long to look into
 
 
 @dataclass(frozen=True)
@@ -206,6 +208,8 @@ class GradingPlugin:
         self, todo: Todo, check: Check, title: str, failure: NotYet | Broke
     ) -> CheckResult:
         where = self.submission.where.get(todo.id)
+        unread = self.submission.unread[:UNREAD] if todo.function and where is None else []
+        got = "; ".join([failure.got, *unread])
         if isinstance(failure, NotYet):
             return self._result(
                 todo,
@@ -214,11 +218,10 @@ class GradingPlugin:
                 "not yet",
                 ran=failure.ran,
                 expected=failure.expected,
-                got=failure.got,
+                got=got,
                 meaning=failure.meaning,
                 where=where,
             )
-        got = failure.got
         if failure.raised is not None and failure.raised.frames:
             last = failure.raised.frames[-1]
             where = Where(last.file, last.line)
@@ -231,7 +234,8 @@ class GradingPlugin:
         self, todo: Todo, check: Check, title: str, state: State, **words: Any
     ) -> CheckResult:
         points = check.points if state == "passed" else 0
-        return CheckResult(check.id, title, check.kind, state, points, check.points, **words)
+        result = CheckResult(check.id, title, check.kind, state, points, check.points, **words)
+        return in_bounds(result)
 
 
 TODO = pytest.StashKey[Todo]()

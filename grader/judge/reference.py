@@ -3,13 +3,14 @@
 import ast
 import builtins
 import dis
-from functools import lru_cache
+from collections.abc import Callable
+from functools import cache, lru_cache
 from pathlib import Path
 from types import CodeType
 
 import msgspec
 
-from grader.judge.definitions import Program
+from grader.judge.definitions import Function, Program
 from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import (
     CannotGrade,
@@ -67,19 +68,26 @@ def functions_of(
 ) -> dict[str, tuple[Piece, str]]:
     """The functions that these files have, by module:function, each with its shape."""
     program = Program(dict(sources))
+    libraries = cache(lambda module: plain_imports(program.tree(module)))
     found = {}
     for target in targets:
         defined = program.definition(*target.split(":"))
         if defined is not None and defined.function is not None:
-            piece = cut_out(program, target, defined.module, defined.function)
+            piece = cut_out(program, libraries, target, defined.module, defined.function)
             found[target] = piece, shape_of(piece.source)
     return found
 
 
-def cut_out(program: Program, target: str, module: str, function: ast.FunctionDef) -> Piece:
+def cut_out(
+    program: Program,
+    libraries: Callable[[str], list[str]],
+    target: str,
+    module: str,
+    function: Function,
+) -> Piece:
     """A function, and what it takes to run it elsewhere: imports, and functions that it calls."""
     source = program.source(module, function)
-    imports = dict.fromkeys(plain_imports(program.tree(module)))
+    imports = dict.fromkeys(libraries(module))
     given: dict[str, str] = {}
     names = global_names(source)
     waiting = [(module, name) for name in sorted(names)]
@@ -88,9 +96,9 @@ def cut_out(program: Program, target: str, module: str, function: ast.FunctionDe
         if called is None or called.function is None or called.function.name in given:
             continue
         text = given[called.function.name] = program.source(called.module, called.function)
-        imports |= dict.fromkeys(plain_imports(program.tree(called.module)))
+        imports |= dict.fromkeys(libraries(called.module))
         waiting += [(called.module, name) for name in sorted(global_names(text))]
-    parameters = [each.arg for each in function.args.args]
+    parameters = list(function.parameters)
     wanted = sorted(names.union(*map(global_names, given.values())))
     return Piece(target, source, "\n".join(imports), parameters, wanted, given)
 

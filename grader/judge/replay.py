@@ -22,7 +22,7 @@ from grader.player.pairing import replay
 from grader.player.script import script, step_of
 from grader.words import named_reasons
 
-MOST_CHARACTERS = 3_000_000  # of a page
+MOST_CHARACTERS, MOST_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
 MOST_DEATHS = 3  # of children, after which no more replays are made of a submission
 RECORDED = CHECKS / "expected_runs.json"
 
@@ -38,6 +38,7 @@ class Replays:
     open_reference: OpenChild | None
     functions: frozenset[str] = frozenset()  # the TODOs whose functions the submission has
     deaths: int = 0
+    written: int = 0  # characters
 
     def of(self, result: Result, failing: Mapping[tuple[str, str], Failing]) -> Result:
         """The result with the paths of its replays in it."""
@@ -65,8 +66,9 @@ class Replays:
             made = self._made(todo, check, found)
         except Exception:  # whatever a submission makes of it: the marks stand without a picture
             made = None
-        if made is None:
+        if made is None or self.written + sum(map(len, made)) > MOST_TOGETHER:
             return check
+        self.written += sum(map(len, made))
         self.folder.mkdir(parents=True, exist_ok=True)
         for file, text in zip((path, path.with_suffix(".py")), made, strict=True):
             with open(file, "x", encoding="utf-8", newline="\n") as stream:

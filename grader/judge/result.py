@@ -2,10 +2,18 @@
 
 from typing import Literal
 
+import msgspec
 from msgspec import Struct, structs
+
+from grader.protocol import cut
 
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
+
+MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
+MAX_WORDS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
+TEXTS = ("ran", "expected", "got", "meaning")
+MAX_FILE = 255  # characters of a file's name that are told
 
 FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
 
@@ -35,6 +43,15 @@ class CheckResult(Struct, frozen=True):
     def failed(self) -> bool:
         """Whether there is something to say about it."""
         return self.state in FAILED
+
+
+def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
+    """A check with so many characters in each of its texts at most: some quote a submission."""
+    texts = {
+        name: cut(getattr(check, name), most) for name in ("ran", "expected", "got", "meaning")
+    }
+    where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
+    return structs.replace(check, where=where, **texts)
 
 
 def is_bonus(todo: str) -> bool:
@@ -83,6 +100,18 @@ class Result(Struct, frozen=True):
             bonus=sum(todo.points for todo in todos if todo.bonus),
             todos=todos,
         )
+
+    def in_bounds(self) -> "Result":
+        """The result with texts so short that its JSON has at most MAX_JSON bytes."""
+        for most in MAX_WORDS:
+            todos = [
+                structs.replace(todo, checks=[in_bounds(each, most) for each in todo.checks])
+                for todo in self.todos
+            ]
+            found = structs.replace(self, todos=todos)
+            if len(msgspec.json.encode(found)) <= MAX_JSON:
+                break
+        return found
 
     @property
     def counted(self) -> list[TodoResult]:

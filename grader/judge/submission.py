@@ -1,6 +1,6 @@
 """Taking in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
 
-import ast
+import math
 import os
 import shutil
 from collections.abc import Iterator
@@ -10,10 +10,11 @@ from pathlib import Path
 
 import msgspec
 
-from grader.judge.definitions import Program, source_of
+from grader.judge.definitions import MAX_READ, Function, Program, source_of
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo
 from grader.todo_regions import (
+    MAX_SOURCE,
     Region,
     RegionError,
     python_files,
@@ -41,6 +42,7 @@ class Submission:
     where: dict[str, Where] = field(default_factory=dict)
     functions: dict[str, str] = field(default_factory=dict)  # the shape of each TODO's function
     left_out: list[str] = field(default_factory=list)
+    unread: list[str] = field(default_factory=list)  # files too long to look into, in words
     uses_numpy: bool = False
 
 
@@ -133,6 +135,19 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    giants = {each for each in submission.folder.rglob("*.py") if each.is_file()} - {
+        submission.folder / inside for inside in texts
+    }
+    paths = [*sorted(giants), *(submission.folder / inside for inside in program.unread)]
+    submission.unread = [in_words(path, submission.folder) for path in paths]
+
+
+def in_words(path: Path, folder: Path) -> str:
+    size = math.ceil(path.stat().st_size / 1024)
+    return (
+        f"{path.relative_to(folder).as_posix()} has {size} KB and was not looked into: "
+        f"a file may have {MAX_SOURCE // 1024} KB, and all together {MAX_READ // 1024}"
+    )
 
 
 def look_at(
@@ -141,7 +156,7 @@ def look_at(
     stubs: dict[str, str],
     inside: Path,
     text: str,
-    function: ast.FunctionDef | None,
+    function: Function | None,
 ) -> None:
     """What a TODO's own file has: its region, or where no marker is, the function that says enough.
 
@@ -151,7 +166,7 @@ def look_at(
     if function is not None:
         source = source_of(text, function)
         submission.functions[todo.id] = shape_of(source)
-        if region and not function.lineno <= region.start + 1 <= (function.end_lineno or 0):
+        if region and not function.lineno <= region.start + 1 <= function.end_lineno:
             region = None
     file = inside.as_posix()
     if region is not None:

@@ -45,6 +45,7 @@ class OpenChild(Child):
     def __init__(self, setup: ChildSetup, clock: ScriptedClock, times: Times) -> None:
         self.ready, self.times, self.over = Ready(0, []), times, ""
         self.cpu = self.rested = 0.0
+        self.heard = 0
         self.folder = setup.submission
         self.clock, self.output = clock, Output()
         self.streams = sys.stdout, sys.stderr

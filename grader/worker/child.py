@@ -9,18 +9,17 @@ import os
 import py_compile
 import sys
 import tempfile
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from types import FrameType
-from typing import Any
 
 import msgspec
 import pygame.sysfont
 
 from grader.protocol import (
     ENVIRONMENT,
+    MAX_TEXT,
     Answered,
     Asked,
     Call,
@@ -45,16 +44,18 @@ from grader.protocol import (
     Returned,
     Set,
     Simulate,
+    cut,
 )
 from grader.worker.confinement import confine
 from grader.worker.film import Camera
 from grader.worker.filter import refuse_system_calls
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
+from grader.worker.lines import LineCounter
 from grader.worker.output import Output
 from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import REFERENCE, ContractError, Subject
+from grader.worker.subject import ContractError, Subject
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
@@ -114,7 +115,7 @@ def attempt(
     try:
         return [answer(subject, clock, output, camera, request) for request in requests][-1]
     except ContractError as error:
-        return Missing(str(error))
+        return Missing(cut(str(error), MAX_TEXT))
     except BaseException as error:
         return subject.raised(error)
 
@@ -179,11 +180,11 @@ def call(subject: Subject, request: Call) -> Returned:
         changed = frame.changes() if frame else []
         states = [subject.state(ref) for ref in request.states]
         return msgspec.structs.replace(returned, changed=changed, states=states)
-    with LineCounter(subject.folder) as counter:
+    with LineCounter() as counter:
         result = function(*args, **kwargs)
-        if isinstance(result, Iterator):  # a generator has done nothing yet
+        if hasattr(type(result), "__next__"):  # a generator has done nothing yet
             result = list(result)
-    return Returned(subject.encode(result), counter.lines)
+    return Returned(subject.encode(result), counter.answer())
 
 
 def refs_in(request: Call) -> list[int]:
@@ -191,36 +192,6 @@ def refs_in(request: Call) -> list[int]:
     given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
     own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
     return [*given, *([int(own)] if own else [])]
-
-
-class LineCounter:
-    """Counts the lines that run in the submission's files and in what stands in for its functions.
-
-    Lines are the same work whatever function they are in: calls of a function by name would say
-    nothing about a submission that has written the same into the caller.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self.places = (str(folder), REFERENCE)
-        self.lines = 0
-
-    def __enter__(self) -> "LineCounter":
-        sys.settrace(self.trace)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        sys.settrace(None)
-
-    def trace(self, frame: FrameType, event: str, _: object) -> "Trace | None":
-        """Python calls this whenever a function begins; what it returns hears of each line."""
-        return self.count_line if frame.f_code.co_filename.startswith(self.places) else None
-
-    def count_line(self, frame: FrameType, event: str, _: object) -> "Trace":
-        self.lines += event == "line"
-        return self.count_line
-
-
-Trace = Callable[[FrameType, str, object], Any]
 
 
 @dataclass(frozen=True)

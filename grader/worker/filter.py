@@ -103,6 +103,14 @@ LASTING = {
     "request_key": (249, 218),
     "keyctl": (250, 219),
 }
+# No memory beside the limit: for a byte of a huge page that was put into it a pipe keeps it all.
+PIPES = {
+    "splice": (275, 76),
+    "tee": (276, 77),
+    "vmsplice": (278, 75),
+    "io_setup": (206, 0),
+    "io_submit": (209, 2),
+}
 # Landlock governs how files are opened, not what is written about them: modes, owners, times and
 # attributes of a file outside are damage, and each of them is a message to a later check.
 METADATA = {
@@ -215,7 +223,7 @@ MACHINE = {
     "sync": (162, 81),
     "syncfs": (306, 267),
 }
-REFUSED = PROCESSES | OTHERS | SOCKETS | LASTING | METADATA | NAMES | WALLS | MACHINE
+REFUSED = PROCESSES | OTHERS | SOCKETS | LASTING | PIPES | METADATA | NAMES | WALLS | MACHINE
 # What is allowed or refused by its arguments: see `checked`.
 CHECKED = {
     "clone": (56, 220),
@@ -227,8 +235,9 @@ CHECKED = {
     "fcntl": (72, 25),
     "ioctl": (16, 29),
 }
-# F_SETOWN, F_SETSIG, F_SETOWN_EX signal others; F_SETLEASE, F_NOTIFY hold up or watch them.
-REFUSED_FCNTL = (8, 10, 15, 1024, 1026)
+# F_SETOWN, F_SETSIG, F_SETOWN_EX signal others; F_SETLEASE, F_NOTIFY hold up or watch them;
+# F_SETPIPE_SZ takes memory of the kernel.
+REFUSED_FCNTL = (8, 10, 15, 1024, 1026, 1031)
 # TCGETS, TCGETS2, TIOCGWINSZ, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX: what Python asks of its own
 # files. Others change attributes of files, or who is signalled.
 ALLOWED_IOCTL = (0x5401, 0x802C542A, 0x5413, 0x541B, 0x5421, 0x5450, 0x5451)

@@ -15,6 +15,8 @@ import pygame
 import pymunk
 
 from grader.protocol import (
+    MAX_LINES,
+    MAX_TEXT,
     RUNAWAY,
     ContactRow,
     Play,
@@ -23,6 +25,7 @@ from grader.protocol import (
     Simulate,
     Simulated,
     SpaceBody,
+    cut,
 )
 from grader.worker.film import Camera, lesson_state
 from grader.worker.output import Output
@@ -30,7 +33,6 @@ from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
 
-MAX_LINES = 200
 MAX_STEP_SIZES = 16
 
 
@@ -183,7 +185,7 @@ def play(
         clock=times,
         dts=counter.dts,
         ended=ended,
-        lines=output.so_far().splitlines()[-MAX_LINES:],
+        lines=[cut(each, MAX_TEXT) for each in output.so_far().splitlines()[-MAX_LINES:]],
         bodies=all_bodies(subject, counter.last),
         rods=rod_lengths(counter.last),
         trail=counter.trail,

@@ -22,6 +22,9 @@ import pygame
 import pymunk
 
 from grader.protocol import (
+    MAX_FRAMES,
+    MAX_NAME,
+    MAX_TEXT,
     Argument,
     BodyValue,
     CodeLine,
@@ -40,10 +43,10 @@ from grader.protocol import (
     SpaceValue,
     Value,
     Vec,
+    cut,
 )
 from grader.worker.standin import fitted, plain_function, put_in_place
 
-MAX_TEXT = 2000  # characters of an exception's message or a returned string
 MAX_ITEMS = 1000  # entries of a returned list
 LARGEST_INT = 2**53
 REFERENCE = "<reference>"  # the file name of functions that stand in
@@ -227,7 +230,7 @@ class Subject:
         if thing is None or isinstance(thing, bool):
             return thing
         if isinstance(thing, str):
-            return str(thing)[:MAX_TEXT]
+            return cut(str.__str__(thing), MAX_TEXT)
         if isinstance(thing, numbers.Real):
             return as_number(thing, "the returned value")
         if isinstance(thing, pymunk.Space):
@@ -243,7 +246,7 @@ class Subject:
             return pair
         if isinstance(thing, list | tuple):
             return Items([self.encode(item) for item in thing[:MAX_ITEMS]])
-        return Ref(self.ref(thing), type(thing).__name__)
+        return Ref(self.ref(thing), type_name(thing))
 
     def state(self, ref: int) -> Value:
         """An object as a plain value; None where it cannot be told, which whoever asks will see."""
@@ -308,7 +311,7 @@ class Subject:
     def _shape(self, shape: pymunk.Shape) -> ShapeValue:
         box = shape.cache_bb()
         return ShapeValue(
-            type(shape).__name__,
+            type_name(shape),
             float(getattr(shape, "radius", 0.0)),
             (box.left, box.bottom, box.right, box.top),
             shape.friction,
@@ -322,7 +325,7 @@ class Subject:
             for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))
         )
         return SpaceJoint(
-            type(joint).__name__,
+            type_name(joint),
             self.ref(joint.a),
             self.ref(joint.b),
             anchor_a,
@@ -341,23 +344,29 @@ class Subject:
         root = str(self.folder)
         frames = [
             CodeLine(
-                Path(frame.filename).relative_to(root).as_posix(),
+                cut(Path(frame.filename).relative_to(root).as_posix(), MAX_TEXT),
                 frame.lineno or 0,
-                frame.name,
-                (frame.line or "")[:200],
+                cut(frame.name, MAX_NAME),
+                cut(frame.line or "", MAX_NAME),
             )
             for frame in traceback.extract_tb(error.__traceback__)
             if frame.filename.startswith(root)
         ]
         if isinstance(error, SyntaxError) and str(error.filename or "").startswith(root):
             file = Path(str(error.filename)).relative_to(root).as_posix()
-            frames.append(CodeLine(file, error.lineno or 0, "", (error.text or "").strip()[:200]))
+            text = cut((error.text or "").strip(), MAX_NAME)
+            frames.append(CodeLine(cut(file, MAX_TEXT), error.lineno or 0, "", text))
             error.filename = error.lineno = None  # or its text would name the line once more
         try:
-            message = str(error).replace(root + os.sep, "")[:MAX_TEXT]
+            message = cut(str(error).replace(root + os.sep, ""), MAX_TEXT)
         except Exception:
             message = ""
-        return Raised(type(error).__name__[:100], message, frames[-12:])
+        return Raised(type_name(error), message, frames[-MAX_FRAMES:])
+
+
+def type_name(thing: Any) -> str:
+    """What a thing calls its type; a submission may have given it any name."""
+    return cut(type(thing).__name__, MAX_NAME)
 
 
 def polynomial(coefficients: list[float]) -> Callable[..., float]:
@@ -383,7 +392,7 @@ def field(thing: Any, name: str) -> Any:
     try:
         return getattr(thing, name)
     except AttributeError:
-        raise ContractError(f"{type(thing).__name__} has no {name}") from None
+        raise ContractError(f"{type_name(thing)} has no {name}") from None
 
 
 def field_number(thing: Any, name: str) -> float:
@@ -391,7 +400,7 @@ def field_number(thing: Any, name: str) -> float:
     value = field(thing, name)
     if type(value) is float:  # most are, and most of what a child does is this
         return value
-    return as_number(value, f"{type(thing).__name__}.{name}")
+    return as_number(value, f"{type_name(thing)}.{name}")
 
 
 def field_pair(thing: Any, name: str) -> Vec:
@@ -400,7 +409,7 @@ def field_pair(thing: Any, name: str) -> Vec:
     pair = as_pair(value)
     if pair is None:
         raise ContractError(
-            f"{type(thing).__name__}.{name} is {describe(value)}; expected a Vector2 or a pair"
+            f"{type_name(thing)}.{name} is {describe(value)}; expected a Vector2 or a pair"
         )
     return pair
 
@@ -436,4 +445,4 @@ def as_pair(value: Any) -> Vec | None:
 
 def describe(value: Any) -> str:
     """What a value is, for a message; its repr() would be the submission's own code."""
-    return "None" if value is None else f"of type {type(value).__name__}"
+    return "None" if value is None else f"of type {type_name(value)}"

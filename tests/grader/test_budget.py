@@ -34,6 +34,7 @@ class Used:
 
     cpu: float = 0.0
     rested: float = 0.0
+    heard: int = 0
 
 
 def test_who_has_used_nothing_has_what_is_usual():

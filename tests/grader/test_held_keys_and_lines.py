@@ -1,9 +1,11 @@
 """What the child adds for bonus tasks: keys that are held, and how many lines run."""
 
+import sys
 from pathlib import Path
 
 import pytest
 
+from grader.judge.failures import NotYet
 from grader.judge.grade import opened
 from grader.judge.lab import Lab
 from grader.protocol import Event
@@ -57,6 +59,9 @@ def main():
 """
 
 LINES = """
+import _thread
+import ctypes
+import sys
 from textwrap import dedent
 
 def inner():
@@ -77,6 +82,29 @@ class Box:
     def later(self, n):
         for each in range(n):
             yield each
+
+    def stops(self):
+        counter = sys.gettrace()
+        sys.settrace(None)
+        sys.settrace(counter)
+
+    def ends(self):
+        ctypes.pythonapi.PyEval_SetTrace(None, None)
+
+    def hides(self):
+        sys._getframe().f_trace = None
+
+    def breaks(self):
+        try:
+            self.breaks()  # until the counter itself has no room left, and is taken away
+        except RecursionError:
+            pass
+
+    def leaves(self):
+        done = _thread.allocate_lock()
+        done.acquire()
+        _thread.start_new_thread(lambda: (sum(range(10**6)), done.release()), ())
+        done.acquire()
 
 def make():
     return Box()
@@ -128,3 +156,19 @@ def test_lines_are_counted_in_whatever_function_they_are(lab: Lab):
     assert twice - once == 20
     assert lab.work(box, "nothing") == 1
     assert lab.work(box, "later", 5) == 11
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the seconds of a thread")
+@pytest.mark.parametrize("lab", [LINES], indirect=True)
+def test_who_is_counted_cannot_end_the_count_unseen(lab: Lab):
+    box = lab.thing(lab.call("make"))
+    for deed, told in (
+        ("stops", "sys.settrace was called"),
+        ("ends", "sys.settrace was called"),
+        ("hides", "its lines were hidden"),
+        ("leaves", "another thread worked|_thread.start_new_thread was called"),
+    ):
+        with pytest.raises(NotYet, match=told):
+            lab.work(box, deed)
+    with pytest.raises(NotYet):
+        lab.work(box, "breaks")
