@@ -162,7 +162,7 @@ class RepeatedStep:
                 put_back(body, data)
         stable = getattr(self.engine.world, "effects", {})
         if "Contacts" in stable and self.kind != "still":
-            stable["Contacts"].last_positions = []  # it looks for contacts anew
+            stable["Contacts"].broad_phase.bounds = []  # it looks for contacts anew
 
 
 def put_back(body, data):
@@ -185,7 +185,7 @@ def one(_):
 
 def rows_of(effect):
     """How many contacts one pass of contacts or friction goes over."""
-    return len(effect.ball_rows) + len(effect.static_rows)
+    return sum(len(group.contacts) for group in effect.groups)
 
 
 def has_work(world):
