@@ -94,7 +94,7 @@ def test_a_compiled_build_is_used_where_there_is_one_and_it_is_said(
     assert type(made.world).__module__ == f"{package.name}.world"
     run(made, 0.1)
     row = race.pile_row(8, Effort(quick=True, scale=0.1))
-    assert row["compiled"]["ratio"] > 0
+    assert min(row["compiled"]["ratio"]) > 0
     scene = effects.settled(10)
     cases = {"pile": effects.RepeatedStep(Stable(scene))}
     assert effects.clock_compiled(cases, 1)["pile"] > 0
