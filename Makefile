@@ -32,7 +32,7 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade contained run dials accuracy effects cases compiled handouts \
+.PHONY: help setup grade contained run dials accuracy effects cases compiled wheels handouts \
 	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
@@ -83,6 +83,11 @@ cases: $(CORE) ## The hard cases in every engine, and the published test set (QU
 
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
+
+wheels: $(DEV) ## Make a wheel of it for this system; the workflow of that name makes all
+	@cd solution && ../$(PY) -m experiments.compiled --project ../build/wheels/sources
+	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation -w build/wheels build/wheels/sources
+	@ls build/wheels/*.whl
 
 ##@ Handing out
 
