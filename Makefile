@@ -32,7 +32,7 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
-.PHONY: help setup grade contained run dials accuracy effects cases compiled handouts \
+.PHONY: help setup grade contained run dials accuracy effects cases compiled wheels handouts \
 	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
@@ -68,7 +68,7 @@ run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solut
 
 ##@ The engines, measured
 
-dials: $(CORE) ## Open the window with dials: any scene in each of the three engines
+dials: $(CORE) ## Open the window with dials: any scene in every engine
 	@cd $(WHERE) && PYTHONPATH=../solution ../$(PY) -m experiments.window
 
 accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minutes; QUICK=1 for less)
@@ -77,12 +77,17 @@ accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minute
 effects: $(DEV) ## What each effect costs, and what B1 and B3 save (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.effects --out ../build/effects $(if $(QUICK),--quick)
 
-cases: $(CORE) ## The hard cases in three engines, and the published test set (QUICK=1 for less)
+cases: $(CORE) ## The hard cases in every engine, and the published test set (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.hard_cases $(if $(QUICK),--quick)
 	@cd solution && ../$(PY) -m experiments.published $(if $(QUICK),--quick)
 
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
+
+wheels: $(DEV) ## Make a wheel of it for this system; the workflow of that name makes all
+	@cd solution && ../$(PY) -m experiments.compiled --project ../build/wheels/sources
+	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation -w build/wheels build/wheels/sources
+	@ls build/wheels/*.whl
 
 ##@ Handing out
 

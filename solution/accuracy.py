@@ -17,7 +17,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from experiments import accuracy_tables, figures, race, smooth
+from experiments import accuracy_tables, budgets, figures, race, smooth, statements
 from experiments.answers import Effort, study
 from experiments.compiled import time_compiled
 from experiments.dials import QUESTIONS, dials, questions
@@ -25,8 +25,8 @@ from experiments.table import Progress, write_markdown
 
 BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)  # in piles
 MOST_SAME_STEP = 200  # balls
-SINKING = ("tower", "stack")  # where the stable engine and pymunk race at equal accuracy
 WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03, "box2d": 0.03}  # of a solve, roughly
+CHAIN_WEIGHT = 3e5  # of one engine
 SMOOTH_WEIGHT = 4e5  # of one system of the integrators
 FIGURES = "To draw the figures, install matplotlib: python -m pip install matplotlib"
 
@@ -36,14 +36,30 @@ FIGURES = "To draw the figures, install matplotlib: python -m pip install matplo
 
 def measure(effort, balls, progress):
     """All results, as plain lists and dictionaries."""
-    return {
+    results = {
         "about": about(effort),
+        "budgets": {name: measure_budgets(name, effort, progress) for name in budgets.SCENES},
+        "chain": measure_chain(effort, progress),
         "smooth": measure_smooth(effort, progress),
         "dials": {name: measure_dials(name, effort, progress) for name in questions(effort.quick)},
-        "equal": [measure_race(name, effort, progress) for name in SINKING],
         "piles": [measure_pile(count, effort, progress) for count in balls],
         "same step": measure_same_step(balls, effort, progress),
     }
+    return results | {"statements": statements.of_accuracy(results)}
+
+
+def measure_budgets(name, effort, progress):
+    def tick(engine):
+        progress.step(budget_weight(effort), f"{budgets.SCENES[name].title}, {engine} in a frame")
+
+    return budgets.study(name, effort, tick)
+
+
+def measure_chain(effort, progress):
+    def tick(engine):
+        progress.step(CHAIN_WEIGHT, f"the energy of a chain, {engine}")
+
+    return budgets.chain_energy(effort, tick)
 
 
 def measure_smooth(effort, progress):
@@ -63,13 +79,6 @@ def measure_dials(name, effort, progress):
         progress.step(weight(question, setting, effort), f"{question.title}, {setting.engine}")
 
     return study(name, effort, tick)
-
-
-def measure_race(name, effort, progress):
-    def tick(setting):
-        progress.step(race_weight(effort), f"{QUESTIONS[name].title}, equal accuracy")
-
-    return race.equal_accuracy(name, effort, tick)
 
 
 def measure_pile(count, effort, progress):
@@ -113,8 +122,8 @@ def weight(question, setting, effort):
     return steps * (moving + 1) * (setting.passes + 10) * WEIGHTS[setting.engine]
 
 
-def race_weight(effort):
-    return 1.5e5 if effort.quick else 3e5
+def budget_weight(effort):
+    return 3e5 if effort.quick else 4e6
 
 
 def pile_weight(count):
@@ -127,10 +136,9 @@ def total_weight(effort, balls):
     for question in [QUESTIONS[name] for name in questions(effort.quick)]:
         settings = {setting for _, _, row in dials(effort.quick) for _, setting in row}
         work += sum(weight(question, setting, effort) for setting in settings)
-    rivals = len(race.SLOPS) * len(race.RATES) * len(race.PASSES) // (4 if effort.quick else 1)
-    races = len(SINKING) * rivals * race_weight(effort)
+    work += len(budgets.SCENES) * len(budgets.families()) * budget_weight(effort) + 4 * CHAIN_WEIGHT
     same = (len(race.SAME_STEP) + 3) * pile_weight(most_of(balls))
-    return work + races + 5 * sum(map(pile_weight, balls)) + same
+    return work + 5 * sum(map(pile_weight, balls)) + same
 
 
 # ---------------------------------------------------------------- the program
@@ -154,7 +162,8 @@ def main(arguments=None):
     else:
         draw(results, options.out, progress)
     if options.markdown:
-        write_markdown(options.markdown, accuracy_tables.short_tables(results))
+        tables = accuracy_tables.short_tables(results)
+        write_markdown(options.markdown, tables, results["statements"])
         copy_figures(options.out, options.markdown)
 
 

@@ -1,13 +1,17 @@
 """The results of accuracy.py as tables."""
 
 from .answers import EXACT, best_dial
+from .costs import spread
 from .race import growth
 from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
-from .table import Table, number, times
+from .table import Table, number, span
 
 
 def all_tables(results):
     return [
+        budget_table(results["budgets"]),
+        equal_table(results["budgets"]),
+        chain_table(results["chain"]),
         order_table(results["smooth"]["systems"]),
         energy_table(results["smooth"]["energy"]),
         fall_table(results["smooth"]["fall"]),
@@ -17,7 +21,6 @@ def all_tables(results):
             for e in answers["units"]
         ),
         first_dial_table(results["dials"]),
-        equal_table(results["equal"]),
         pile_table(results["piles"]),
         same_step_table(results["same step"]),
     ]
@@ -25,22 +28,109 @@ def all_tables(results):
 
 def short_tables(results):
     """Those that the handout shows."""
-    shown = (
+    asked = (
         ("tower", "sink"),
         ("stack", "sink"),
         ("pendulum", "stretch"),
         ("swinging", "worst link"),
     )
     return [
+        budget_table(results["budgets"]),
+        equal_table(results["budgets"]),
+        chain_table(results["chain"]),
         order_table(results["smooth"]["systems"]),
         energy_table(results["smooth"]["energy"]),
         fall_table(results["smooth"]["fall"]),
         first_dial_table(results["dials"]),
-        *(answer_table(results["dials"][name], error) for name, error in shown),
-        equal_table(results["equal"]),
+        *(answer_table(results["dials"][name], error) for name, error in asked),
         pile_table(results["piles"]),
         same_step_table(results["same step"]),
     ]
+
+
+# ---------------------------------------------------------------- all engines
+
+
+SHOWN_AS = {"compiled": "stable compiled"}
+
+
+def shown(engine):
+    return SHOWN_AS.get(engine, engine)
+
+
+def engines_of(budgets):
+    """The engines that took part, in their order."""
+    return list(next(iter(budgets.values()))["within"])
+
+
+def budget_table(budgets):
+    """The smallest error of each engine in each budget, a row per scene and budget."""
+    engines, rows = engines_of(budgets), []
+    for scene in budgets.values():
+        for i, first in enumerate(scene["within"][engines[0]]):
+            cells = [scene["within"][engine][i] for engine in engines]
+            name = f"{scene['title']}: {scene['error']} ({scene['unit']})"
+            rows.append([name, f"{first['budget']:g} ms", *map(reached, cells)])
+    heads = ["scene: error", "a frame", *map(shown, engines)]
+    note = (
+        "The smallest error within so many ms of each frame of 1/60 s, with steps of 1/120 s in "
+        "1, 2, 4, 8 ... substeps. In brackets: from the fastest repeat to the slowest, where they "
+        "differ. Too slow: one step alone takes longer."
+    )
+    return Table("What error each engine reaches in a frame", heads, rows, note)
+
+
+def reached(cell):
+    """An error, and its range where the repeats differ."""
+    error, ends = below(cell["error"]), [below(end) for end in cell["range"]]
+    return error if ends[0] == ends[1] else f"{error} ({ends[0]} to {ends[1]})"
+
+
+def below(error):
+    """An error in two digits, or that it is too small to matter."""
+    if isinstance(error, str):
+        return error
+    return f"< {number(EXACT)}" if error < EXACT else number(float(f"{error:.2g}"))
+
+
+def equal_table(budgets):
+    """The time each engine takes for the stable engine's error, a row per scene."""
+    engines, rows = engines_of(budgets), []
+    for scene in budgets.values():
+        known = {row["engine"]: row for row in scene["equal"]["rows"]}
+        name = f"{scene['title']}: {scene['error']} ({scene['unit']})"
+        cells = [known[engine] for engine in engines]
+        rows.append([name, below(scene["equal"]["goal"]), *map(needs, cells)])
+    heads = ["scene: error", "to reach", *map(shown, engines)]
+    most = max(cell["budget"] for cell in scene["within"][engines[0]])
+    note = (
+        f"Time in shares of the stable engine's at its defaults (4 substeps), whose error is to "
+        f"be reached, or a smaller one: from the least share of a repeat to the most. not: not "
+        f"within {most:g} ms of a frame."
+    )
+    return Table("The same error: how much time each engine takes for it", heads, rows, note)
+
+
+def needs(row):
+    if row["reached"]:
+        return span(row["ratio"], "x")
+    return f"not (comes to {below(row['error'])})" if "error" in row else "not"
+
+
+def chain_table(study):
+    rows = [
+        [row["engine"], *(share if isinstance(share, str) else f"{100 * share:.0f} %"
+                          for share in row["shares"])]
+        for row in study["rows"]
+    ]  # fmt: skip
+    rows = [row + ["-"] * (len(study["looks"]) + 1 - len(row)) for row in rows]
+    heads = ["engine", *(f"after {look} s" for look in study["looks"])]
+    title = f"Swinging chain of {study['links']}: the energy it still has"
+    note = (
+        "In shares of what it is let go with, the mean of the second before. Exactly it is 100 %, "
+        "for ever. Steps of 1/120 s, each engine at its defaults."
+    )
+    return Table(title, heads, rows, note)
 
 
 # ---------------------------------------------------------------- integrators
@@ -114,7 +204,7 @@ def answer_table(answers, error):
                 dial["dial"],
                 " · ".join(dial["values"]),
                 " · ".join(number(run["errors"][error]) for run in runs),
-                " · ".join(number(run["ratio"]) for run in runs),
+                " · ".join(span(run["ratio"][1:2]) if run["ratio"] else "-" for run in runs),
                 " · ".join(number(millions(run["opcodes"])) for run in runs),
                 says(dial["verdicts"][error]),
             ]
@@ -123,9 +213,17 @@ def answer_table(answers, error):
     title = f"{answers['title']}: {error} ({answers['units'][error]})"
     note = (
         f"{number(answers['seconds'])} s simulated. Time: shares of the lesson's engine at its "
-        "defaults (8 passes, 1/120 s). Shared substeps share the 8 passes of one step."
+        f"defaults (8 passes, 1/120 s); nine in ten repeats lie within {widest(answers)} of these. "
+        "Shared substeps share the 8 passes of one step."
     )
     return Table(title, heads, rows, note)
+
+
+def widest(answers):
+    """How far repeats are from the middle one, but for the tenth of the settings that vary most."""
+    ratios = [run["ratio"] for run in answers["runs"] if run["ratio"]]
+    off = sorted(max(high - middle, middle - low) / middle for low, middle, high in ratios)
+    return f"{100 * off[int(0.9 * (len(off) - 1))]:.0f} %" if off else "-"
 
 
 def millions(count):
@@ -140,8 +238,10 @@ def says(verdict):
 
 
 def digit_price(digit):
-    """A factor of work in two digits."""
-    return "over 1000x" if digit > 1000 else times(float(f"{digit:.2g}"))
+    """Factors of work in two digits, the least and the most that it may be."""
+    if digit[0] > 1000:
+        return "over 1000x"
+    return span([min(one, 1000.0) for one in digit], "x")
 
 
 def first_dial_table(found):
@@ -170,35 +270,6 @@ def first_dial_table(found):
 # ---------------------------------------------------------------- races
 
 
-def equal_table(found):
-    rows = []
-    for race in found:
-        for row in race["rows"]:
-            slop = "its own, 0.1 px" if row["slop"] is None else "0"
-            one = row["best"] or row["closest"]
-            rows.append(
-                [
-                    race["title"],
-                    number(race["stable"]),
-                    slop,
-                    "yes" if row["reached"] else "never gets there",
-                    f"{number(one['sink'])}" if one else "-",
-                    f"{one['passes']} at 1/{one['rate']} s" if one else "-",
-                    times(one["ratio"]) if one else "-",
-                ]
-            )
-    heads = ["scene", "stable sinks, px", "pymunk's slop", "as good", "pymunk sinks, px",
-             "iterations and step", "its time"]  # fmt: skip
-    note = (
-        "The stable engine is at its defaults (1/120 s, 4 substeps) and its time is 1. pymunk is "
-        "the fastest setting that sinks no more, or the one that sinks least. Slop is the overlap "
-        "that pymunk leaves alone."
-    )
-    return Table(
-        "Equal accuracy: pymunk's time in shares of the stable engine's", heads, rows, note
-    )
-
-
 def pile_table(piles):
     rows = []
     for row in piles:
@@ -206,21 +277,22 @@ def pile_table(piles):
         rows.append(
             [
                 row["balls"],
-                number(row["lesson"]["ms"]),
-                share(row["stable"]["ratio"]),
-                share(row["compiled"]["ratio"]) if "compiled" in row else "-",
-                share(row["pymunk"]["ratio"]),
-                f"{share(asleep['ratio'])} ({asleep['asleep']} asleep)",
+                span(spread(row["lesson"]["ms"])) if row["lesson"]["ms"] else "-",
+                span(row["stable"]["ratio"], "x"),
+                span(row["compiled"]["ratio"], "x") if "compiled" in row else "-",
+                span(row["pymunk"]["ratio"], "x"),
+                f"{span(asleep['ratio'], 'x')} ({asleep['asleep']} asleep)",
                 *(number(row[name]["overlap"]) for name in ("lesson", "stable", "pymunk")),
             ]
         )
     heads = ["balls", "lesson, ms", "stable", "stable compiled", "pymunk", "stable asleep",
              "lesson overlap, px", "stable overlap, px", "pymunk overlap, px"]  # fmt: skip
     grown = [(name, growth(piles, name)) for name in ("lesson", "stable", "pymunk")]
-    parts = [f"{name} {times(factor)}" for name, factor in grown if factor]
+    parts = [f"{name} {span(factor, 'x')}" for name, factor in grown if factor]
     note = (
-        "Time per simulated second; the other engines in shares of the lesson's. lesson 1/120 s, "
-        "stable 1/60 s with 8 substeps, pymunk 1/120 s with 10 iterations."
+        "The lesson's time for a frame of 1/60 s, and how many times as fast the others are, from "
+        "the least of a repeat to the most. lesson 1/120 s, stable 1/60 s with 8 substeps, pymunk "
+        "1/120 s with 10 iterations."
     )
     if parts:
         note += f" From 200 to 1000 balls the time per ball grows: {', '.join(parts)}."
@@ -230,10 +302,10 @@ def pile_table(piles):
 def same_step_table(race):
     rows = [
         [
-            "stable compiled" if row["engine"] == "compiled" else row["engine"],
+            shown(row["engine"]),
             row["substeps"] if row["engine"] in ("stable", "compiled") else "-",
             number(row["overlap"]),
-            "-" if row["ratio"] is None else times(row["ratio"]),
+            span(row["ratio"], "x"),
         ]
         for row in race["rows"]
     ]
@@ -243,7 +315,3 @@ def same_step_table(race):
         "are accurate enough tell what plain Python costs beside compiled code."
     )
     return Table(f"A settled pile of {race['balls']}: the same step as pymunk's", heads, rows, note)
-
-
-def share(ratio):
-    return "-" if ratio is None else f"1/{1 / ratio:.3g}" if ratio < 1 else times(ratio)

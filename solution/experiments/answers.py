@@ -2,19 +2,21 @@
 
 import math
 
-from .costs import opcodes_per_second, wall_times
+from .costs import opcodes_per_second, repeated_times, shares
 from .dials import LESSON, QUESTIONS, dials
 
 EXACT = 1e-9  # errors below this need no dial
+FRAMES = 60  # per second
 HELPS = 0.05  # a dial whose whole range changes the error by a smaller share cannot help
 
 
 class Effort:
     """How much work a study may do."""
 
-    def __init__(self, quick=False, scale=1.0, rounds=None):
+    def __init__(self, quick=False, scale=1.0):
         self.quick, self.scale = quick, scale
-        self.rounds = rounds or (8 if quick else 40)
+        self.repeats = 3 if quick else 7  # of each time
+        self.rounds = 2 if quick else 4  # in a repeat
 
     def seconds(self, question):
         return self.scale * question.seconds
@@ -37,7 +39,7 @@ def study(name, effort, tick=lambda setting: None):
         "units": question.units,
         "runs": runs,
         "dials": [
-            dial_row(engine, dial, row, runs, settings, question.units)
+            dial_row(engine, dial, row, runs, settings, question.units, question.chance or HELPS)
             for engine, dial, row in rows
         ],
     }
@@ -70,7 +72,7 @@ def usable(error):
 
 
 def price(runs, settings, effort):
-    """Add to each run what it costs from its last state on, per simulated second.
+    """Add to each run what it costs from its last state on: ms of each frame in every repeat.
 
     Opcodes are counted first: the clock runs the engines on, and by how much is its own affair.
     """
@@ -80,17 +82,22 @@ def price(runs, settings, effort):
         python = setting.engine in ("lesson", "stable")
         run["opcodes"] = opcodes_per_second(engine, setting.dt) if python else None
     going = [(run["in motion"], s.dt) for run, s in zip(runs, settings, strict=True)]
-    taken = wall_times(going, effort.rounds)
+    taken = repeated_times(going, effort.repeats, effort.rounds)
     unit = taken[settings.index(LESSON)]
-    for run, seconds in zip(runs, taken, strict=True):
-        run["ms"] = None if seconds is None else 1000 * seconds
-        run["ratio"] = seconds / unit if seconds and unit else None
+    for run, times in zip(runs, taken, strict=True):
+        run["ms"] = milliseconds(times)
+        run["ratio"] = shares(times, unit)
+
+
+def milliseconds(times):
+    """Times in s as ms of each frame, or None."""
+    return None if times is None else [1000 * seconds / FRAMES for seconds in times]
 
 
 # ---------------------------------------------------------------- what a dial does
 
 
-def dial_row(engine, dial, row, runs, settings, units):
+def dial_row(engine, dial, row, runs, settings, units, helps=HELPS):
     """The runs of one dial, by their place, and its verdict for each error."""
     places = [settings.index(setting) for _, setting in row]
     return {
@@ -98,20 +105,26 @@ def dial_row(engine, dial, row, runs, settings, units):
         "dial": dial,
         "values": [str(value) for value, _ in row],
         "runs": places,
-        "verdicts": {name: verdict(name, [runs[i] for i in places]) for name in units},
+        "verdicts": {name: verdict(name, [runs[i] for i in places], helps) for name in units},
     }
 
 
 def work(run):
-    """What a run costs, to compare within one engine: opcodes, which repeat, or else time."""
-    return run["opcodes"] or run["ratio"]
+    """The least and the most that a run costs, to compare within one engine.
+
+    In opcodes, which repeat, or else in time.
+    """
+    if run["opcodes"]:
+        return [run["opcodes"], run["opcodes"]]
+    return run["ratio"] and [run["ratio"][0], run["ratio"][-1]]
 
 
-def verdict(name, runs):
-    """What the dial does to that error, and what one more digit costs: a factor of work, or None.
+def verdict(name, runs, helps=HELPS):
+    """What the dial does to that error, and what one more digit costs: factors of work, or None.
 
-    The factor is that between the first and the last value of the dial, carried on (or back) to
-    an error ten times smaller.
+    They are the least and the most that may lie between the first and the last value of the dial,
+    carried on (or back) to an error ten times smaller. helps is the share of an error below which
+    a change says nothing.
     """
     known = [(run["errors"][name], work(run)) for run in runs]
     known = [pair for pair in known if not isinstance(pair[0], str) and pair[1]]
@@ -120,13 +133,14 @@ def verdict(name, runs):
     errors = [max(error, 1e-16) for error, _ in known]
     if max(errors) < EXACT:
         return {"says": "exact already", "digit": None}
-    if (max(errors) - min(errors)) / max(errors) < HELPS:
+    if (max(errors) - min(errors)) / max(errors) < helps:
         return {"says": "cannot help", "digit": None}
-    if errors[-1] > errors[0] * (1 - HELPS):
+    if errors[-1] > errors[0] * (1 - helps):
         return {"says": "no steady gain", "digit": None}
     digits = math.log10(errors[0] / errors[-1])
-    dearer = max(known[-1][1] / known[0][1], 1.0)  # less work than before is the clock's noise
-    return {"says": "helps", "digit": dearer ** (1 / digits)}
+    (_, (least, most)), *_, (_, (cheapest, dearest)) = known
+    dearer = [cheapest / most, dearest / least]
+    return {"says": "helps", "digit": [max(one, 1.0) ** (1 / digits) for one in dearer]}
 
 
 def best_dial(found, name, engine="lesson"):

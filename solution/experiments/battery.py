@@ -185,20 +185,32 @@ def table_rows(case, cells):
     return rows
 
 
+def lines_of(case, cells):
+    """What each engine came to, by names for results.json. cells as in table_rows."""
+    return {
+        f"{case.title}: {figure.words}: {name}": number(answers[i], 6)
+        if isinstance(answers[i], str) or not math.isfinite(answers[i])
+        else answers[i]
+        for i, figure in enumerate(case.figures)
+        for name, answers in cells.items()
+    }
+
+
 # ---------------------------------------------------------------- the program
 
 
 def run_all(cases):
-    """All cases on all engines: the rows of the table, and how often the stable engine misses."""
-    rows, missed, progress = [], 0, Progress(len(cases))
+    """All cases on all engines: the table's rows, how often the stable engine misses, all lines."""
+    rows, missed, lines, progress = [], 0, {}, Progress(len(cases))
     for case in cases:
         progress.step(1, case.title)
         cells = {name: run_case(case, name) for name in ENGINES}
         rows += table_rows(case, cells)
+        lines |= lines_of(case, cells)
         answers = zip(case.figures, cells["stable"], strict=True)
         missed += sum(not holds(figure, cell) for figure, cell in answers)
     progress.end()
-    return rows, missed
+    return rows, missed, lines
 
 
 def main(title, cases, arguments=None):
@@ -207,11 +219,11 @@ def main(title, cases, arguments=None):
     parser.add_argument("--quick", action="store_true", help="shorter runs, fewer scenes")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="put the table into FILE")
     options = parser.parse_args(arguments)
-    rows, missed = run_all(chosen(cases, "quick" if options.quick else "full"))
+    rows, missed, lines = run_all(chosen(cases, "quick" if options.quick else "full"))
     table = Table(title, ["case", *ENGINES, "exact", "must hold"], rows, LEGEND)
     print(table.text())
     if options.markdown:
-        write_markdown(options.markdown, [table])
+        write_markdown(options.markdown, [table], lines)
     if missed:
         print(f"The stable engine misses {missed} of its figures.")
     return 1 if missed else 0

@@ -6,6 +6,8 @@ hard cases and the published tests use it where it is. accuracy.py and effects t
 plain source, in which they count opcodes. All of them say so.
 
     python -m experiments.compiled
+
+A wheel that pip installed is used as well, if it is of the same source.
 """
 
 import argparse
@@ -13,6 +15,7 @@ import importlib
 import shutil
 import subprocess
 import sys
+import sysconfig
 import time
 from pathlib import Path
 
@@ -22,7 +25,8 @@ from .scenes import NAMED, pile
 
 TREE = Path(__file__).parents[1]
 OUT = Path("build/compiled")
-FOLDERS = (TREE / OUT, TREE.parent / OUT)  # where it is looked for; the second is the kit's own
+INSTALLED = Path(sysconfig.get_path("platlib"))
+FOLDERS = (TREE / OUT, TREE.parent / OUT, INSTALLED)  # where it is; the second is the kit's own
 NAME = "stable_compiled"
 ROUNDS = 12  # of timing, taken in turns
 LEFT_PLAIN = ("reading.py", "validate.py")  # their classes come from others that are not compiled
@@ -31,6 +35,39 @@ KEPT_OPEN = """
 from mypy_extensions import mypyc_attr
 
 @mypyc_attr(allow_interpreted_subclasses=True)"""
+
+SETUP = """\
+from mypyc.build import mypycify
+from setuptools import setup
+
+setup(ext_modules=mypycify({modules!r}))
+"""
+FALLS = """\
+from stable_compiled import Body, Box, Circle, Contacts, Friction, World, world
+
+made = World(effects=[Contacts(), Friction()])
+made.add(Body(Box((100, 10)), (0, 10)))
+ball = made.add(Body(Circle(10), (0, -50), 1.0))
+for _ in range(240):
+    made.step(1 / 120)
+assert not world.__file__.endswith(".py"), world.__file__
+assert abs(ball.y + 10) < 0.001, ball
+"""  # what a wheel must be able to do
+PROJECT = """\
+[build-system]
+requires = ["setuptools>=77", "mypy>=2.0", "pygame-ce>=2.5.2"]
+build-backend = "setuptools.build_meta"
+
+[project]
+name = "{name}"
+version = "1"
+description = "The stable engine of the physics assignment, compiled."
+requires-python = ">=3.11"
+dependencies = ["mypy-extensions>=1.0", "pygame-ce>=2.5.2"]
+
+[tool.setuptools]
+packages = ["stable_compiled"]
+"""
 
 
 def sources():
@@ -43,16 +80,28 @@ def sources():
     return found
 
 
-def build(folder):
-    """Compile the engine in folder. Raises RuntimeError with the compiler's words."""
+def write_sources(folder):
+    """Write the package as it is compiled into folder; returns the paths of what is compiled."""
     package = folder / NAME
     shutil.rmtree(package, ignore_errors=True)
     package.mkdir(parents=True)
     files = sources()
     for name, text in files.items():
         (package / name).write_text(text, "utf-8")
-    compiled = [f"{NAME}/{name}" for name in files if name not in LEFT_PLAIN]
-    command = [sys.executable, "-m", "mypyc", *compiled]
+    return [f"{NAME}/{name}" for name in files if name not in LEFT_PLAIN]
+
+
+def write_project(folder):
+    """Write a project into folder from which pip or cibuildwheel makes a wheel of the package."""
+    modules = write_sources(folder)
+    (folder / "falls.py").write_text(FALLS, "utf-8")
+    (folder / "setup.py").write_text(SETUP.format(modules=modules), "utf-8")
+    (folder / "pyproject.toml").write_text(PROJECT.format(name=NAME.replace("_", "-")), "utf-8")
+
+
+def build(folder):
+    """Compile the engine in folder. Raises RuntimeError with the compiler's words."""
+    command = [sys.executable, "-m", "mypyc", *write_sources(folder)]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(
@@ -70,13 +119,14 @@ def load(folder):
         return None
     if not fresh:
         return None
+    before = list(sys.path)
     sys.path.append(str(folder))
     try:
         engine = importlib.import_module(NAME)
     except ImportError:
         return None
     finally:
-        sys.path.remove(str(folder))
+        sys.path[:] = before
     return None if engine.world.__file__.endswith(".py") else engine
 
 
@@ -144,7 +194,12 @@ def main(arguments=None):
     """Compile, compare and print."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--out", type=Path, default=OUT)
-    folder = parser.parse_args(arguments).out.resolve()
+    parser.add_argument("--project", type=Path, help="only write what a wheel is made from")
+    options = parser.parse_args(arguments)
+    if options.project:
+        write_project(options.project)
+        return
+    folder = options.out.resolve()
     print(f"compiling stable_engine into {folder} (about half a minute) ...")
     try:
         build(folder)

@@ -2,6 +2,7 @@
 
 import gc
 import time
+from statistics import median
 
 from .opcodes import count_opcodes
 
@@ -28,7 +29,38 @@ def wall_times(runs, rounds, slice_seconds=SLICE):
     return best
 
 
-def time_slice(engine, dt, slice_seconds):
+def repeated_times(runs, repeats, rounds):
+    """wall_times again and again: for each of runs its time in every repeat, or None as there."""
+    found = zip(*[wall_times(runs, rounds) for _ in range(repeats)], strict=True)
+    return [None if None in taken else list(taken) for taken in found]
+
+
+def spread(values):
+    """The least, the middle and the most of some numbers, such as the repeats of a time."""
+    return [min(values), median(values), max(values)]
+
+
+def shares(taken, unit):
+    """A time in shares of another one, repeat by repeat: least, middle and most. None if unknown.
+
+    What slows down the machine for a while slows down both, and so leaves their share alone.
+    """
+    return spread(in_shares(taken, unit)) if taken and unit else None
+
+
+def in_shares(taken, unit):
+    """A time in shares of another one, for every repeat."""
+    return [one / other for one, other in zip(taken, unit, strict=True)]
+
+
+def middle_half(values):
+    """The least, the middle and the most of that half of many numbers that lies in the middle."""
+    inner = sorted(values)
+    quarter = len(inner) // 4
+    return spread(inner[quarter : len(inner) - quarter])
+
+
+def time_slice(engine, dt, slice_seconds=SLICE):
     """Seconds of wall time per simulated second over one slice, or None if the engine raises."""
     steps = max(1, round(slice_seconds / dt))
     start = time.perf_counter()

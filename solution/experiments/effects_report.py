@@ -1,6 +1,7 @@
 """How the price list of effects looks: tables, and figures where matplotlib is there."""
 
-from .table import Table
+from .costs import in_shares, middle_half
+from .table import Table, span
 
 COLOURS = {  # safe for colour-blind eyes
     "move only": "#bbbbbb",
@@ -47,9 +48,9 @@ def step_table(lines, title):
     heads = ["scene", "opcodes", "ms", "times the first", *compiled, *lines[0]["done"]]
     rows = []
     for line in lines:
-        ratio = line["ms"] / lines[0]["ms"]
-        cost = [f"{line['opcodes']:,}", f"{line['ms']:.3f}", f"{ratio:.1f}"]
-        cost += [f"{line[name]:.3f}" for name in compiled]
+        ratio = middle_half(in_shares(line["ms"], lines[0]["ms"]))
+        cost = [f"{line['opcodes']:,}", span(middle_half(line["ms"])), span(ratio)]
+        cost += [span(middle_half(line[name])) for name in compiled]
         rows.append([line["title"], *cost, *(f"{number:,}" for number in line["done"].values())])
     return Table(title, heads, rows)
 
@@ -74,8 +75,8 @@ def bonus_table(sizes):
     rows = []
     for balls, lines in sizes.items():
         for line in lines:
-            ratio = line["ms"] / lines[0]["ms"]
-            cost = [f"{line['opcodes']:,}", f"{line['ms']:.3f}", f"{ratio:.3f}"]
+            ratio = middle_half(in_shares(line["ms"], lines[0]["ms"]))
+            cost = [f"{line['opcodes']:,}", span(middle_half(line["ms"])), span(ratio)]
             done = line["done"]
             counts = [line["asleep"], done["pairs"], done["contacts"], done["contact solves"]]
             rows.append([balls, line["title"], *cost, *(f"{number:,}" for number in counts)])

@@ -138,11 +138,13 @@ class Pymunk:
 
     name = "pymunk"
 
-    def __init__(self, scene, passes=PASSES, substeps=1):
+    def __init__(self, scene, passes=PASSES, substeps=1, slop=None):
         self.scene, self.substeps = scene, substeps
         self.space = pymunk.Space()
         self.space.gravity = scene.gravity
         self.space.iterations = passes
+        if slop is not None:
+            self.space.collision_slop = slop  # px, the overlap that it leaves alone
         if "Damping" in scene.effects:
             self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
         self.bodies = [self.body(data) for data in scene.bodies]

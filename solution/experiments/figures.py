@@ -8,29 +8,44 @@ import math
 import textwrap
 from functools import partial
 from itertools import pairwise
+from statistics import median
 
-from .accuracy_tables import digit_price
+from .accuracy_tables import digit_price, needs, shown
 from .answers import EXACT
+from .budgets import winners
+from .costs import spread
 from .dials import SHARED
 from .smooth import ENERGY_CALLS, slope
-from .table import number
+from .table import number, span
 
 FRAME = 1000 / 60  # ms: the time of one frame at 60 frames a second
+
+
+def look(colour, marker, line):
+    """How a curve looks: it can be told by its marker and by its line, without its colour."""
+    return {"color": colour, "marker": marker, "linestyle": line}
+
+
 METHOD_LOOKS = {
-    "explicit_euler": ("#D55E00", "o"),
-    "semi_implicit_euler": ("#0072B2", "s"),
-    "velocity_verlet": ("#009E73", "^"),
-    "rk4": ("#CC79A7", "D"),
+    "explicit_euler": look("#D55E00", "o", "-"),
+    "semi_implicit_euler": look("#0072B2", "s", "--"),
+    "velocity_verlet": look("#009E73", "^", "-."),
+    "rk4": look("#CC79A7", "D", ":"),
 }
-ENGINE_COLOURS = {"lesson": "#D55E00", "stable": "#0072B2", "pymunk": "#009E73", "box2d": "#CC79A7"}
+ENGINE_LOOKS = {
+    "lesson": look("#D55E00", "o", "-"),
+    "stable": look("#0072B2", "s", "--"),
+    "compiled": look("#56B4E9", "P", (0, (3, 1, 1, 1))),
+    "pymunk": look("#009E73", "^", "-."),
+    "box2d": look("#CC79A7", "D", ":"),
+}
 DIAL_LOOKS = {
-    "passes": ("o", "-"),
-    "step": ("s", "--"),
-    "substeps": ("^", ":"),
-    SHARED: ("v", ":"),
-    "edits": ("D", "none"),
+    "passes": look("#D55E00", "o", "-"),
+    "step": look("#0072B2", "s", "--"),
+    SHARED: look("#009E73", "v", ":"),
+    "edits": look("#CC79A7", "D", "none"),
 }
-ONLY_IN_TABLES = ("late speed", "time")
+ONLY_IN_TABLES = ("time",)
 STYLE = {
     "axes.grid": True,
     "axes.spines.right": False,
@@ -69,7 +84,12 @@ def draw_all(results, folder, tick=lambda name: None):
 def plans(results):
     """(name, draw) of each figure that the results can fill; draw(pyplot) returns the figure."""
     smooth = results["smooth"]
-    found = [
+    found = []
+    if len(results["budgets"]) == PANELS:
+        found.append(("budgets", partial(budget_figure, scenes=results["budgets"])))
+    for name, scene in results["budgets"].items():
+        found.append((f"engines-{name}".replace(" ", "-"), partial(ladder_figure, scene=scene)))
+    found += [
         (f"smooth-{system['title']}", partial(smooth_figure, system=system))
         for system in smooth["systems"]
     ]
@@ -88,8 +108,133 @@ def worth_drawing(answers, error):
     """Whether the lesson's engine has an error to speak of; some stay in the tables."""
     if error in ONLY_IN_TABLES:
         return False
-    known = [run["errors"][error] for run in answers["runs"] if run["engine"] == "lesson"]
-    return any(not isinstance(e, str) and e > EXACT for e in known)
+    return any(not isinstance(e, str) and e > EXACT for e in errors_of_lesson(answers, error))
+
+
+# ---------------------------------------------------------------- all engines
+
+
+PANELS = 6  # of the first figure
+SMALLEST = 1e-9  # errors below it are drawn there
+
+
+def budget_figure(plot, scenes):
+    """What error each engine reaches in a frame: a panel per scene, a curve per engine."""
+    figure, panels = plot.subplots(2, 3, figsize=(11, 7))
+    figure.subplots_adjust(left=0.075, right=0.985, bottom=0.15, top=0.86, wspace=0.27, hspace=0.36)
+    for axes, scene in zip(panels.flat, scenes.values(), strict=True):
+        budget_panel(axes, scene)
+    for axes in panels[1]:
+        axes.set_xlabel("wall time for a frame of 1/60 s")
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncols=len(labels))
+    title(figure, textwrap.fill(budget_message(scenes), 110))
+    return figure
+
+
+def budget_panel(axes, scene):
+    """One scene: the least error of each engine in each budget, with the range of its repeats."""
+    bottom, top = panel_ends(scene)
+    engines = list(scene["within"])
+    budgets = [cell["budget"] for cell in scene["within"][engines[0]]]
+    for place, engine in enumerate(engines):
+        aside = 0.1 * (place - (len(engines) - 1) / 2)
+        points, low, high, lost = [], [], [], []
+        for i, cell in enumerate(scene["within"][engine]):
+            if isinstance(cell["error"], str):
+                lost.append(i + aside)
+                continue
+            points.append((i + aside, max(cell["error"], SMALLEST)))
+            ends = [top if isinstance(end, str) else max(end, SMALLEST) for end in cell["range"]]
+            low.append(points[-1][1] - min(*ends, points[-1][1]))
+            high.append(max(*ends, points[-1][1]) - points[-1][1])
+        how = ENGINE_LOOKS[engine]
+        axes.errorbar(*split(points), yerr=[low, high], capsize=4, label=shown(engine), **how)
+        cross = {"marker": "x", "markersize": 8, "markeredgewidth": 2, "clip_on": False}
+        axes.plot(lost, [top] * len(lost), linestyle="none", color=how["color"], **cross)
+    axes.set_yscale("log")
+    axes.set_ylim(bottom / 1.5, top * 1.5)
+    plain_ticks(axes, "y")
+    axes.set_xticks(range(len(budgets)), [f"{ms:g} ms" for ms in budgets])
+    axes.set_xlim(-0.5, len(budgets) - 0.5)
+    axes.set_title(scene["title"], fontsize=10, loc="left")
+    axes.set_ylabel(f"{scene['error']} ({scene['unit']})")
+
+
+def panel_ends(scene):
+    """Powers of ten around all errors of a panel."""
+    cells = [cell for row in scene["within"].values() for cell in row]
+    ends = [end for cell in cells for end in (cell["error"], *cell["range"])]
+    known = [max(error, SMALLEST) for error in ends if not isinstance(error, str)] or [1.0]
+    return around(min(known), max(known))
+
+
+def around(low, high):
+    """Powers of ten below the lower and above the higher."""
+    return 10 ** (math.ceil(math.log10(low)) - 1), 10 ** (math.floor(math.log10(high)) + 1)
+
+
+def budget_message(scenes):
+    """How often an engine is best with the largest budget, beyond the range of repeats."""
+    wins = {}
+    for scene in scenes.values():
+        best = winners(scene)
+        for engine in best:
+            wins[engine] = wins.get(engine, 0) + 1
+    most = max(
+        cell["budget"] for row in next(iter(scenes.values()))["within"].values() for cell in row
+    )
+    parts = [f"{shown(engine)} in {count}" for engine, count in sorted(wins.items(), key=by_count)]
+    return (
+        f"The smallest error within {most:g} ms of a frame, of {len(scenes)} scenes (who cannot be "
+        f"told apart count both): {', '.join(parts) or 'nobody'}"
+    )
+
+
+def by_count(pair):
+    return -pair[1], pair[0]
+
+
+def ladder_figure(plot, scene):
+    """The error of one scene against time, a curve per engine: what is better costs more."""
+    figure, axes = plot.subplots(figsize=(7.6, 4.6))
+    figure.subplots_adjust(left=0.13, right=0.74, bottom=0.12, top=0.84)
+    fronts = {engine: front(scene["runs"], engine) for engine in scene["within"]}
+    known = [error for points in fronts.values() for _, error in points]
+    bottom, top = around(min(known, default=1.0), max(known, default=1.0))
+    for engine, points in fronts.items():
+        curve(axes, points, top, label=shown(engine), **ENGINE_LOOKS[engine])
+    mark_frame(axes, bottom)
+    axes.set_ylim(bottom / 1.5, top * 1.5)
+    axes.set_ylabel(f"{scene['error']} ({scene['unit']})")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    title(figure, textwrap.fill(ladder_message(scene), 84))
+    return figure
+
+
+def front(runs, engine):
+    """The settings of an engine of which no other is both faster and better, as (ms, error)."""
+    known = [
+        (median(run["ms"]), max(run["error"], SMALLEST))
+        for run in runs
+        if run["engine"] == engine and run["ms"] and not isinstance(run["error"], str)
+    ]
+    points = []
+    for ms, error in sorted(known):
+        if not points or error < points[-1][1]:
+            points.append((ms, error))
+    return points
+
+
+def ladder_message(scene):
+    """What an error as small as the stable engine's costs in the other engines."""
+    name = f"{scene['title'][0].upper()}{scene['title'][1:]}, {scene['error']}"
+    parts = [
+        f"{shown(row['engine'])} {needs(row)}"
+        for row in scene["equal"]["rows"]
+        if row["engine"] != "stable"
+    ]
+    return f"{name}: time for the stable engine's error, in shares of its own: {', '.join(parts)}"
 
 
 # ---------------------------------------------------------------- integrators
@@ -101,10 +246,9 @@ def smooth_figure(plot, system):
     figure.subplots_adjust(left=0.09, right=0.97, bottom=0.13, top=0.84, wspace=0.06)
     top = 10 * system["size"]
     for method in system["methods"]:
-        colour, marker = METHOD_LOOKS[method["method"]]
         for axes, cost in ((left, "dt"), (right, "calls")):
             points = [(p[cost], p["error"]) for p in method["points"]]
-            curve(axes, points, top, color=colour, marker=marker, label=method["method"])
+            curve(axes, points, top, label=method["method"], **METHOD_LOOKS[method["method"]])
     for order in (1, 2, 4):
         slope_triangle(left, system["methods"], order, top)
     left.set_xlabel("step size (s)")
@@ -116,7 +260,7 @@ def smooth_figure(plot, system):
     return figure
 
 
-def curve(axes, points, top, bottom=0.0, **look):
+def curve(axes, points, top, bottom=0.0, **how):
     """A curve; words and errors above top become crosses there, those below bottom triangles."""
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -124,13 +268,13 @@ def curve(axes, points, top, bottom=0.0, **look):
     inside = [(x, y) for x, y in points if not isinstance(y, str) and bottom < y < top]
     high = [x for x, y in points if isinstance(y, str) or y >= top]
     low = [x for x, y in points if not isinstance(y, str) and y <= bottom]
-    axes.plot(*split(inside), **look)
-    edge = {"linestyle": "none", "color": look["color"], "clip_on": False, "zorder": 4}
+    axes.plot(*split(inside), **how)
+    edge = {"linestyle": "none", "color": how["color"], "clip_on": False, "zorder": 4}
     axes.plot(high, [top] * len(high), marker="x", markersize=8, markeredgewidth=2, **edge)
     axes.plot(low, [bottom] * len(low), marker="v", markersize=7, fillstyle="none", **edge)
 
 
-def plain_ticks(axes):
+def plain_ticks(axes, which="xy"):
     """A line of the grid for every power of ten, written as a plain number.
 
     matplotlib's own powers of ten take most of the time of a figure.
@@ -138,7 +282,7 @@ def plain_ticks(axes):
     from matplotlib import ticker
 
     axes.minorticks_off()
-    for axis in (axes.xaxis, axes.yaxis):
+    for axis in [{"x": axes.xaxis, "y": axes.yaxis}[name] for name in which]:
         axis.set_major_locator(ticker.LogLocator(numticks=99))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
 
@@ -197,10 +341,9 @@ def energy_figure(plot, study):
     figure, axes = plot.subplots(figsize=(7.6, 4.2))
     figure.subplots_adjust(left=0.13, right=0.72, bottom=0.13, top=0.84)
     for row in study:
-        colour, marker = METHOD_LOOKS[row["method"]]
         rounds = [(i + 1, peak) for i, peak in enumerate(row["peaks"])]
         peaks = [pair for pair in rounds if pair[0] in SHOWN_ROUNDS or pair == rounds[-1]]
-        curve(axes, peaks, 10.0, color=colour, marker=marker, label=row["method"])
+        curve(axes, peaks, 10.0, label=row["method"], **METHOD_LOOKS[row["method"]])
     axes.set_xlabel(f"round of the orbit ({ENERGY_CALLS} evaluations of the force each)")
     axes.set_ylabel("largest energy error in that round (share)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -216,7 +359,7 @@ def energy_figure(plot, study):
 
 
 def dial_figure(plot, answers, error):
-    """One error against wall time and against solves, a curve per engine and dial."""
+    """One error of the lesson's engine against wall time and against solves, a curve per dial."""
     counted = any(run["solves"] for run in answers["runs"])
     figure, panels = plot.subplots(
         1, 1 + counted, figsize=(7.0 + 4 * counted, 4.8), sharey=True, squeeze=False
@@ -240,21 +383,27 @@ def dial_figure(plot, answers, error):
 
 
 def dial_curves(axes, answers, error, cost, ends):
-    """A curve per engine and dial, and a star where the lesson's engine stands as it is."""
+    """A curve per dial of the lesson's engine, and a star where it stands as it is."""
     bottom, top = ends
-    for row in answers["dials"]:
+    for row in dials_of_lesson(answers):
         runs = [answers["runs"][i] for i in row["runs"]]
-        marker, line = DIAL_LOOKS[row["dial"]]
-        look = {"color": ENGINE_COLOURS[row["engine"]], "marker": marker, "linestyle": line}
         points = [(cost(run), run["errors"][error]) for run in runs if cost(run)]
-        curve(axes, points, top, bottom, label=f"{row['engine']}: {row['dial']}", **look)
+        curve(axes, points, top, bottom, label=row["dial"], **DIAL_LOOKS[row["dial"]])
     run = next(run for run in answers["runs"] if run["default"])
     found = run["errors"][error]
     height = top if isinstance(found, str) else min(max(found, bottom), top)
-    look = {"marker": "*", "markersize": 15, "color": "#F0E442", "markeredgecolor": "black"}
+    star = {"marker": "*", "markersize": 15, "color": "#F0E442", "markeredgecolor": "black"}
     if cost(run):
-        label = "the lesson's defaults"
-        axes.plot([cost(run)], [height], linestyle="none", zorder=5, label=label, **look)
+        label = "as it is"
+        axes.plot([cost(run)], [height], linestyle="none", zorder=5, label=label, **star)
+
+
+def dials_of_lesson(answers):
+    return [row for row in answers["dials"] if row["engine"] == "lesson"]
+
+
+def errors_of_lesson(answers, error):
+    return [run["errors"][error] for run in answers["runs"] if run["engine"] == "lesson"]
 
 
 def mark_frame(axes, bottom):
@@ -276,17 +425,17 @@ def tick_narrow(axes):
 
 def explain_edges(axes, answers, error, bottom):
     """Legend entries for what stands at the edges of the axes."""
-    found = [run["errors"][error] for run in answers["runs"]]
-    look = {"linestyle": "none", "color": "0.3"}
+    found = errors_of_lesson(answers, error)
+    grey = {"linestyle": "none", "color": "0.3"}
     if any(isinstance(e, str) for e in found):
-        axes.plot([], [], marker="x", markeredgewidth=2, label="gave up", **look)
+        axes.plot([], [], marker="x", markeredgewidth=2, label="gave up", **grey)
     if any(not isinstance(e, str) and e <= bottom for e in found):
         label = f"below {bottom:g}"
-        axes.plot([], [], marker="v", fillstyle="none", label=label, **look)
+        axes.plot([], [], marker="v", fillstyle="none", label=label, **grey)
 
 
 def frame_cost(run):
-    return run["ms"] / 60 if run["ms"] else None
+    return median(run["ms"]) if run["ms"] else None
 
 
 def solve_cost(run):
@@ -295,8 +444,7 @@ def solve_cost(run):
 
 def edges(answers, error):
     """The lowest and the highest error of the axes: powers of ten around the known ones."""
-    known = [run["errors"][error] for run in answers["runs"]]
-    known = [e for e in known if not isinstance(e, str)]
+    known = [e for e in errors_of_lesson(answers, error) if not isinstance(e, str)]
     low, high = min(e for e in known if e > EXACT), max(known)
     below = min(known) <= EXACT  # a decade more, for the triangles
     return 10 ** (math.floor(math.log10(low)) - below), 10 ** (math.floor(math.log10(high)) + 1)
@@ -304,8 +452,7 @@ def edges(answers, error):
 
 def dial_message(answers, error):
     """What one more digit costs with each dial of the lesson's engine, cheapest first."""
-    rows = [row for row in answers["dials"] if row["engine"] == "lesson"]
-    verdicts = [(row["verdicts"][error], row["dial"]) for row in rows]
+    verdicts = [(row["verdicts"][error], row["dial"]) for row in dials_of_lesson(answers)]
     helping = sorted((v["digit"], dial) for v, dial in verdicts if v["says"] == "helps")
     useless = [dial for v, dial in verdicts if v["says"] == "cannot help"]
     name = f"{answers['title'][0].upper()}{answers['title'][1:]}, {error}"
@@ -318,25 +465,22 @@ def dial_message(answers, error):
 # ---------------------------------------------------------------- piles
 
 
-PILE_LOOKS = {  # in a row: what it is called, its colour and its marker
-    "lesson": ("lesson", ENGINE_COLOURS["lesson"], "o"),
-    "stable": ("stable", ENGINE_COLOURS["stable"], "s"),
-    "compiled": ("stable, compiled", "#E69F00", "v"),
-    "pymunk": ("pymunk", ENGINE_COLOURS["pymunk"], "D"),
-    "asleep": ("stable, asleep", "#56B4E9", "^"),
-}
+PILE_LOOKS = ENGINE_LOOKS | {"asleep": look("#E69F00", "v", ":")}
+PILE_NAMES = {"asleep": "stable, asleep"}
 
 
 def pile_figure(plot, rows):
     """Time per ball against the number of balls, one curve per engine."""
     figure, axes = plot.subplots(figsize=(7.4, 4.4))
     figure.subplots_adjust(left=0.11, right=0.76, bottom=0.13, top=0.88)
-    for name, (label, colour, marker) in PILE_LOOKS.items():
+    for name, how in PILE_LOOKS.items():
         known = [(row["balls"], row.get(name, {}).get("ms")) for row in rows]
-        points = [(balls, ms / 60) for balls, ms in known if ms]
+        points = [(balls, *spread(ms)) for balls, ms in known if ms]
         if not points:
             continue
-        axes.loglog(*split(points), color=colour, marker=marker, label=label)
+        balls, least, middle, most = zip(*points, strict=True)
+        axes.fill_between(balls, least, most, color=how["color"], alpha=0.15, linewidth=0)
+        axes.loglog(balls, middle, label=PILE_NAMES.get(name) or shown(name), **how)
     axes.axhline(FRAME, color="0.35", linewidth=1, label="a frame, 16.7 ms")
     plain_ticks(axes)
     axes.set_xticks([row["balls"] for row in rows], [str(row["balls"]) for row in rows])
@@ -344,9 +488,11 @@ def pile_figure(plot, rows):
     axes.set_ylabel("wall time per frame of 1/60 s (ms)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     last = rows[-1]
-    faster = last["stable"]["ratio"]
-    share = f"{1 / faster:.0f} times as fast as the lesson's engine" if faster else "unmeasured"
-    title(figure, f"{last['balls']} balls: the stable engine is {share}")
+    faster = span(last["stable"]["ratio"])
+    title(
+        figure,
+        f"{last['balls']} balls: the stable engine is {faster} times as fast as the lesson's",
+    )
     return figure
 
 

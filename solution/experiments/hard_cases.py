@@ -25,6 +25,7 @@ INSIDE = ((150, -10), (0, -10), (150, 0), (0, 0), (149, -9), (0, 9.9))  # corner
 SEAM_SPEEDS = (9, 30, 100, 300, 1000, 3000)  # px/s
 RAMS = ((200, 400, 600, 800, 1000), (0, 1, 6, 17, 34), (50, 54))  # px/s, degrees, px
 HAVE_SPRINGS = tuple(name for name in ENGINES if name != "lesson")
+GAINED = 0.01  # share: nothing drives a chain, but its energy is known to the step only
 NEVER_RISES = 1 / math.sqrt(0.75)  # the largest swing of semi-implicit Euler while omega h < 1
 
 
@@ -297,6 +298,17 @@ RODS = [
             },
         },
     ),
+    *[
+        Case(
+            f"swinging chain of {links} for {seconds} s",
+            [partial(scenes.chain, links, (20.0, 0.0))],
+            trials.swing_on,
+            [Figure("gain", "energy gained, share", 0.0, "<", GAINED)],
+            seconds=seconds,
+            quick=links == 3,
+        )
+        for links, seconds in ((3, 20), (10, 60))
+    ],
     *[
         Case(
             f"spring with k/m = {number(stiffness, 1)}/s²",

@@ -141,3 +141,13 @@ def energy(engine, dt=DT):
         a, b = engine.read(s.a), engine.read(s.b)
         total += s.stiffness / 2 * (math.hypot(b.x - a.x, b.y - a.y) - s.length) ** 2
     return total
+
+
+def swing_energy(engine, dt=DT):
+    """The energy of a chain that hangs from a peg, above the one it has at rest. See energy."""
+    scene = engine.scene
+    depth, rest = 0.0, 0.0
+    for a, b in scene.rods:
+        depth += math.dist(scene.bodies[a].pos, scene.bodies[b].pos)
+        rest -= scene.bodies[b].mass * G * depth
+    return energy(engine, dt) - rest

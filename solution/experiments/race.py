@@ -1,103 +1,15 @@
-"""Races: time at equal accuracy against pymunk, piles of 8 to 1000 balls, and the same step."""
+"""Races: settled piles of 8 to 1000 balls in every engine, and one in the same step as pymunk."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from .answers import milliseconds
 from .compiled import Compiled
-from .costs import wall_times
-from .dials import COMPILED, LAUNCHED, LESSON, PYMUNK, QUESTIONS, STABLE
+from .costs import repeated_times, shares
+from .dials import COMPILED, LAUNCHED, LESSON, PYMUNK, STABLE
 from .engines import Lesson, Pymunk, Stable
 from .measures import deepest_overlap, finite, run
 from .scenes import pile
-
-RATES = (120, 240, 480, 960)  # of pymunk, steps per second
-PASSES = (10, 40, 160, 640)  # of pymunk
-SECONDS = 10.0  # pymunk sinks slowly: a shorter run flatters it
-SLOPS = (None, 0.0)  # px: the overlap pymunk leaves alone, its own choice (0.1) and none
-
-
-# ---------------------------------------------------------------- equal accuracy
-
-
-@dataclass(frozen=True)
-class Rival:
-    """pymunk with its iterations and step, and with the overlap that it leaves alone."""
-
-    rate: int
-    passes: int
-    slop: object  # px, or None for its own choice
-
-    def build(self, scene):
-        engine = replace(PYMUNK, rate=self.rate, passes=self.passes).build(scene)
-        if self.slop is not None:
-            engine.space.collision_slop = self.slop
-        return engine
-
-    @property
-    def dt(self):
-        return 1 / self.rate
-
-
-def equal_accuracy(name, effort, tick=lambda setting: None):
-    """The cheapest pymunk that sinks no more than the stable engine at its defaults."""
-    question = QUESTIONS[name]
-    rates, passes = (RATES[::2], PASSES[:2]) if effort.quick else (RATES, PASSES)
-    stable = attempt(question, STABLE, effort)
-    rows = []
-    for slop in SLOPS:
-        rivals = []
-        for rate in rates:
-            for count in passes:
-                tick((rate, count))
-                rivals.append(attempt(question, Rival(rate, count, slop), effort))
-        rows.append(cheapest(stable, rivals, slop, effort))
-    return {"title": question.title, "stable": stable["sink"], "rows": rows}
-
-
-def attempt(question, setting, effort):
-    """One run: its sink, or a word for how it gave up."""
-    engine = setting.build(question.scene())
-    seconds = effort.scale * SECONDS
-    sink = question.ask(engine, seconds, setting.dt)["sink"]
-    sink = sink if isinstance(sink, str) or math.isfinite(sink) else "NaN"
-    return {"setting": setting, "engine": engine, "sink": sink}
-
-
-def cheapest(stable, rivals, slop, effort):
-    """The fastest rival as accurate as the stable engine, in shares of its time, and the closest.
-
-    A negative sink is a stack pushed apart: its size counts, as for any error.
-    """
-    going = [(one["engine"], one["setting"].dt) for one in [stable, *rivals]]
-    unit, *taken = wall_times(going, effort.rounds)
-    known = [
-        (abs(one["sink"]), seconds, one["setting"])
-        for one, seconds in zip(rivals, taken, strict=True)
-        if not isinstance(one["sink"], str)
-    ]
-    goal = stable["sink"]
-    there = [] if isinstance(goal, str) else [row for row in known if row[0] <= goal]
-    best = min(there, key=lambda row: row[1], default=None)
-    closest = min(known, key=lambda row: row[0], default=None)
-    return {
-        "slop": slop,
-        "reached": best is not None,
-        "best": described(best, unit),
-        "closest": described(closest, unit),
-    }
-
-
-def described(row, unit):
-    if row is None:
-        return None
-    sink, seconds, setting = row
-    return {
-        "sink": sink,
-        "ratio": seconds / unit,
-        "rate": setting.rate,
-        "passes": setting.passes,
-    }
-
 
 # ---------------------------------------------------------------- piles of any size
 
@@ -145,10 +57,10 @@ def pile_row(count, effort, tick=lambda name: None):
     engines["asleep"], rates["asleep"] = fall_asleep(sleepy), STABLE_RATE
     row["asleep"] = {"asleep": engines["asleep"].asleep()}
     going = [(engine, 1 / rates[name]) for name, engine in engines.items()]
-    taken = wall_times(going, 4 if count > 200 else effort.rounds)
-    for name, seconds in zip(engines, taken, strict=True):
-        row[name]["ms"] = None if seconds is None else 1000 * seconds
-        row[name]["ratio"] = seconds / taken[0] if seconds and taken[0] else None
+    taken = repeated_times(going, effort.repeats, 1 if count > 200 else effort.rounds)
+    for name, times in zip(engines, taken, strict=True):
+        row[name]["ms"] = milliseconds(times)
+        row[name]["ratio"] = shares(taken[0], times)
     return row
 
 
@@ -172,8 +84,8 @@ def same_step(count, effort, tick=lambda name: None):
         tick(setting.engine)
         overlaps.append(after(engine, setting.dt, 2.0))
     going = [(engine, setting.dt) for setting, engine in zip(settings, engines, strict=True)]
-    unit, *others = wall_times(going, effort.rounds)
-    ratios = [1.0, *(seconds / unit if seconds and unit else None for seconds in others)]
+    taken = repeated_times(going, effort.repeats, effort.rounds)
+    ratios = [shares(times, taken[0]) for times in taken]
     rows = [
         {"engine": setting.engine, "substeps": setting.substeps, "overlap": deepest, "ratio": ratio}
         for setting, deepest, ratio in zip(settings, overlaps, ratios, strict=True)
@@ -207,6 +119,5 @@ def fall_asleep(scene):
 def growth(rows, name, few=200, many=1000):
     """How much more a ball costs in the larger pile than in the smaller, or None."""
     by_count = {row["balls"]: row[name].get("ms") for row in rows}
-    if not by_count.get(few) or not by_count.get(many):
-        return None
-    return by_count[many] / by_count[few] * few / many
+    grown = shares(by_count.get(many), by_count.get(few))
+    return grown and [factor * few / many for factor in grown]

@@ -295,6 +295,38 @@ def incline(degrees=20.0, friction=0.6):
     return scene
 
 
+def train(count=10, heavy=10.0, degrees=20.0, friction=0.1, grip=0.5):
+    """A row of balls of 1 kg on a slope, pushed by a heavy one above them that has no friction.
+
+    friction is that of two balls of the row, grip that of one and the slope. All of them roll the
+    same way round, so each rubs against its neighbours.
+    """
+    angle = math.radians(degrees)
+    row = [Ball((20.0 * i, -10), friction=friction) for i in range(1, count + 1)]
+    slope = floor(friction=grip**2 / friction)  # the root of its product with a ball's is the grip
+    bodies = [slope, Ball((0, -10), mass=heavy, friction=0.0), *row]
+    pull = G * math.sin(angle)
+    exact = {"acceleration": train_acceleration(count, heavy, pull, friction)}
+    return Scene(bodies, gravity=(pull, G * math.cos(angle)), exact=exact)
+
+
+def train_acceleration(count, heavy, pull, friction):
+    """The acceleration of a train (px/s²) by Newton's laws, where nothing slides on the slope.
+
+    left() is the force with which the last ball would push another one. It is linear in the
+    acceleration, so two trials tell at which one it is 0, as it must be.
+    """
+
+    def left(acceleration):
+        push, rubbed = heavy * (pull - acceleration), 0.0
+        for _ in range(count):  # to roll takes half as much again, and neighbours rub on the ball
+            push = (push * (1 - rubbed) + pull - 1.5 * acceleration) / (1 + friction)
+            rubbed = friction
+        return push
+
+    return pull * left(0.0) / (left(0.0) - left(pull))
+
+
 def seams(speed=300.0):
     """A ball rolling over a floor made of many boxes."""
     boxes = [Block((-200 + 100 * i, 50), (50, 50)) for i in range(40)]

@@ -1,5 +1,6 @@
 """Tables for the terminal and for handouts, and a progress line."""
 
+import json
 import sys
 import time
 
@@ -33,8 +34,11 @@ class Table:
         return "\n\n".join(filter(None, parts)) + "\n"
 
 
-def write_markdown(path, tables):
-    """Put the tables between the two markers of a file, or into a file of their own."""
+def write_markdown(path, tables, lines):
+    """Put the tables between the two markers of a file, or into a file of their own.
+
+    lines, which the text around them rests on, go into results.json beside it.
+    """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"
     before, _, rest = text.partition(BEGIN)
@@ -42,6 +46,10 @@ def write_markdown(path, tables):
     if not found:
         raise ValueError(f"{path} lacks the lines {BEGIN} and {END}: put them where the tables go.")
     path.write_text(f"{before}{BEGIN}\n{block}{END}{after}", encoding="utf-8")
+    results = path.with_name("results.json")
+    kept = json.loads(results.read_text(encoding="utf-8")) if results.exists() else {}
+    text = json.dumps(kept | {path.name: lines}, indent=1, sort_keys=True, ensure_ascii=False)
+    results.write_text(text + "\n", encoding="utf-8")
 
 
 def number(value):
@@ -62,6 +70,18 @@ def number(value):
 def times(value):
     """A ratio, such as 3.1x."""
     return "-" if value is None else f"{number(value)}x"
+
+
+def span(values, unit=""):
+    """The least and the most of some numbers in two digits each, or once where they agree so far.
+
+    A word stays as it is.
+    """
+    if not values:
+        return "-"
+    ends = [number(one if isinstance(one, str) else float(f"{one:.2g}")) for one in values]
+    low, high = ends[0], ends[-1]
+    return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
 
 
 class Progress:

@@ -20,6 +20,7 @@ from .measures import (
     speed,
     states,
     stretches,
+    swing_energy,
     swinging,
     top_speed,
     watch,
@@ -263,6 +264,14 @@ def hang_chain(bench, scene):
     engine = bench.build(scene)
     worst = watch(engine, bench.seconds, lambda: worst_stretch(engine), bench.dt)
     return {"worst": max(worst), "whole": sum(stretches(engine))}
+
+
+def swing_on(bench, scene):
+    """The most energy a swinging chain ever has, as a share of what it is let go with, less 1."""
+    engine = bench.build(scene)
+    start = swing_energy(engine, bench.dt)
+    seen = watch(engine, bench.seconds, lambda: swing_energy(engine, bench.dt), bench.dt)
+    return {"gain": max(seen) / start - 1}
 
 
 def oscillate(bench, scene):

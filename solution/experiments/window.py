@@ -351,7 +351,7 @@ def main(arguments=None):
         os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
         os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
     pygame.init()
-    pygame.display.set_caption("Three engines")
+    pygame.display.set_caption("Every engine")
     picture = Picture()
     clock = pygame.time.Clock()
     show = Show(options.scene, options.engine)

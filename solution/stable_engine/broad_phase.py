@@ -1,38 +1,104 @@
 """The broad phase: which bodies are near each other, by sort and sweep."""
 
-from collections.abc import Iterator
-from operator import itemgetter
+from operator import attrgetter
 
 from .body import Body
 
-Interval = tuple[float, float, float, float, Body]  # low, high, side_low, side_high
+
+class Bounds:
+    """The bounding box of a body, along the axis of the sweep and across it."""
+
+    __slots__ = ("body", "high", "low", "place", "side_high", "side_low", "x", "y")
+
+    def __init__(self, body: Body, place: int) -> None:
+        self.body = body
+        self.place = place  # in the world's list
+        self.x = self.y = 0.0  # px, of the body when contacts were last found
+        self.low = self.high = self.side_low = self.side_high = 0.0  # px
+
+    def update(self, upright: bool, margin: float) -> None:
+        """Take over where the body is. Low ends are moved out by margin px."""
+        body = self.body
+        x, y, hx, hy = body.x, body.y, body.hx, body.hy
+        self.x, self.y = x, y
+        if upright:
+            self.low, self.high = y - hy - margin, y + hy
+            self.side_low, self.side_high = x - hx - margin, x + hx
+        else:
+            self.low, self.high = x - hx - margin, x + hx
+            self.side_low, self.side_high = y - hy - margin, y + hy
+
+    def begins_before(self, other: "Bounds") -> bool:
+        """Whether the sweep comes to this box first."""
+        if self.low != other.low:
+            return self.low < other.low
+        if self.side_low != other.side_low:
+            return self.side_low < other.side_low
+        return self.place < other.place
 
 
-def near_pairs(bodies: list[Body], awake: list[Body], margin: float) -> Iterator[tuple[Body, Body]]:
-    """Pairs whose bounding boxes come within margin px, one of the two awake; higher id first.
+ORDER = attrgetter("low", "side_low", "place")  # as begins_before
 
-    A sweep along the axis on which the awake bodies are spread wider. It meets each box where it
-    begins; the boxes that began before and have not ended are the only ones it can be near.
+
+class BroadPhase:
+    """A sweep along the axis on which the awake bodies are spread wider.
+
+    It meets each box where it begins; the boxes that began before and have not ended are the only
+    ones it can be near. Bodies move little from step to step, so the order of one sweep is nearly
+    that of the next: a box that lies wrong is moved down to where it belongs (insertion sort).
     """
-    active: list[Interval] = []
-    for interval in sorted(intervals(bodies, awake, margin), key=itemgetter(0, 2)):
-        low, _, side_low, side_high, a = interval
-        active = [other for other in active if other[1] > low]
-        for b in [b for _, _, start, end, b in active if start < side_high and end > side_low]:
-            if not (a.idle and b.idle):
-                yield (a, b) if a.id > b.id else (b, a)
-        active.append(interval)
 
+    def __init__(self) -> None:
+        self.bounds: list[Bounds] = []  # in the order of the last sweep
+        self.sorted = False
+        self.upright = False  # whether the sweep goes along y
 
-def intervals(bodies: list[Body], awake: list[Body], m: float) -> list[Interval]:
-    """The bounding boxes near awake bodies, longer axis first, low ends moved out by m px."""
-    left, right = min([b.x - b.hx for b in awake]) - m, max([b.x + b.hx for b in awake]) + m
-    top, bottom = min([b.y - b.hy for b in awake]) - m, max([b.y + b.hy for b in awake]) + m
-    boxes = [
-        (b.x - b.hx - m, b.x + b.hx, b.y - b.hy - m, b.y + b.hy, b)
-        for b in bodies
-        if b.x + b.hx > left and b.x - b.hx < right and b.y + b.hy > top and b.y - b.hy < bottom
-    ]
-    if bottom - top > right - left:
-        return [(y0, y1, x0, x1, b) for x0, x1, y0, y1, b in boxes]
-    return boxes
+    def take(self, bodies: list[Body]) -> None:
+        """Begin anew, with these bodies."""
+        self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
+        self.sorted = False
+
+    def near_pairs(self, awake: list[Body], margin: float) -> list[tuple[Body, Body]]:
+        """Pairs whose bounding boxes come within margin px, one of the two awake; higher id first.
+
+        The awake ones are among the bodies that were taken.
+        """
+        left, right = min([b.x - b.hx for b in awake]) - margin, max([b.x + b.hx for b in awake])
+        top, bottom = min([b.y - b.hy for b in awake]) - margin, max([b.y + b.hy for b in awake])
+        upright = bottom - top > right - left
+        for one in self.bounds:
+            one.update(upright, margin)
+        self.sort(upright)
+        if upright:
+            left, right, top, bottom = top, bottom, left, right
+        pairs: list[tuple[Body, Body]] = []
+        active: list[Bounds] = []
+        for one in self.bounds:
+            low, side_low, side_high = one.low, one.side_low, one.side_high
+            if low >= right:
+                break
+            if one.high <= left or side_low >= bottom or side_high <= top:
+                continue  # far from all that are awake
+            active = [other for other in active if other.high > low]
+            a = one.body
+            for other in active:
+                if other.side_low < side_high and other.side_high > side_low:
+                    b = other.body
+                    if not (a.idle and b.idle):
+                        pairs.append((a, b) if a.id > b.id else (b, a))
+            active.append(one)
+        return pairs
+
+    def sort(self, upright: bool) -> None:
+        """Put the boxes into the order in which the sweep meets them."""
+        bounds = self.bounds
+        if not self.sorted or upright != self.upright:
+            bounds.sort(key=ORDER)
+            self.sorted, self.upright = True, upright
+            return
+        for i in range(1, len(bounds)):
+            one, at = bounds[i], i
+            while at > 0 and one.begins_before(bounds[at - 1]):
+                bounds[at] = bounds[at - 1]
+                at -= 1
+            bounds[at] = one

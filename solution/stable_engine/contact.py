@@ -1,6 +1,5 @@
 """Contact points, and the geometry that finds them (the narrow phase)."""
 
-from dataclasses import dataclass
 from math import copysign, cos, sin, sqrt
 
 from pygame import Vector2
@@ -10,21 +9,35 @@ from .body import Body
 GOLDEN_ANGLE = 2.399963  # rad
 
 
-@dataclass(slots=True, eq=False)
 class Contact:
-    """Two bodies that touch. It persists while they do, so that its impulses can warm start."""
+    """Two bodies that touch. It persists while they do, so that its impulses can warm start.
 
-    a: Body  # always a ball with mass
-    b: Body
-    nx: float = 0.0  # unit normal from A to B
-    ny: float = 0.0
-    gap: float = 0.0  # px, negative when they overlap
-    jn: float = 0.0  # kg px/s, accumulated normal impulse, never negative
-    jt: float = 0.0  # kg px/s, accumulated friction impulse
-    mn: float = 0.0  # kg, effective mass along the normal
-    mt: float = 0.0  # kg, effective mass along the tangent, filled in by Friction
-    mu: float = 0.0  # friction of the pair, filled in by Friction
-    e: float = 0.0  # restitution of the pair, filled in by Bounce
+    What the substeps of a step need of it is worked out once per step, by Contacts.prepare and
+    Friction.prepare. A unit of impulse along the normal takes ax and ay from A's velocity and gives
+    bx and by to B's; one along the tangent takes tax and tay, and gives tbx and tby, and takes aw
+    and bw from their spins. Centres that are reach px apart along the normal just touch.
+    """
+
+    __slots__ = (
+        *("a", "b", "nx", "ny", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
+        *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw"),
+    )
+
+    def __init__(self, a: Body, b: Body) -> None:
+        self.a = a  # always a ball with mass
+        self.b = b
+        self.nx = self.ny = 0.0  # unit normal from A to B; the tangent is (-ny, nx)
+        self.gap = 0.0  # px, negative when they overlap
+        self.reach = 0.0  # px
+        self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
+        self.jt = 0.0  # kg px/s, accumulated friction impulse
+        self.mn = 1 / (a.inv_mass + b.inv_mass)  # kg, effective mass along the normal
+        self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
+        self.mu = 0.0  # friction of the pair, filled in by Friction
+        self.e = 0.0  # restitution of the pair, filled in by Bounce
+        self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
+        self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
+        self.aw = self.bw = 0.0  # 1/(kg px), of the spins
 
     @property
     def normal(self) -> Vector2:

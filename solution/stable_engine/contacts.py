@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import hypot
 
 from .body import Body
-from .broad_phase import near_pairs
+from .broad_phase import BroadPhase
 from .contact import Contact, behind_face, collide
 from .effect import Effect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -21,8 +21,17 @@ CORE = 0.5  # radii
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
-BallRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
-StaticRow = tuple[Contact, Body, Body, float, float, float, float, float, float]
+
+
+class Group:
+    """Contacts that are solved alike: those of two balls, or those of balls and static bodies."""
+
+    __slots__ = ("bias_rate", "contacts", "mass_scale", "moves_b")
+
+    def __init__(self, moves_b: bool) -> None:
+        self.moves_b = moves_b  # whether an impulse moves B
+        self.contacts: list[Contact] = []
+        self.bias_rate = self.mass_scale = 0.0  # see softness
 
 
 class Contacts(Effect):
@@ -31,10 +40,7 @@ class Contacts(Effect):
     on_hit(a, b, speed) is called at the end of a step for each two bodies that began to touch in
     it, with the speed (px/s) at which they came together. It may add and remove bodies.
 
-    What the substeps need of each contact is laid out in rows once per step: looking it up in each
-    substep would take longer. In a row, ax and ay are what a unit of impulse takes from A's
-    velocity, bx and by what it gives to B's; centres that are reach px apart along the normal just
-    touch. In a ball row both bodies can move; in a static row B is static.
+    Each stage solves contacts of two balls first: the last word is that of the static bodies.
     """
 
     rank = 3
@@ -44,7 +50,9 @@ class Contacts(Effect):
         self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
         self.touching: list[Contact] = []
         self.changed = False  # whether contacts are new in this step, so that rows must be too
-        self.last_positions: list[tuple[Body, float, float]] = []  # at the last detection
+        self.broad_phase = BroadPhase()
+        self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
+        self.groups = [self.balls, self.statics]
         self.cache: dict[tuple[int, int], Contact] = {}
         self.sleeping_cache: dict[tuple[int, int], Contact] = {}
         self.ignored: set[tuple[int, int]] = set()
@@ -57,14 +65,20 @@ class Contacts(Effect):
 
     def detect(self, h: float) -> None:
         bodies = self.world.bodies
-        moved = [
-            abs(body.x - x) + abs(body.y - y) > REDETECT_DISTANCE
-            for body, x, y in self.last_positions
-        ]
-        self.changed = len(moved) < len(bodies) or any(moved)
+        is_new = len(self.broad_phase.bounds) < len(bodies)
+        self.changed = is_new or self.any_moved()
+        if is_new:
+            self.broad_phase.take(bodies)
         if self.changed:
-            self.last_positions = [(body, body.x, body.y) for body in bodies]
             self.touching = self.find_contacts(h * self.world.substeps)
+
+    def any_moved(self) -> bool:
+        """Whether any body is no longer where contacts were last found."""
+        for last in self.broad_phase.bounds:
+            body = last.body
+            if abs(body.x - last.x) + abs(body.y - last.y) > REDETECT_DISTANCE:
+                return True
+        return False
 
     def find_contacts(self, dt: float) -> list[Contact]:
         """The contacts of all bodies where they are now, with the impulses they had before.
@@ -75,7 +89,7 @@ class Contacts(Effect):
         """
         margin = SPECULATIVE_SPEED * dt
         cache, found = self.cache, {}
-        for a, b in near_pairs(self.world.bodies, self.world.awake, margin):
+        for a, b in self.broad_phase.near_pairs(self.world.awake, margin):
             nx, ny, gap = collide(a, b)
             if gap > 0 and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED):
                 continue
@@ -100,7 +114,7 @@ class Contacts(Effect):
 
     def new_contact(self, a: Body, b: Body) -> Contact:
         """A contact, with what other effects need of it filled in."""
-        c = Contact(a, b, mn=1 / (a.inv_mass + b.inv_mass))
+        c = Contact(a, b)
         for begin_contact in self.begin_contact_hooks:
             begin_contact(c)
         return c
@@ -109,7 +123,7 @@ class Contacts(Effect):
         """Let A and B pass through each other: a joint may hold them overlapping."""
         self.ignored |= pair_both_ways(a, b)
         self.cache = {pair: c for pair, c in self.cache.items() if pair not in self.ignored}
-        self.last_positions = []
+        self.broad_phase.bounds = []
 
     def apply_impact(self, c: Contact, change: float) -> None:
         """Raise the speed at which A and B separate by change (px/s), with one impulse at once."""
@@ -124,105 +138,75 @@ class Contacts(Effect):
 
     def prepare(self, h: float) -> None:
         hertz = FREQUENCY / self.pace.follow(h)
-        self.ball_spring = softness(hertz, DAMPING_RATIO, h)
-        self.static_spring = softness(2 * hertz, DAMPING_RATIO, h)
+        self.balls.bias_rate, self.balls.mass_scale = softness(hertz, DAMPING_RATIO, h)
+        self.statics.bias_rate, self.statics.mass_scale = softness(2 * hertz, DAMPING_RATIO, h)
         if not self.changed:
             return
-        self.ball_rows: list[BallRow] = []
-        self.static_rows: list[StaticRow] = []
+        self.balls.contacts = [c for c in self.touching if c.b.inv_mass]
+        self.statics.contacts = [c for c in self.touching if not c.b.inv_mass]
         for c in self.touching:
-            a, b, nx, ny, mn = c.a, c.b, c.nx, c.ny, c.mn
-            ax, ay = nx * a.inv_mass, ny * a.inv_mass
-            reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
-            if b.inv_mass:
-                bx, by = nx * b.inv_mass, ny * b.inv_mass
-                self.ball_rows.append((c, a, b, nx, ny, mn, reach, ax, ay, bx, by))
-            else:
-                self.static_rows.append((c, a, b, nx, ny, mn, reach, ax, ay))
+            a, b, nx, ny = c.a, c.b, c.nx, c.ny
+            c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
+            c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
+            c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
 
     def warm_start(self, h: float) -> None:
-        for c, a, b, _, _, _, _, ax, ay, bx, by in self.ball_rows:
-            jn = c.jn
-            a.vx -= ax * jn
-            a.vy -= ay * jn
-            b.vx += bx * jn
-            b.vy += by * jn
-        for c, a, _, _, _, _, _, ax, ay in self.static_rows:
-            jn = c.jn
-            a.vx -= ax * jn
-            a.vy -= ay * jn
+        for group in self.groups:
+            moves_b = group.moves_b
+            for c in group.contacts:
+                a, b, jn = c.a, c.b, c.jn
+                a.vx -= c.ax * jn
+                a.vy -= c.ay * jn
+                if moves_b:
+                    b.vx += c.bx * jn
+                    b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
-        bias_rate, mass_scale = self.ball_spring
-        for c, a, b, nx, ny, mn, reach, ax, ay, bx, by in self.ball_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if gap > 0:
-                jn = before - mn * (speed + gap / h)
-            else:
-                push = bias_rate * gap
-                if push < -MAX_PUSH_SPEED:
-                    push = -MAX_PUSH_SPEED
-                jn = mass_scale * (before - mn * speed) - mn * push
-            if jn < 0:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            a.vx -= ax * jn
-            a.vy -= ay * jn
-            b.vx += bx * jn
-            b.vy += by * jn
-        bias_rate, mass_scale = self.static_spring
-        for c, a, b, nx, ny, mn, reach, ax, ay in self.static_rows:
-            gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if gap > 0:
-                jn = before - mn * (speed + gap / h)
-            else:
-                push = bias_rate * gap
-                if push < -MAX_PUSH_SPEED:
-                    push = -MAX_PUSH_SPEED
-                jn = mass_scale * (before - mn * speed) - mn * push
-            if jn < 0:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            a.vx -= ax * jn
-            a.vy -= ay * jn
+        for group in self.groups:
+            moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
+            for c in group.contacts:
+                a, b, nx, ny, mn = c.a, c.b, c.nx, c.ny, c.mn
+                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+                before = c.jn
+                if gap > 0:
+                    jn = before - mn * (speed + gap / h)
+                else:
+                    push = bias_rate * gap
+                    if push < -MAX_PUSH_SPEED:
+                        push = -MAX_PUSH_SPEED
+                    jn = mass_scale * (before - mn * speed) - mn * push
+                if jn < 0:
+                    jn = 0.0
+                c.jn = jn
+                jn -= before
+                a.vx -= c.ax * jn
+                a.vy -= c.ay * jn
+                if moves_b:
+                    b.vx += c.bx * jn
+                    b.vy += c.by * jn
 
     def relax(self, h: float) -> None:
-        for c, a, b, nx, ny, mn, reach, ax, ay, bx, by in self.ball_rows:
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if not before:
-                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
-                if gap > 0:
-                    speed += gap / h
-            jn = before - mn * speed
-            if jn < 0:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            a.vx -= ax * jn
-            a.vy -= ay * jn
-            b.vx += bx * jn
-            b.vy += by * jn
-        for c, a, b, nx, ny, mn, reach, ax, ay in self.static_rows:
-            speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-            before = c.jn
-            if not before:
-                gap = (b.x - a.x) * nx + (b.y - a.y) * ny - reach
-                if gap > 0:
-                    speed += gap / h
-            jn = before - mn * speed
-            if jn < 0:
-                jn = 0.0
-            c.jn = jn
-            jn -= before
-            a.vx -= ax * jn
-            a.vy -= ay * jn
+        for group in self.groups:
+            moves_b = group.moves_b
+            for c in group.contacts:
+                a, b, nx, ny = c.a, c.b, c.nx, c.ny
+                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+                before = c.jn
+                if not before:
+                    gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
+                    if gap > 0:
+                        speed += gap / h
+                jn = before - c.mn * speed
+                if jn < 0:
+                    jn = 0.0
+                c.jn = jn
+                jn -= before
+                a.vx -= c.ax * jn
+                a.vy -= c.ay * jn
+                if moves_b:
+                    b.vx += c.bx * jn
+                    b.vy += c.by * jn
 
     def finish(self, h: float) -> None:
         """Keep the core of a fast ball out of static bodies, and tell of hits.
@@ -231,9 +215,11 @@ class Contacts(Effect):
 
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
-        for body, x, y in self.last_positions:
-            if abs(body.x - x) + abs(body.y - y) > body.radius > 0 and not body.bullet:
-                self.sweep(body, (x, y), CORE * body.radius, 0.0, h)
+        for last in self.broad_phase.bounds:
+            body = last.body
+            distance = abs(body.x - last.x) + abs(body.y - last.y)
+            if distance > body.radius > 0 and not body.bullet:
+                self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:
@@ -265,7 +251,7 @@ class Contacts(Effect):
                 begin_contact(c)
             c.a.wake()
             c.b.wake()
-        self.last_positions = []
+        self.broad_phase.bounds = []
 
     def forget(self, body: Body) -> None:
         """Wake whatever touches it: it may have lain on it."""
@@ -276,7 +262,7 @@ class Contacts(Effect):
         self.cache = {pair: c for pair, c in self.cache.items() if pair not in gone}
         self.sleeping_cache = {p: c for p, c in self.sleeping_cache.items() if p not in gone}
         self.touching = [c for c in self.touching if body not in (c.a, c.b)]
-        self.last_positions = []
+        self.broad_phase.bounds = []
 
     def is_used(self) -> bool:
         return len(self.world.bodies) > 1
@@ -286,7 +272,7 @@ class Contacts(Effect):
 
     def awake_changed(self) -> None:
         """Keep the impulses between sleeping bodies: with a warm start a pile wakes calmly."""
-        self.last_positions = []
+        self.broad_phase.bounds = []
         self.cache = self.sleeping_cache | self.cache
         self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.asleep}
 

@@ -2,23 +2,16 @@
 
 from math import sqrt
 
-from .body import Body
 from .contact import Contact
-from .contacts import Contacts
+from .contacts import Contacts, Group
 from .effect import Effect
 from .world import World
-
-BallRow = tuple[
-    Contact, Body, Body, float, float, float, float, float, float, float, float, float, float, float
-]
-StaticRow = tuple[Contact, Body, Body, float, float, float, float, float, float, float, float]
 
 
 class Friction(Effect):
     """Coulomb's law: the friction impulse is at most mu jn, with mu = sqrt(mu_a mu_b).
 
-    The tangent is the normal turned clockwise. ax, ay and aw are what a unit of impulse takes from
-    A's velocity and spin, bx and by what it gives to B's; it takes bw from B's spin.
+    The tangent is the normal turned clockwise.
     """
 
     rank = 5
@@ -26,6 +19,8 @@ class Friction(Effect):
     def attach(self, world: World) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
+        self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
+        self.groups = [self.balls, self.statics]
 
     def is_used(self) -> bool:
         return any(body.mu > 0 for body in self.world.bodies)
@@ -51,67 +46,48 @@ class Friction(Effect):
     def prepare(self, h: float) -> None:
         if not self.contacts.changed:
             return
-        self.ball_rows: list[BallRow] = []
-        self.static_rows: list[StaticRow] = []
-        for c in self.contacts.touching:
-            if c.mu > 0:
-                a, b, tx, ty, ra, rb = c.a, c.b, -c.ny, c.nx, c.a.radius, c.b.radius
-                ax, ay, aw = tx * a.inv_mass, ty * a.inv_mass, ra * a.inv_inertia
-                if b.inv_mass:
-                    bx, by, bw = tx * b.inv_mass, ty * b.inv_mass, rb * b.inv_inertia
-                    row = (c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw, bx, by, bw)
-                    self.ball_rows.append(row)
-                else:
-                    self.static_rows.append((c, a, b, tx, ty, ra, rb, c.mt, ax, ay, aw))
+        self.balls.contacts = [c for c in self.contacts.balls.contacts if c.mu > 0]
+        self.statics.contacts = [c for c in self.contacts.statics.contacts if c.mu > 0]
+        for group in self.groups:
+            for c in group.contacts:
+                a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+                c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, a.radius * a.inv_inertia
+                c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, b.radius * b.inv_inertia
 
     def warm_start(self, h: float) -> None:
-        for c, a, b, _, _, _, _, _, ax, ay, aw, bx, by, bw in self.ball_rows:
-            jt = c.jt
-            if jt:
-                a.vx -= ax * jt
-                a.vy -= ay * jt
-                a.w -= aw * jt
-                b.vx += bx * jt
-                b.vy += by * jt
-                b.w -= bw * jt
-        for c, a, _, _, _, _, _, _, ax, ay, aw in self.static_rows:
-            jt = c.jt
-            if jt:
-                a.vx -= ax * jt
-                a.vy -= ay * jt
-                a.w -= aw * jt
+        for group in self.groups:
+            moves_b = group.moves_b
+            for c in group.contacts:
+                jt = c.jt
+                if jt:
+                    a, b = c.a, c.b
+                    a.vx -= c.tax * jt
+                    a.vy -= c.tay * jt
+                    a.w -= c.aw * jt
+                    if moves_b:
+                        b.vx += c.tbx * jt
+                        b.vy += c.tby * jt
+                        b.w -= c.bw * jt
 
     def relax(self, h: float) -> None:
-        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw, bx, by, bw in self.ball_rows:
-            limit = c.mu * c.jn
-            before = c.jt
-            if limit or before:
-                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * rb + a.w * ra)
-                jt = before - mt * slip
-                if jt > limit:
-                    jt = limit
-                elif jt < -limit:
-                    jt = -limit
-                c.jt = jt
-                jt -= before
-                a.vx -= ax * jt
-                a.vy -= ay * jt
-                a.w -= aw * jt
-                b.vx += bx * jt
-                b.vy += by * jt
-                b.w -= bw * jt
-        for c, a, b, tx, ty, ra, rb, mt, ax, ay, aw in self.static_rows:
-            limit = c.mu * c.jn
-            before = c.jt
-            if limit or before:
-                slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * rb + a.w * ra)
-                jt = before - mt * slip
-                if jt > limit:
-                    jt = limit
-                elif jt < -limit:
-                    jt = -limit
-                c.jt = jt
-                jt -= before
-                a.vx -= ax * jt
-                a.vy -= ay * jt
-                a.w -= aw * jt
+        for group in self.groups:
+            moves_b = group.moves_b
+            for c in group.contacts:
+                limit, before = c.mu * c.jn, c.jt
+                if limit or before:
+                    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+                    rims = b.w * b.radius + a.w * a.radius
+                    jt = before - c.mt * ((b.vx - a.vx) * tx + (b.vy - a.vy) * ty - rims)
+                    if jt > limit:
+                        jt = limit
+                    elif jt < -limit:
+                        jt = -limit
+                    c.jt = jt
+                    jt -= before
+                    a.vx -= c.tax * jt
+                    a.vy -= c.tay * jt
+                    a.w -= c.aw * jt
+                    if moves_b:
+                        b.vx += c.tbx * jt
+                        b.vy += c.tby * jt
+                        b.w -= c.bw * jt

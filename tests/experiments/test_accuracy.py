@@ -14,10 +14,11 @@ from scipy.integrate import solve_ivp
 
 import accuracy
 import integrators
-from experiments import answers, costs, race, smooth
+from experiments import answers, budgets, costs, smooth
 from experiments.dials import BOX2D, LESSON, PYMUNK, QUESTIONS, STABLE, dials, hit, questions
 from experiments.engines import ENGINES, State
-from experiments.scenes import G, drop, pendulum
+from experiments.measures import swing_energy
+from experiments.scenes import G, chain, drop, pendulum
 from experiments.table import BEGIN, END, Table, number, times, write_markdown
 
 ROOT = Path(__file__).parents[2]
@@ -227,9 +228,15 @@ def test_a_quick_run_judges_each_dial_by_the_same_runs_as_a_full_one():
 
 
 def test_no_digit_costs_less_than_no_work():
-    runs = [{"errors": {"x": 1.0}, "opcodes": 0, "ratio": 1.0},
-            {"errors": {"x": 0.1}, "opcodes": 0, "ratio": 0.9}]  # fmt: skip
-    assert answers.verdict("x", runs) == {"says": "helps", "digit": 1.0}
+    runs = [{"errors": {"x": 1.0}, "opcodes": 0, "ratio": [1.0, 1.0, 1.1]},
+            {"errors": {"x": 0.1}, "opcodes": 0, "ratio": [0.9, 0.9, 1.2]}]  # fmt: skip
+    assert answers.verdict("x", runs) == {"says": "helps", "digit": [1.0, 1.2]}
+
+
+def test_a_change_that_chance_alone_may_bring_gives_no_advice():
+    runs = [{"errors": {"x": 0.7}, "opcodes": 100}, {"errors": {"x": 0.6}, "opcodes": 120}]
+    assert answers.verdict("x", runs)["says"] == "helps"
+    assert answers.verdict("x", runs, QUESTIONS["pile"].chance)["says"] == "cannot help"
 
 
 @pytest.mark.parametrize("quick", [True, False])
@@ -286,7 +293,9 @@ def test_solves_follow_the_dials():
 
 
 def runs_of(*pairs):
-    return [{"errors": {"e": error}, "ratio": ratio, "opcodes": None} for error, ratio in pairs]
+    return [
+        {"errors": {"e": error}, "ratio": [ratio] * 3, "opcodes": None} for error, ratio in pairs
+    ]
 
 
 @pytest.mark.parametrize(
@@ -304,12 +313,12 @@ def runs_of(*pairs):
 def test_a_verdict_tells_what_one_digit_costs(runs, says, digit):
     found = answers.verdict("e", runs)
     assert found["says"] == says
-    assert found["digit"] == (None if digit is None else pytest.approx(digit))
+    assert found["digit"] == (None if digit is None else pytest.approx([digit, digit]))
 
 
 def test_work_is_counted_in_opcodes_where_there_are_any():
-    assert answers.work({"opcodes": 5e6, "ratio": 1.0}) == 5e6
-    assert answers.work({"opcodes": None, "ratio": 2.0}) == 2.0
+    assert answers.work({"opcodes": 5e6, "ratio": [1.0] * 3}) == [5e6, 5e6]
+    assert answers.work({"opcodes": None, "ratio": [1.0, 2.0, 4.0]}) == [1.0, 4.0]
 
 
 def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
@@ -317,7 +326,7 @@ def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
 
     def asked(**dial):
         run = answers.answer(question, replace(LESSON, **dial), effort)
-        return {**run, "ratio": 1.0, "opcodes": None}
+        return {**run, "ratio": [1.0] * 3, "opcodes": None}
 
     passes = [asked(passes=n) for n in (4, 8, 64)]
     steps = [asked(rate=rate) for rate in (60, 120, 240)]
@@ -338,16 +347,85 @@ def test_an_engine_that_meets_nan_or_raises_gives_up(problem, word):
     assert set(run["errors"].values()) == {word}
 
 
-def test_a_race_is_won_by_the_fastest_that_is_as_accurate(monkeypatch):
-    def one(sink, rate):
-        return {"sink": sink, "engine": None, "setting": race.Rival(rate, 10, None)}
+def test_shares_are_taken_repeat_by_repeat():
+    slow = [2.0, 20.0, 2.2]  # the machine was busy in the second repeat
+    assert costs.shares(slow, [1.0, 10.0, 1.0]) == [2.0, 2.0, 2.2]
+    assert costs.shares(None, [1.0]) is None
+    assert costs.middle_half([9, 1, 2, 3, 4, 5, 6, 0]) == [2, 3.5, 5]
 
-    monkeypatch.setattr(race, "wall_times", lambda runs, rounds: [2.0, 1.0, 4.0, 3.0])
-    stable, rivals = one(0.5, 120), [one(2.0, 120), one(0.4, 240), one(-0.3, 480)]
-    row = race.cheapest(stable, rivals, None, answers.Effort())
-    assert (row["reached"], row["best"]["rate"], row["best"]["ratio"]) == (True, 480, 1.5)
-    row = race.cheapest(one(0.1, 120), rivals, None, answers.Effort())
-    assert (row["reached"], row["best"], row["closest"]["sink"]) == (False, None, 0.3)
+
+# ---------------------------------------------------------------- budgets
+
+
+def ladder(engine, *rungs):
+    """Runs with substeps 1, 2, 4 ..., from their errors and times (ms) in each repeat."""
+    return [
+        {"engine": engine, "substeps": 2**i, "passes": 8, "slop": None, "error": error, "ms": ms}
+        for i, (error, ms) in enumerate(rungs)
+    ]
+
+
+def test_within_a_budget_the_best_setting_counts_that_fits_and_repeats_make_a_range():
+    runs = ladder("lesson", (8.0, [0.5, 0.6, 0.7]), (2.0, [0.9, 0.8, 1.2]), (0.5, [3.0, 3.0, 3.0]))
+    assert budgets.within(runs, "lesson", 1.0) == {"error": 2.0, "range": [2.0, 8.0]}
+    assert budgets.within(runs, "lesson", 4.0) == {"error": 0.5, "range": [0.5, 0.5]}
+    assert budgets.within(runs, "lesson", 0.1)["error"] == "too slow"
+    lost = ladder("lesson", ("falls through", [0.5, 0.5, 0.5]))
+    assert budgets.within(lost, "lesson", 1.0)["error"] == "falls through"
+
+
+def test_an_equal_error_takes_the_cheapest_setting_that_gets_there():
+    stable = ladder("stable", (9.0, [1.0, 1.0]), (5.0, [2.0, 2.0]), (2.0, [4.0, 8.0]))
+    others = ladder("pymunk", (3.0, [1.0, 1.0]), (1.9, [2.0, 2.0]), (0.1, [6.0, 6.0]))
+    found = budgets.equal(stable + others + ladder("box2d", (2.1, [1.0, 1.0])), budgets.ALL)
+    rows = {row["engine"]: row for row in found["rows"]}
+    assert found["goal"] == 2.0
+    assert (rows["pymunk"]["error"], rows["pymunk"]["ratio"]) == (1.9, [0.25, 0.375, 0.5])
+    assert (rows["box2d"]["reached"], rows["box2d"]["error"]) == (False, 2.1)
+    assert rows["stable"]["ratio"] == [1.0, 1.0, 1.0]
+
+
+def test_who_is_best_counts_only_where_repeats_tell():
+    def scene(**ranges):
+        return {"within": {name: [{"range": ends}] for name, ends in ranges.items()}}
+
+    assert budgets.winners(scene(a=[1.0, 2.0], b=[1.5, 3.0], c=[2.5, 4.0])) == ["a", "b"]
+    assert budgets.winners(scene(a=[1e-12, 1e-12], b=[1e-10, 1e-10])) == ["a", "b"]
+    assert budgets.winners(scene(a=["NaN", "NaN"], b=[7.0, 7.0])) == ["b"]
+
+
+@pytest.mark.parametrize("setting", [STABLE, PYMUNK])
+def test_a_train_speeds_up_as_newtons_laws_say(setting):
+    """Two engines that know nothing of the formula come to it as their substeps shrink."""
+    question = budgets.SCENES["friction"]
+
+    def error(substeps):
+        engine = replace(setting, substeps=substeps).build(question.scene())
+        return question.ask(engine, question.seconds, setting.dt)["speed"]
+
+    assert error(16) < min(1e-6, error(1) / 4)
+
+
+def test_half_a_swing_is_measured_far_finer_than_any_engine_swings():
+    """Of a body on the exact path: x = sin t passes 0 every pi seconds."""
+    step, period = 1 / 120, 2 * math.pi
+    clock = SimpleNamespace(now=1.0)
+
+    class Exact:
+        scene = SimpleNamespace(exact={"period": period})
+
+        def step(self, dt):
+            clock.now += dt
+
+        def read(self, i):
+            return State(math.sin(clock.now), 0, 0, 0, 0, 0)
+
+    assert budgets.half_swing(Exact(), 6.0, step)["half a swing"] < 1e-9
+
+
+def test_the_energy_of_a_chain_that_hangs_at_rest_is_none():
+    engine = STABLE.build(chain(5))
+    assert abs(swing_energy(engine, 0.0)) < 1e-9
 
 
 # ---------------------------------------------------------------- the program
@@ -357,45 +435,62 @@ def test_a_race_is_won_by_the_fastest_that_is_as_accurate(monkeypatch):
 def tiny(tmp_path_factory):
     """One run of the whole program in this process, with a tiny budget."""
     out = tmp_path_factory.mktemp("accuracy")
-    accuracy.main([*TINY, "--out", str(out), "--no-figures", "--markdown", str(out / "t.md")])
+    (out / "handout").mkdir()
+    handout = str(out / "handout" / "t.md")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(budgets, "QUICK_BUDGETS", (0.02,))
+        accuracy.main([*TINY, "--out", str(out), "--no-figures", "--markdown", handout])
     return out
+
+
+def shortened(results, *names):
+    """Results with these questions alone, and no systems: each figure takes its time."""
+    few = {name: results["dials"][name] for name in names}
+    return {**results, "dials": few, "smooth": {**results["smooth"], "systems": []}}
 
 
 def test_the_results_are_complete(tiny):
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
-    assert set(results) == {"about", "smooth", "dials", "equal", "piles", "same step"}
+    parts = {"about", "budgets", "chain", "smooth", "dials", "piles", "same step", "statements"}
+    assert set(results) == parts
+    assert list(results["budgets"]) == list(budgets.SCENES)
+    for scene in results["budgets"].values():
+        assert set(scene["within"]) == set(budgets.families())
+        assert all(len(run["ms"]) == 3 for run in scene["runs"])
     assert set(results["dials"]) == set(questions(quick=True))
     for name, found in results["dials"].items():
         assert len(found["dials"]) == len(dials(quick=True))
         assert sum(run["default"] for run in found["runs"]) == 1
         for run in found["runs"]:
             assert set(run["errors"]) == set(QUESTIONS[name].units)
-            assert run["ms"] > 0
+            assert min(run["ms"]) > 0
             assert (run["opcodes"] is None) == (run["engine"] in ("pymunk", "box2d"))
         for row in found["dials"]:
             assert set(row["verdicts"]) == set(QUESTIONS[name].units)
     assert [len(row["methods"]) for row in results["smooth"]["systems"]] == [4, 4, 4]
-    assert [len(row["rows"]) for row in results["equal"]] == [2, 2]
     assert results["piles"][0]["asleep"]["asleep"] == 8
     assert results["piles"][0]["stable"]["overlap"] < results["piles"][0]["lesson"]["overlap"]
     same = {(row["engine"], row["substeps"]): row for row in results["same step"]["rows"]}
     depths = [same[who]["overlap"] for who in (("stable", 4), ("stable", 1), ("lesson", 1))]
-    assert same["pymunk", 1]["ratio"] == 1 and depths == sorted(depths)
+    assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
 
 
 def test_the_handout_gets_its_tables(tiny):
-    text = (tiny / "t.md").read_text(encoding="utf-8")
+    text = (tiny / "handout" / "t.md").read_text(encoding="utf-8")
     assert text.startswith(BEGIN) and text.endswith(f"{END}\n")
     assert "| tower of 20 balls |" in text
+    lines = json.loads((tiny / "handout" / "results.json").read_text(encoding="utf-8"))["t.md"]
+    assert lines["tower of 20 balls: sink, lesson as it is"] > 0
 
 
 def test_figures_of_every_result_are_drawn(tiny):
     from experiments import figures
 
     results = json.loads((tiny / "results.json").read_text(encoding="utf-8"))
-    results["dials"] = {name: results["dials"][name] for name in ("pendulum", "tower")}
+    results = shortened(results, "tower")
     names = figures.draw_all(results, tiny)
-    assert {"smooth-spring", "smooth-energy", "dials-pendulum-stretch"} <= set(names)
+    assert names[0] == "budgets"
+    assert {"engines-tower", "smooth-energy", "dials-tower-sink"} <= set(names)
     for name in names:
         assert (tiny / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert "<svg" in (tiny / f"{name}.svg").read_text(encoding="utf-8")
@@ -408,7 +503,7 @@ def test_piles_of_several_sizes_are_drawn_with_the_engines_that_ran(tiny, tmp_pa
     row = results["piles"][0]
     compiled = {**row, "balls": 40, "compiled": row["stable"]}
     for piles in ([row, {**row, "balls": 40}], [{**compiled, "balls": 8}, compiled]):
-        results = {**results, "dials": {}, "piles": piles}
+        results = {**shortened(results), "budgets": {}, "piles": piles}
         assert "piles" in figures.draw_all(results, tmp_path)
 
 
@@ -446,14 +541,16 @@ def test_a_bad_scale_gets_a_sentence(scale, capsys):
 def test_tables_go_between_the_markers_and_nowhere_else(tmp_path):
     path, table = tmp_path / "a.md", Table("One", ["a"], [[1]])
     path.write_text(f"before\n{BEGIN}\nold\n{END}\nafter\n", encoding="utf-8")
-    write_markdown(path, [table])
-    write_markdown(path, [table])
+    write_markdown(path, [table], {"old": 1})
+    write_markdown(path, [table], {"line": 2})
+    lines = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
+    assert lines == {"a.md": {"line": 2}}
     assert path.read_text(encoding="utf-8") == (
         f"before\n{BEGIN}\n**One**\n\n| a |\n| --- |\n| 1 |\n{END}\nafter\n"
     )
     path.write_text("no markers\n", encoding="utf-8")
     with pytest.raises(ValueError, match="put them where the tables go"):
-        write_markdown(path, [table])
+        write_markdown(path, [table], {})
 
 
 @pytest.mark.parametrize(

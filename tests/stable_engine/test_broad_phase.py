@@ -1,0 +1,69 @@
+"""The broad phase finds what a look at every pair finds, however the bodies have moved since."""
+
+import random
+from itertools import combinations
+
+import pytest
+
+from stable_engine import Body, Box, Circle, World
+from stable_engine.broad_phase import BroadPhase
+
+MARGIN = 0.5
+
+
+def crowd(count, seed):
+    """Balls and boxes at random, some of them with the same left or top edge, in a world."""
+    rng, world = random.Random(seed), World()
+    for _ in range(count):
+        at = rng.randrange(-200, 200, 20), rng.randrange(-200, 200, 20)
+        shape = Circle(rng.choice((5, 10))) if rng.random() < 0.8 else Box((10, 5))
+        world.add(Body(shape, at, 1.0 if isinstance(shape, Circle) else 0.0))
+    return world, rng
+
+
+def near(a, b):
+    """Whether two boxes come within the margin, the low end of one having been moved out."""
+    sides = ((a.x, a.hx, b.x, b.hx), (a.y, a.hy, b.y, b.hy))
+    return all(abs(p - q) < reach + other + MARGIN for p, reach, q, other in sides)
+
+
+def by_looking(world):
+    pairs = [(a, b) for a, b in combinations(world.bodies, 2) if near(a, b)]
+    return {frozenset((a.id, b.id)) for a, b in pairs if not (a.idle and b.idle)}
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_it_finds_every_near_pair_once_while_bodies_move(seed):
+    world, rng = crowd(40, seed)
+    phase = BroadPhase()
+    phase.take(world.bodies)
+    for stretch in (1, 3, 0.2, 1):  # wide, then tall: the sweep changes its axis
+        for body in world.awake:
+            body.x, body.y = body.x * stretch + rng.uniform(-9, 9), body.y + rng.uniform(-9, 9)
+        found = phase.near_pairs(world.awake, MARGIN)
+        assert all(a.id > b.id for a, b in found)
+        assert {frozenset((a.id, b.id)) for a, b in found} == by_looking(world)
+        assert len(found) == len(by_looking(world))
+
+
+def test_the_order_does_not_depend_on_where_bodies_were_before():
+    world, rng = crowd(40, 9)
+    old, new = BroadPhase(), BroadPhase()
+    old.take(world.bodies)
+    for _ in range(5):
+        for body in world.awake:
+            body.x, body.y = round(body.x + rng.uniform(-9, 9)), round(body.y + rng.uniform(-9, 9))
+        new.take(world.bodies)
+        assert old.near_pairs(world.awake, MARGIN) == new.near_pairs(world.awake, MARGIN)
+
+
+def test_who_sleeps_is_left_alone():
+    world, _ = crowd(30, 3)
+    awake = [body for body in world.awake if body.x < 0]
+    for body in world.awake:
+        body.idle = body not in awake
+    world.awake = awake
+    phase = BroadPhase()
+    phase.take(world.bodies)
+    found = phase.near_pairs(awake, MARGIN)
+    assert {frozenset((a.id, b.id)) for a, b in found} == by_looking(world)
