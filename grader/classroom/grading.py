@@ -47,7 +47,8 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     adjustments = load_adjustments(adjust) if adjust else Adjustments()
     out = wanted.out or path.with_name(f"{path.stem}-results")
     with opened_class(path, people) as intake, opened_executor(wanted) as executor:
-        run = grade_class(intake, out, key_of(wanted.options), executor, console, adjustments)
+        key, course = key_of(wanted.options), wanted.options.course
+        run = grade_class(intake, out, key, executor, console, adjustments, course)
         names = [each.name for each in intake.found]
         if absent := people.absent(names):
             run.notes.append(f"nothing was handed in by {in_short(absent)}")
