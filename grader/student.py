@@ -7,13 +7,14 @@ import msgspec
 import typer
 
 from grader.commands import CourseFile, console, course_in, graded, known_todos, stop
+from grader.handing_in import PACKED, packed_files, place_of_program, write_packed
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import command
+from grader.words import command, listed, plural
 
 app = typer.Typer()
 
@@ -35,6 +36,7 @@ def check_command(
     else:
         result = graded(folder, options)
         show_standing(result, Teller(console, options.replays))
+        say(f"To hand in: {command('hand-in')}{until(chosen)}", console)
     raise typer.Exit(0 if result.complete else 1)
 
 
@@ -55,6 +57,34 @@ def own_tree(path: Path, course: Course) -> Path:
         if (folder / name).is_dir() or (folder / f"{name}.py").is_file():
             return folder
     stop(f"there is no {name} in {path.resolve()} or above it: go to the folder handed out")
+
+
+def until(course: Course) -> str:
+    """The due date, where the course has one: `, until 4 May 2027 23:59 (UTC+02:00)`."""
+    due = course.due
+    return f", until {due.day} {due:%B %Y %H:%M} ({due.tzname()})" if due else ""
+
+
+@app.command("hand-in")
+def hand_in_command(
+    path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+    out: Annotated[Path | None, typer.Option(help="The zip; hand-in.zip if left out.")] = None,
+    course: CourseFile = None,
+) -> None:
+    """Make the zip that you hand in: the programs you worked on, and files of your own."""
+    chosen = course_in(course)
+    folder = own_tree(path, chosen)
+    target = out or folder / PACKED
+    files = packed_files(folder)
+    write_packed(files, target)
+    programs = [place_of_program(folder, each) for each in chosen.modules]
+    for name in [each for each in programs if each not in {n.partition("/")[0] for n in files}]:
+        say(f"{name} is not in {folder}: it will be missing", console, style="yellow")
+    say(
+        f"made {target}: {plural(len(files), 'file')}, {listed(programs)} and what is your own",
+        console,
+    )
+    say(f"Hand in this file{until(chosen)}.", console)
 
 
 def replays_in(tree: Path) -> Path | None:

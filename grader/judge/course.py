@@ -18,6 +18,7 @@ from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
+HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
 EXAMPLE = "2027-05-04T23:59:00+02:00"
 
 
@@ -71,6 +72,11 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     def modules(self) -> list[str]:
         """The programs with a TODO, in the order of the rubric: what is to be handed in."""
         return list(dict.fromkeys(todo.module for todo in self.rubric.todos if todo.function))
+
+    @property
+    def as_rated(self) -> "Course":
+        """The same with the rubric's points, of which each check has at least one."""
+        return structs.replace(self, points={})
 
     def added(self, bonus: int) -> int:
         """How many points of a bonus count with the others."""
@@ -146,9 +152,10 @@ def read_course(path: Path | None = None) -> Course:
 
     Where there is no kit around the grader, as with students, there is nothing but what they have.
     """
-    if path is None and not PLACE.exists():
+    if path is None:
+        path = next((each for each in (PLACE, HANDED_OUT) if each.exists()), None)
+    if path is None:
         return FULL
-    path = path or PLACE
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:

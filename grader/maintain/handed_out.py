@@ -4,6 +4,7 @@ import textwrap
 from pathlib import Path
 
 from grader.judge.course import Course
+from grader.maintain.handouts import readme_of
 from grader.maintain.sync import students_files
 from grader.todo_regions import RegionError, read_source, regions_in
 
@@ -12,15 +13,17 @@ GIVEN = "# Given in this course: what TODO {} asks for elsewhere is done here."
 
 def students_tree(kit: Path, course: Course) -> dict[str, bytes]:
     """The content of each file that students get, by its name there; notebooks left out."""
-    given = {todo.id for todo in course.given}
     paths = students_files(kit)
-    return {name: done(path, kit / "solution" / name, given) for name, path in paths.items()}
+    return {name: done(path, kit / "solution" / name, course) for name, path in paths.items()}
 
 
-def done(path: Path, solution: Path, given: set[str]) -> bytes:
-    """A file's content with the solution's code, and a line that says so, for these TODOs."""
+def done(path: Path, solution: Path, course: Course) -> bytes:
+    """A file's content, with the solution's code and a line that says so for what is left out."""
+    if path.suffix == ".md":
+        return readme_of(path.read_text(encoding="utf-8"), course).encode()
     if path.suffix != ".py":
         return path.read_bytes()
+    given = {todo.id for todo in course.given}
     text = read_source(path)
     regions = [region for region in regions_in(text) if region.id in given]
     if not regions:

@@ -114,13 +114,13 @@ def released(once, expected_runs: bytes) -> Released:
 
     def fill(work: Path) -> None:
         most = visible(load_rubric()).max_points
-        marks = {"solution": most, "starter": 0}
+        marks = {"solution": most}
         with pytest.MonkeyPatch.context() as patched:
-            patched.setattr(releases, "record_expected", lambda tree: expected_runs)
+            patched.setattr(releases, "record_expected", lambda *_: expected_runs)
             patched.setattr(
                 releases,
                 "grade_with",
-                lambda _, tree: Result(1, tree.name, marks[tree.name], most, 0, [], []),
+                lambda _, tree: Result(1, tree.name, marks.get(tree.name, 0), most, 0, [], []),
             )
             make(work, SAMPLE)
 
@@ -300,7 +300,7 @@ def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
 
 
 def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monkeypatch):
-    def made(work: Path, wrong: object) -> Path:
+    def made(work: Path, *_: object) -> Path:
         (work / "built" / "bundle").mkdir(parents=True)
         (work / "built" / "bundle" / "new").touch()
         (work / "built" / "a.zip").write_text("new", encoding="utf-8")
