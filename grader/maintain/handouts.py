@@ -21,7 +21,6 @@ SECTION = re.compile(r"^(##+) (?:TODO )?([0-9]+[a-d]?|B[0-9]): ")
 ROW = re.compile(r"^\| \[?([0-9]+[a-d]?|B[0-9])(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
 PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
-COUNTED = re.compile(r"^(\*\*|## )\d+\. ", re.M)  # questions of the quiz, texts of the journal
 
 pages = Environment(
     block_start_string="<!--%",
@@ -138,5 +137,4 @@ def with_examples(text: str, course: Course) -> str:
         ids = [todo.id for todo in course.rubric.todos if todo.function and todo.bonus == bonus]
         if ids and example not in ids:
             text = re.sub(rf"(TODO[= ]|--todo ){example}\b", rf"\g<1>{ids[0]}", text)
-    count = iter(range(1, 100))
-    return COUNTED.sub(lambda found: f"{found[1]}{next(count)}. ", text)
+    return text
