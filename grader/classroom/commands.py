@@ -166,13 +166,14 @@ def dashboard_command(
     from grader.classroom.grading import people_of
     from grader.classroom.intake.listing import opened_class
 
+    taken = course_in(course)
     try:
         entries = read_class(results)
         if submissions is not None:
-            options = Options(shipped_reference(), seed=seed, course=course_in(course))
+            options = Options(shipped_reference(), seed=seed, course=taken)
             with opened_class(submissions, people_of(submissions, roster)) as intake:
                 entries = list(with_replays(entries, intake, options, results))
-        page = write_dashboard(results, entries)
+        page = write_dashboard(results, entries, taken)
     except (CannotGrade, NoResults) as error:
         stop(str(error), "go on")
     console.print(f"made {page}", soft_wrap=True)

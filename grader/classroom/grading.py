@@ -63,7 +63,7 @@ def page_of(run: Run) -> str:
     """Make the page of the class, and say where it is; of too many there is none by itself."""
     if len(run.outcomes) > LONGEST_PAGE:
         return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {run.book.folder}`"
-    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder))}"
+    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder), run.course)}"
 
 
 def people_of(path: Path, roster: Path | None) -> ClassList:

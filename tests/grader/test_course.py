@@ -23,10 +23,10 @@ from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.found import Found, Intake
 from grader.classroom.marks import load_marking
 from grader.cli import app
-from grader.judge.course import FULL, Course, WrongCourse, read_course, spread
+from grader.judge.course import FULL, Course, WrongCourse, read_course, spread, told
 from grader.judge.course import Late as Rules
 from grader.judge.grade import Options, grade, shipped_reference
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import every_member, members
 from grader.maintain.handed_out import students_tree, write_tree
@@ -261,6 +261,29 @@ def test_what_a_course_asks_decides_what_is_graded_again_and_its_title_does_not(
     assert key_of(options) != key_of(Options())
     named = replace(options, course=Course("x", COURSES[CHEAP].todos, COURSES[CHEAP].points))
     assert key_of(named) == key_of(options)
+
+
+def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
+    day = datetime(2027, 5, 11, tzinfo=UTC)
+    course = Course(visible=day)
+    todo = course.rubric.todos[0]
+    checks = [
+        CheckResult(each.id, "x", each.kind, "not yet", 0, each.points, "r", "e", "g", "m")
+        for each in todo.checks
+    ]
+    one = TodoResult("1", "x", "not yet", 0, 16, None, checks)
+    result = Result(1, "ann", 0, 16, 0, [], [one])
+    assert told(result, course, day) == result == told(result, FULL)
+    before = told(result, course, day - timedelta(seconds=1)).todos[0]
+    hidden = {each.id for each in todo.checks if each.hidden}
+    assert hidden
+    for check, full in zip(before.checks, checks, strict=True):
+        if check.id in hidden:
+            words = ("", "", "shown from 11 May 2027 00:00 (UTC) on", "")
+            assert (check.ran, check.expected, check.got, check.meaning) == words
+            assert (check.state, check.points) == (full.state, full.points)
+        else:
+            assert check == full
 
 
 # ---------------------------------------------------------------- what students get

@@ -14,7 +14,7 @@ from rich.console import Console
 
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.packing import pack
-from grader.judge.course import FULL, Course
+from grader.judge.course import FULL, Course, told
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -61,7 +61,7 @@ def graded(submission: Path) -> bytes:
         console.print(f"left out {clean(note)}")
     show(result, console)
     show_isolation(result, console)
-    return gradescope(result, course)
+    return gradescope(told(result, course), course)
 
 
 def ungraded(why: str) -> bytes:
