@@ -153,6 +153,7 @@ class Grading:
             self.options.seed,
             self.options.progress,
             observations=self.observations,
+            open_right=self.open_right(),
         )
         run_pytest(plugin, self.rubric)
         result = self.result(plugin.results)
@@ -165,6 +166,19 @@ class Grading:
         known = frozenset(self.submission.functions)
         replays = Replays(folder, self.sandbox.open_child, self.expected_children(), known)
         return replays.of(result, plugin.failing)
+
+    def open_right(self) -> Callable[[int], Child] | None:
+        """The same as below, but that the reference is taken in only where it is asked."""
+        if self.options.reference is None:
+            return None
+        children = cache(self.expected_children)
+
+        def opened(cpu_seconds: int) -> Child:
+            right = children()
+            assert right is not None
+            return right(cpu_seconds)
+
+        return opened
 
     def expected_children(self) -> Callable[[int], Child] | None:
         """A way to open children of the reference itself, to see what should happen."""

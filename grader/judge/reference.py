@@ -44,6 +44,12 @@ class Reference:
                 )
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
+    def is_that_of(self, submission: Submission, todo: Todo) -> bool:
+        """Whether a submission has the reference's own code for a TODO; of the whole, for all."""
+        asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
+        mine = [submission.functions.get(id) for id in asked]
+        return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
+
     def for_the_others(
         self, todo: Todo, module: str, rubric: Rubric, submission: Submission
     ) -> list[Piece]:
