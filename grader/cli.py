@@ -16,7 +16,9 @@ import typer
 
 from grader import student
 from grader.commands import (
+    CourseFile,
     console,
+    course_in,
     graded,
     known_todos,
     needs_checkout,
@@ -84,15 +86,19 @@ def grade_command(
     cluster: Annotated[
         str, typer.Option(help="For a class: grade on the Dask cluster at this address.")
     ] = "",
+    course: CourseFile = None,
 ) -> None:
     """Grade a submission, or a class of them.
 
     Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
     """
     refuse_what_is_ignored(context, path, class_, cluster)
+    chosen = course_in(course)
     complete = reference or shipped_reference()
     own = complete is None  # a student's copy: there is nothing but their own work
-    options = Options(complete, isolation, only=known_todos(todo), seed=seed, trusted=own)
+    options = Options(
+        complete, isolation, known_todos(todo, chosen), seed, trusted=own, course=chosen
+    )
     if path is None:
         demonstrate(options)
     elif class_:

@@ -2,19 +2,37 @@
 
 from collections.abc import Collection
 from pathlib import Path
-from typing import NoReturn
+from typing import Annotated, NoReturn
 
 import typer
 from rich.console import Console
 
+from grader.judge.course import FULL, Course, WrongCourse, read_course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
 console = Console(highlight=False, markup=False)
+
+CourseFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--course",
+        envvar="COURSE_FILE",
+        show_envvar=False,
+        help="What the course takes of the kit; its course.toml if left out.",
+    ),
+]
+
+
+def course_in(path: Path | None) -> Course:
+    """The course in this file or else the kit's; one that cannot be so ends the command."""
+    try:
+        return read_course(path)
+    except WrongCourse as error:
+        stop(str(error), "go on")
 
 
 def stop(message: str, cannot: str = "grade") -> NoReturn:
@@ -54,9 +72,9 @@ def was_given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def known_todos(todos: list[str] | None) -> frozenset[str]:
-    """The TODOs named on the command line; an unknown one ends the command."""
-    known = [todo.id for todo in load_rubric().todos]
+def known_todos(todos: list[str] | None, course: Course = FULL) -> frozenset[str]:
+    """The TODOs named on the command line; one that the course has not ends the command."""
+    known = [todo.id for todo in course.rubric.todos]
     for todo in todos or ():
         if todo not in known:
             stop(f"there is no TODO {todo}; there are {', '.join(known)}")

@@ -6,13 +6,15 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.commands import console, graded, known_todos, stop
+from grader.commands import CourseFile, console, course_in, graded, known_todos, stop
+from grader.handing_in import PACKED, packed_files, place_of_program, write_packed
+from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import command
+from grader.words import command, listed, plural
 
 app = typer.Typer()
 
@@ -22,17 +24,19 @@ def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
+    course: CourseFile = None,
 ) -> None:
     """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
-    folder = own_tree(path)
-    options = Options(
-        reference=None, only=known_todos(todo), replays=replays_in(folder), trusted=True
-    )
+    chosen = course_in(course)
+    folder = own_tree(path, chosen)
+    wanted = known_todos(todo, chosen)
+    options = Options(only=wanted, replays=replays_in(folder), trusted=True, course=chosen)
     if watch:
         result = watched(folder, options)
     else:
         result = graded(folder, options)
         show_standing(result, Teller(console, options.replays))
+        say(f"To hand in: {command('hand-in')}{until(chosen)}", console)
     raise typer.Exit(0 if result.complete else 1)
 
 
@@ -46,12 +50,41 @@ def watched(folder: Path, options: Options) -> Result:
         stop(str(error), "go on")
 
 
-def own_tree(path: Path) -> Path:
-    """The student's tree around `path`: the folder that holds the mini engine."""
+def own_tree(path: Path, course: Course) -> Path:
+    """The student's tree around `path`: the folder that holds the first program of the course."""
+    name = course.modules[0]
     for folder in [path.resolve(), *path.resolve().parents]:
-        if (folder / "mini_engine").is_dir() or (folder / "mini_engine.py").is_file():
+        if (folder / name).is_dir() or (folder / f"{name}.py").is_file():
             return folder
-    stop(f"there is no mini_engine in {path.resolve()} or above it: go to the folder handed out")
+    stop(f"there is no {name} in {path.resolve()} or above it: go to the folder handed out")
+
+
+def until(course: Course) -> str:
+    """The due date, where the course has one: `, until 4 May 2027 23:59 (UTC+02:00)`."""
+    due = course.due
+    return f", until {due.day} {due:%B %Y %H:%M} ({due.tzname()})" if due else ""
+
+
+@app.command("hand-in")
+def hand_in_command(
+    path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+    out: Annotated[Path | None, typer.Option(help="The zip; hand-in.zip if left out.")] = None,
+    course: CourseFile = None,
+) -> None:
+    """Make the zip that you hand in: the programs you worked on, and files of your own."""
+    chosen = course_in(course)
+    folder = own_tree(path, chosen)
+    target = out or folder / PACKED
+    files = packed_files(folder)
+    write_packed(files, target)
+    programs = [place_of_program(folder, each) for each in chosen.modules]
+    for name in [each for each in programs if each not in {n.partition("/")[0] for n in files}]:
+        say(f"{name} is not in {folder}: it will be missing", console, style="yellow")
+    say(
+        f"made {target}: {plural(len(files), 'file')}, {listed(programs)} and what is your own",
+        console,
+    )
+    say(f"Hand in this file{until(chosen)}.", console)
 
 
 def replays_in(tree: Path) -> Path | None:
@@ -69,9 +102,10 @@ def replays_in(tree: Path) -> Path | None:
 def hint_command(
     todo: Annotated[str, typer.Option(help="The TODO you are at.")],
     level: Annotated[int, typer.Option(min=1, max=3, help="How much to tell.")] = 1,
+    course: CourseFile = None,
 ) -> None:
     """Give a hint: first a question, then the idea, then nearly the code."""
-    known_todos([todo])
+    known_todos([todo], course_in(course))
     hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
     if todo not in hints:
         say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)

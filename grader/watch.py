@@ -92,7 +92,7 @@ class Watch:
 
     def plan(self) -> None:
         """Note what to check: what the saves since the last check touched comes first."""
-        wanted = self.options.only or {todo.id for todo in load_rubric().todos}
+        wanted = self.options.only or {todo.id for todo in self.options.course.rubric.todos}
         for file in differing(self.checked, self.seen):
             self.touched |= wanted & changed_todos(
                 file, self.checked.get(file, ""), self.seen.get(file, "")

@@ -98,6 +98,23 @@ def plural(number: int, noun: str) -> str:
     return f"{number} {noun}" + "s" * (number != 1)
 
 
+NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
+    *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen"),
+    *("eighteen", "nineteen", "twenty"),
+)
+
+
+def number(count: int) -> str:
+    """A small number as a word: `three`."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
+
+
+def listed(words: list[str]) -> str:
+    """`a, b and c`."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
+
+
 def digits(value: float) -> str:
     """Six digits, without the noise that rounding leaves around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
@@ -111,12 +128,12 @@ def about(value: float) -> str:
 # ---------------------------------------------------------------- what to type
 
 
-def command(name: str, todo: str, level: int = 1) -> str:
+def command(name: str, todo: str = "", level: int = 1) -> str:
     """One of the student's commands, as this person would type it here."""
     if "MAKELEVEL" in os.environ:
-        return f"make {name} TODO={todo}" + f" LEVEL={level}" * (level > 1)
+        return f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
     python = sys.orig_argv[0]
     start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
-    return f"{start} {name} --todo {todo}" + f" --level {level}" * (level > 1)
+    return f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)

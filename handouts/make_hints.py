@@ -8,6 +8,9 @@ import re
 import tomllib
 from pathlib import Path
 
+from grader.judge.course import FULL
+from grader.maintain.handouts import with_examples
+
 HERE = Path(__file__).resolve().parent
 CHECKS = HERE.parent / "grader" / "checks"
 LEVELS = {
@@ -43,11 +46,11 @@ def as_html(words):
 
 def section(todo, hints):
     """One TODO with its hints, each folded away."""
-    title = todo["title"][0].lower() + todo["title"][1:]
-    if todo["title"].startswith("RK"):
-        title = todo["title"]
-    name = todo["function"].partition(":")[2]
-    parts = [f"## TODO {todo['id']}: {title}", "", f"In `{name}`.", ""]
+    title = todo.title[0].lower() + todo.title[1:]
+    if todo.title.startswith("RK"):
+        title = todo.title
+    name = todo.function.partition(":")[2]
+    parts = [f"## TODO {todo.id}: {title}", "", f"In `{name}`.", ""]
     for (level, icon), words in zip(LEVELS.items(), hints, strict=True):
         parts += [f'<details class="{icon}">', f"<summary>{level}</summary>"]
         parts += [f"<p>{as_html(words)}</p>"]
@@ -55,11 +58,12 @@ def section(todo, hints):
     return "\n".join(parts)
 
 
-def page():
-    """The whole of hints.md."""
+def page(course=FULL):
+    """The whole of hints.md, as a course has it."""
     hints = read("hints.toml")
-    todos = [todo for todo in read("rubric.toml")["todos"] if todo["function"]]
-    return "\n".join([HEAD, *(section(todo, hints[todo["id"]]) for todo in todos)])
+    todos = [todo for todo in course.rubric.todos if todo.function]
+    text = "\n".join([HEAD, *(section(todo, hints[todo.id]) for todo in todos)])
+    return with_examples(text, course)
 
 
 def main():

@@ -1,18 +1,26 @@
 """Build the handouts as web pages: build/handouts/students, and build/handouts/instructors.
 
-    python handouts/make_site.py [--out DIR]
+    python handouts/make_site.py [--out DIR] [--course FILE]
 
 The pages for students are made from sources without the instructor's folder, so nothing of it can
-be in them. Both open from a folder, without a server and without the internet. Needs zensical.
+be in them. They ask what the course has; those for instructors tell of everything. Both open from a
+folder, without a server and without the internet. Needs zensical.
 """
 
 import argparse
 import importlib.util
+import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from make_hints import page as hints_page
+
+from grader.judge.course import FULL, WrongCourse, read_course
+from grader.maintain.handouts import handouts_of
 
 HERE = Path(__file__).resolve().parent
 BUILD = HERE.parent / "build" / "handouts"
@@ -21,26 +29,32 @@ SHIM = "https://unpkg.com/iframe-worker/shim"  # what the theme would fetch
 INSTRUCTORS = "For instructors"  # the part of the menu that students do not get
 
 
-def sources(folder, instructors):
+def sources(folder, instructors, course):
     """Lay out what zensical needs: its settings, and the pages and figures."""
     pages = folder / "docs"
     pages.mkdir()
-    for page in HERE.glob("*.md"):
-        shutil.copyfile(page, pages / page.name)
+    texts = handouts_of(HERE, course)
+    texts["hints.md"] = hints_page(course)
+    for name, text in texts.items():
+        (pages / name).write_text(text, encoding="utf-8")
     shutil.copytree(HERE / "figures", pages / "figures")
     shutil.copytree(OURS, pages / "site", ignore=shutil.ignore_patterns("*.yml"))
     if instructors:
         only_pages = shutil.ignore_patterns("*.py", "*.toml", "__pycache__")
         shutil.copytree(HERE / "instructor", pages / "instructor", ignore=only_pages)
-    (folder / "mkdocs.yml").write_text(settings(instructors), encoding="utf-8")
+    there = {page.relative_to(pages).as_posix() for page in pages.rglob("*.md")}
+    (folder / "mkdocs.yml").write_text(settings(instructors, there), encoding="utf-8")
 
 
-def settings(instructors):
-    """The text of mkdocs.yml; for students without the menu's last part."""
+def settings(instructors, there):
+    """The text of mkdocs.yml, with the pages that are there; for students without its last part."""
     text = (OURS / "mkdocs.yml").read_text(encoding="utf-8")
     before, found, _ = text.partition(f"  - {INSTRUCTORS}:\n")
     assert found, f"mkdocs.yml has no part of the menu named {INSTRUCTORS}"
-    return text if instructors else before
+    lines = (text if instructors else before).splitlines(keepends=True)
+    pages = [re.search(r": (\S+\.md)$", line) for line in lines]
+    kept = [line for line, page in zip(lines, pages, strict=True) if not page or page[1] in there]
+    return "".join(kept)
 
 
 def build(folder):
@@ -63,12 +77,20 @@ def without_the_internet(site):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=BUILD, metavar="DIR")
-    out = parser.parse_args().out
+    own = os.environ.get("COURSE_FILE")
+    parser.add_argument("--course", type=Path, default=own, metavar="FILE")
+    options = parser.parse_args()
+    out = options.out
+    try:
+        course = read_course(options.course)
+    except WrongCourse as error:
+        sys.exit(str(error))
     if importlib.util.find_spec("zensical") is None:
         sys.exit("The site needs zensical, which is not installed: python -m pip install zensical")
     for name in ("students", "instructors"):
         with tempfile.TemporaryDirectory() as folder:
-            sources(Path(folder), instructors=name == "instructors")
+            everything = name == "instructors"
+            sources(Path(folder), everything, FULL if everything else course)
             site = build(Path(folder))
             without_the_internet(site)
             shutil.rmtree(out / name, ignore_errors=True)

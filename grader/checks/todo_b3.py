@@ -184,7 +184,7 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
         f"{min(growths):.2f} times as many lines of your code that ran",
     )
     lab.ran(f"find_contacts with {MANY} balls in a row like that, in 2 s of processor time")
-    world, bodies = crowd(lab, row(MANY, 45.0), [])
+    world, bodies = crowd(lab, row(MANY, 45.0, x), [])
     found = touching(lab, world, bodies, grid=True)
     pairs_in_row = Counter((ball, ball + 1) for ball in range(0, MANY - 1, 2))
     want_no_other(lab, Counter(dict(list(pairs_in_row.items())[:MOST_TOLD])), found)

@@ -21,10 +21,11 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, structs
 
 from grader.classroom.intake.found import Found
 from grader.classroom.names import folded
+from grader.judge.course import Course
 from grader.judge.submission import CannotGrade
 
 DAY = timedelta(days=1)
@@ -51,6 +52,15 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
 class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
     late: Late | None = None
     adjust: list[Adjust] = []
+
+    def within(self, course: Course) -> "Adjustments":
+        """These, with the course's due date and late rules where they have none of their own."""
+        rules = course.late
+        late = self.late or (Late(rules.per_day, rules.at_most) if rules else None)
+        if course.due is not None:
+            late = late or Late(0)
+            late = structs.replace(late, due=late.due or course.due)
+        return structs.replace(self, late=late)
 
     def final(self, found: Found, points: int) -> "Final":
         """The points that count for a submission that earned `points`."""

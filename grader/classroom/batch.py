@@ -20,6 +20,7 @@ from grader.classroom.intake.found import CannotTake, Found, Intake, Package
 from grader.classroom.intake.packing import pack
 from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
+from grader.judge.course import FULL, Course
 from grader.judge.submission import CannotGrade
 
 
@@ -40,6 +41,7 @@ class Run:
     book: Book
     key: str
     adjustments: Adjustments
+    course: Course = FULL
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
@@ -72,11 +74,12 @@ class Run:
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        final = self.adjustments.final(found, outcome.points)
+        added = self.course.added(outcome.bonus)
+        final = self.adjustments.final(found, outcome.points + added)
         outcome = msgspec.structs.replace(
             outcome,
             final=final.points if not outcome.trouble else 0,
-            reasons=list(final.reasons),
+            reasons=[*([f"bonus: +{added}"] if added else []), *final.reasons],
             late=found.late,
             handed_in=found.handed_in,
         )
@@ -98,11 +101,13 @@ def grade_class(
     executor: Executor,
     console: Console,
     adjustments: Adjustments | None = None,
+    course: Course = FULL,
 ) -> Run:
     """Grade what is new in a class; results, book and table are in and beside the folder `out`."""
     total = len(intake.found) + len(intake.troubles)
     with Book(out) as book, Counter("grading", total, console) as counter:
-        run = Run(intake, book, key, adjustments or Adjustments(), notes=list(intake.notes))
+        decided = (adjustments or Adjustments()).within(course)
+        run = Run(intake, book, key, decided, course, notes=list(intake.notes))
         for name, words in intake.troubles.items():
             run.trouble(Found(name, ()), words)
         for task, graded in grade_all(run.tasks(), executor):
@@ -113,7 +118,7 @@ def grade_class(
             counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
             counter.reached(len(run.outcomes), counts)
         run.outcomes.sort(key=lambda each: each.name)
-        book.close_with(run.outcomes)
+        book.close_with(run.outcomes, course)
     run.notes += run.copies()
     names = [each.name for each in run.outcomes]
     for student in run.adjustments.unused(names):

@@ -18,8 +18,8 @@ from typing import Self
 import msgspec
 from msgspec import Struct
 
-from grader.judge.result import Result
-from grader.judge.rubric import load_rubric
+from grader.judge.course import FULL, Course
+from grader.judge.result import Result, is_bonus
 from grader.report.files import write_whole
 from grader.report.sinks.tables import harmless
 
@@ -41,6 +41,10 @@ class Outcome(Struct, frozen=True):
     graded: datetime | None = None
     key: str = ""  # the hash of all that the result depends on
     content: str = ""  # the hash of the result's file
+
+    @property
+    def bonus(self) -> int:
+        return sum(points for todo, points in self.todos.items() if is_bonus(todo))
 
 
 class Book:
@@ -85,10 +89,10 @@ class Book:
         """No result may outlive the submission that it was made from."""
         self.result_file(name).unlink(missing_ok=True)
 
-    def close_with(self, outcomes: list[Outcome]) -> None:
+    def close_with(self, outcomes: list[Outcome], course: Course = FULL) -> None:
         """The book and the table as they are at the end."""
         write_whole(lines(outcomes), self.path)
-        write_whole(as_table(outcomes).encode("utf-8-sig"), self.table)
+        write_whole(as_table(outcomes, course).encode("utf-8-sig"), self.table)
 
     def others_than(self, names: Iterable[str]) -> list[str]:
         """Results in the folder that belong to no submission of this class."""
@@ -125,9 +129,9 @@ def read_book(path: Path) -> Iterator[Outcome]:
                     yield msgspec.json.decode(line, type=Outcome)
 
 
-def as_table(outcomes: Iterable[Outcome]) -> str:
+def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """The class for a spreadsheet: nothing in it depends on when or how fast it was graded."""
-    todos = [todo.id for todo in load_rubric().todos]
+    todos = [todo.id for todo in course.rubric.todos]
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(["name", "points", "found", "of", "late", "adjusted", "trouble", *todos])

@@ -10,7 +10,7 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.commands import console, needs_checkout, refuse_ignored, stop
+from grader.commands import CourseFile, console, course_in, needs_checkout, refuse_ignored, stop
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -21,19 +21,29 @@ course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
 app.add_typer(course_app, name="nbgrader")
 
 Course = Annotated[Path, typer.Option(help="The course folder.")]
+TakenFile = Annotated[  # where --course is nbgrader's folder
+    Path | None,
+    typer.Option(
+        "--course-file",
+        envvar="COURSE_FILE",
+        show_envvar=False,
+        help="What the course takes of the kit; its course.toml if left out.",
+    ),
+]
 
 
 @course_app.command("course")
 def course_command(
     course: Annotated[Path, typer.Argument(help="The course folder to make.")],
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
+    taken: TakenFile = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     needs_checkout("nbgrader course")
     from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
 
     try:
-        files = make_course(course, renew)
+        files = make_course(course, renew, course_in(taken))
     except NoCourse as error:
         stop(str(error), "go on")
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
@@ -71,6 +81,7 @@ def bridge_command(
     seed: Annotated[
         int | None, typer.Option(help="A secret seed: other numbers in every check.")
     ] = None,
+    taken: TakenFile = None,
 ) -> None:
     """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
     if results:
@@ -82,7 +93,7 @@ def bridge_command(
     troubles: list[str] = []
     try:
         if not results:
-            options = Options(shipped_reference(), isolation, seed=seed)
+            options = Options(shipped_reference(), isolation, seed=seed, course=course_in(taken))
             troubles = grade_submitted(course, options, jobs, console)
         outcomes = list(fill(course, read_results(results or [course / "results"])))
     except (NoCourse, CannotGrade) as error:
@@ -125,6 +136,7 @@ def gradescope_command(
     seed: Annotated[
         int | None, typer.Option(help="A secret seed: other numbers in every check.")
     ] = None,
+    course: CourseFile = None,
 ) -> None:
     """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
     needs_checkout("gradescope")
@@ -132,7 +144,7 @@ def gradescope_command(
     from grader.classroom.gradescope.autograder import Settings
 
     try:
-        write_autograder(out, Settings(isolation, seed), wheels)
+        write_autograder(out, Settings(isolation, seed, course_in(course)), wheels)
     except NoWheels as error:
         stop(str(error), "go on")
     console.print(f"made {out}", soft_wrap=True)
@@ -149,6 +161,7 @@ def dashboard_command(
         Path | None, typer.Option(help="Its list, if it was graded with one.")
     ] = None,
     seed: Annotated[int | None, typer.Option(help="The seed it was graded with.")] = None,
+    course: CourseFile = None,
 ) -> None:
     """Make a page of a class, and beside it a report for each student."""
     if submissions is None:
@@ -157,13 +170,14 @@ def dashboard_command(
     from grader.classroom.grading import people_of
     from grader.classroom.intake.listing import opened_class
 
+    taken = course_in(course)
     try:
         entries = read_class(results)
         if submissions is not None:
-            options = Options(shipped_reference(), seed=seed)
+            options = Options(shipped_reference(), seed=seed, course=taken)
             with opened_class(submissions, people_of(submissions, roster)) as intake:
                 entries = list(with_replays(entries, intake, options, results))
-        page = write_dashboard(results, entries)
+        page = write_dashboard(results, entries, taken)
     except (CannotGrade, NoResults) as error:
         stop(str(error), "go on")
     console.print(f"made {page}", soft_wrap=True)
@@ -186,6 +200,7 @@ def marks_command(
         Path | None, typer.Option(help="What the parts are worth; marks.toml of the course.")
     ] = None,
     so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+    taken: TakenFile = None,
 ) -> None:
     """Make one mark per student, for Canvas or Moodle.
 
@@ -202,7 +217,8 @@ def marks_command(
     try:
         listed = read_roster(roster)
         column = listed.key(key)
-        marking = load_marking(settings or (course if course else INSTRUCTOR) / "marks.toml")
+        path = settings or (course if course else INSTRUCTOR) / "marks.toml"
+        marking = load_marking(path, course_in(taken))
         if results is not None:
             marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
             outcomes = [each.outcome for each in read_class(results)]

@@ -19,6 +19,7 @@ from grader.classroom.book import Book, Outcome, outcome_of
 from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.packing import pack
 from grader.judge.children import start_worker
+from grader.judge.course import FULL, Course, told
 from grader.judge.grade import Options, grade
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
@@ -210,7 +211,7 @@ def mistake_of(todo: str, name: str, entries: list[Entry], folder: Path) -> Mist
 # ---------------------------------------------------------------- writing
 
 
-def write_dashboard(results: Path, entries: list[Entry]) -> Path:
+def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
     """Write the page beside the folder of results, and into it a report per student."""
     folder = Book(results).folder
     for entry in entries:
@@ -218,7 +219,7 @@ def write_dashboard(results: Path, entries: list[Entry]) -> Path:
         if entry.result is None:
             report.unlink(missing_ok=True)  # none may outlive its submission
         else:
-            write_report(entry.result, report)
+            write_report(told(entry.result, course), report)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(dashboard(folder, entries).encode("utf-8"), path)
     return path

@@ -49,7 +49,8 @@ def key_of(options: Options) -> str:
     """The hash of all that a result depends on, the submission aside."""
     reference = packed_reference(options.reference)
     digest = reference.digest if reference else ""
-    decides = [sorted(options.only), options.seed, options.isolation, options.spawn]
+    asked = options.course.rubric
+    decides = [sorted(options.only), options.seed, options.isolation, options.spawn, asked]
     return hashlib.sha256(msgspec.json.encode([fingerprint(), digest, decides])).hexdigest()
 
 

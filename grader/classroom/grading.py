@@ -47,7 +47,8 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     adjustments = load_adjustments(adjust) if adjust else Adjustments()
     out = wanted.out or path.with_name(f"{path.stem}-results")
     with opened_class(path, people) as intake, opened_executor(wanted) as executor:
-        run = grade_class(intake, out, key_of(wanted.options), executor, console, adjustments)
+        key, course = key_of(wanted.options), wanted.options.course
+        run = grade_class(intake, out, key, executor, console, adjustments, course)
         names = [each.name for each in intake.found]
         if absent := people.absent(names):
             run.notes.append(f"nothing was handed in by {in_short(absent)}")
@@ -62,7 +63,7 @@ def page_of(run: Run) -> str:
     """Make the page of the class, and say where it is; of too many there is none by itself."""
     if len(run.outcomes) > LONGEST_PAGE:
         return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {run.book.folder}`"
-    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder))}"
+    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder), run.course)}"
 
 
 def people_of(path: Path, roster: Path | None) -> ClassList:

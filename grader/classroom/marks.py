@@ -6,6 +6,7 @@ so that a spreadsheet would run them.
 
 import csv
 import io
+import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
@@ -17,6 +18,7 @@ from msgspec import Struct
 from grader.classroom.book import Outcome
 from grader.classroom.names import folded, names_of
 from grader.classroom.roster import CANVAS, MOODLE, POINTS_POSSIBLE, CannotRead, Roster
+from grader.judge.course import FULL, Course
 from grader.report.sinks.tables import harmless
 from grader.words import clean
 
@@ -49,12 +51,15 @@ class Part:
 Parts = dict[str, Part]
 
 
-def load_marking(path: Path) -> Marking:
+def load_marking(path: Path, course: Course = FULL) -> Marking:
+    """The settings; a title and a total that they do not name are the course's."""
+    usual = {"title": course.title, "total": course.out_of or 100}
     try:
-        marking = msgspec.toml.decode(path.read_bytes(), type=Marking)
+        document = tomllib.loads(path.read_text(encoding="utf-8"))
+        marking = msgspec.convert(usual | document, Marking)
     except OSError as error:
         raise CannotRead(f"there is no {path}: it says what each part is worth") from error
-    except msgspec.MsgspecError as error:
+    except (msgspec.MsgspecError, ValueError) as error:
         raise CannotRead(f"{path}: {error}") from error
     wrong = [f"{name} = {share}" for name, share in marking.shares.items() if not 0 <= share < 1e9]
     if wrong or not sum(marking.shares.values()):

@@ -11,6 +11,7 @@ import msgspec
 
 from grader.judge import misconceptions
 from grader.judge.children import Child, Worker, start_worker
+from grader.judge.course import FULL, Course
 from grader.judge.failures import Broke, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
@@ -32,6 +33,7 @@ class Options:
     `reference`: a complete tree, whose functions stand in for a submission's unfinished ones;
     `shipped_reference()` is the one that `make grade` takes. With None, checks that need an
     unfinished TODO wait for it.
+    `course`: what is asked, and for how many points; without one, all that there is.
     `isolation`: "auto" confines as well as this machine can and refuses to grade where files would
     be open, "strict" also where some may be read or the network is open, "none" confines nothing.
     `trusted`: it is one's own work, and graded with what confinement there is.
@@ -50,6 +52,7 @@ class Options:
     progress: Callable[[CheckResult], None] | None = None
     replays: Path | None = None
     trusted: bool = False
+    course: Course = FULL
 
     def wants(self, todo: Todo) -> bool:
         return not self.only or todo.id in self.only
@@ -84,10 +87,10 @@ def grading(
     path: Path, options: Options, worker: Worker | None = None, rubric: Rubric | None = None
 ) -> Iterator["Grading"]:
     """All that it takes to grade the submission at `path`, by another rubric where one is given."""
-    rubric = rubric or load_rubric()
-    reference = Reference(options.reference, rubric)
+    rubric = rubric or options.course.rubric
+    reference = Reference(options.reference, load_rubric())
     with work_folder() as work:
-        submission = take_in(path, work / "submission", rubric, load_stubs())
+        submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         ours = worker or start_worker(options.spawn)
         try:
             sandbox = sandbox_for(submission, work, ours, options)
@@ -150,6 +153,7 @@ class Grading:
             self.options.seed,
             self.options.progress,
             observations=self.observations,
+            open_right=self.open_right(),
         )
         run_pytest(plugin, self.rubric)
         result = self.result(plugin.results)
@@ -162,6 +166,19 @@ class Grading:
         known = frozenset(self.submission.functions)
         replays = Replays(folder, self.sandbox.open_child, self.expected_children(), known)
         return replays.of(result, plugin.failing)
+
+    def open_right(self) -> Callable[[int], Child] | None:
+        """The same as below, but that the reference is taken in only where it is asked."""
+        if self.options.reference is None:
+            return None
+        children = cache(self.expected_children)
+
+        def opened(cpu_seconds: int) -> Child:
+            right = children()
+            assert right is not None
+            return right(cpu_seconds)
+
+        return opened
 
     def expected_children(self) -> Callable[[int], Child] | None:
         """A way to open children of the reference itself, to see what should happen."""

@@ -78,6 +78,7 @@ class Lab(Decoder):
         # The first time that something was changed which a call may not change. It fails a check
         # that would else pass: what an answer should have been is said first.
         self.overstepped: NotYet | None = None
+        self.unforeseen = False  # whether the check itself raised an error
         self.numbers = count(OURS)  # for what is made at our word
         self.played = False  # whether the child has run a program
 

@@ -59,8 +59,11 @@ class GradingPlugin:
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
+    functions: dict[tuple[str, str], Any] = field(default_factory=dict)  # of the checks that ran
     budget: Budget = field(default_factory=Budget)
+    open_right: Callable[[int], Child] | None = None  # the same for the reference, as it is
     trouble: str = ""  # why a file of checks could not be read
+    wrong: str = ""  # which check fails the right code, and how
     interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
 
     def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
@@ -107,6 +110,7 @@ class GradingPlugin:
         title = (pyfuncitem.obj.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
         result = self._blocked(todo, check, title)
         if result is None:
+            self.functions[todo.id, check.id] = pyfuncitem.obj
             result = self._run(todo, check, title, pyfuncitem.obj)
         self.results[todo.id, check.id] = result
         if self.progress is not None:
@@ -148,11 +152,34 @@ class GradingPlugin:
             lab = told
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if told.failure is not None:
+            self._blame(todo, check, told)
             if not told.ended:
                 failing = Failing(todo, check, again, told.connection.pieces, self.seed)
                 self.failing[todo.id, check.id] = failing
             return self._failure(todo, check, title, told.failure)
         return self._result(todo, check, title, "passed")
+
+    def _blame(self, todo: Todo, check: Check, lab: Lab) -> None:
+        """Note a check that the right code fails as well: that is not the submission's fault.
+
+        Asked only where it may be so: of an error that nobody foresaw, and of a submission that
+        has the right code in this place.
+        """
+        likely = lab.unforeseen or self.reference.is_that_of(self.submission, todo)
+        cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
+        if self.open_right is None or self.wrong or cut or not likely:
+            return
+        function = self.functions[todo.id, check.id]
+        with kept_examples(function), seeded(function, self.seed):
+            right = self._asked(todo, check, function, isolated=False, right=True)
+        failure = right.failure
+        if failure is None or (right.ended and not right.unforeseen):
+            return
+        expected = f"; expected: {failure.expected}" if isinstance(failure, NotYet) else ""
+        self.wrong = (
+            f"the check {check.id} in {todo.file}.py is wrong, for the right code fails it too. "
+            f"It ran: {failure.ran}{expected}; got: {failure.got}"
+        )
 
     def _attempt(
         self, todo: Todo, check: Check, function: Any, isolated: bool
@@ -174,12 +201,15 @@ class GradingPlugin:
             passed_before[function, self.seed] = examples
         return lab, examples[-1] if examples else function
 
-    def _asked(self, todo: Todo, check: Check, example: Example, isolated: bool) -> Lab:
+    def _asked(
+        self, todo: Todo, check: Check, example: Example, isolated: bool, right: bool = False
+    ) -> Lab:
+        """A lab in which the check ran, of the reference itself if it is to be the `right` code."""
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
         secret = secret_of(self.seed, todo, check)
-        lab = Lab(module, lambda: self._child_for(todo, check), pieces, secret=secret)
+        lab = Lab(module, lambda: self._child_for(todo, check, right), pieces, secret=secret)
         little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
@@ -192,12 +222,17 @@ class GradingPlugin:
             except Exception as error:  # an answer that our own arithmetic cannot stand
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
+                lab.unforeseen = True
+        if right:
+            return lab
         self.budget.charge(todo.id, lab.connection)
         if lab.ended and lab.failure is not None:
             lab.failure.got += little
         return lab
 
-    def _child_for(self, todo: Todo, check: Check) -> Child:
+    def _child_for(self, todo: Todo, check: Check, right: bool) -> Child:
+        if right and self.open_right is not None:
+            return self.open_right(check.cpu_seconds)
         child = self.open_child(self.budget.cpu_for(todo.id, check.cpu_seconds))
         child.rest_seconds = self.budget.rest_for(todo.id)
         return child
@@ -283,6 +318,8 @@ def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
         )
     if plugin.interrupted is not None:
         raise plugin.interrupted
+    if plugin.wrong:
+        raise CannotGrade(plugin.wrong)
     if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
         raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
     for todo in filter(plugin.wanted, rubric.todos):

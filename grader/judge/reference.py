@@ -26,6 +26,7 @@ class Reference:
     """A complete tree, read as text; without one, no TODO can be isolated."""
 
     def __init__(self, folder: Path | None, rubric: Rubric) -> None:
+        self.todos = rubric.todos
         self.pieces: dict[str, Piece] = {}
         self.shapes: dict[str, str] = {}
         if folder is None:
@@ -44,20 +45,32 @@ class Reference:
                 )
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
+    def is_that_of(self, submission: Submission, todo: Todo) -> bool:
+        """Whether a submission has the reference's own code for a TODO; of the whole, for all."""
+        asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
+        mine = [submission.functions.get(id) for id in asked]
+        return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
+
     def for_the_others(
         self, todo: Todo, module: str, rubric: Rubric, submission: Submission
     ) -> list[Piece]:
         """The pieces of the other TODOs in `module`, where the submission's own differ from them.
 
         The whole is the submission as it is, but for its bonus tasks: a mistake there costs nothing
-        elsewhere. A bonus task that was not begun does nothing, and stays.
+        elsewhere. A bonus task that was not begun does nothing, and stays. What `rubric` leaves out
+        is handed out done, so a stub that stands there all the same is none of the student's.
         """
-        others = [other for other in rubric.todos if other.id != todo.id and other.module == module]
+        asked = {each.id for each in rubric.todos}
+        others = [other for other in self.todos if other.id != todo.id and other.module == module]
         return [
             msgspec.structs.replace(self.pieces[other.id], asked=todo.function)
             for other in others
             if other.id in self.pieces
-            and (submission.begun[other.id] if other.bonus else bool(todo.function))
+            and (
+                submission.begun[other.id]
+                if other.bonus
+                else bool(todo.function) or not (other.id in asked or submission.begun[other.id])
+            )
             and self.shapes[other.id] != submission.functions.get(other.id)
         ]
 

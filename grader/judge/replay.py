@@ -15,7 +15,7 @@ import msgspec
 from grader.judge.filming import OpenChild, filmed
 from grader.judge.plugin import Failing
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import CHECKS, load_rubric
+from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.player.film import Take
 from grader.player.page import page
 from grader.player.pairing import replay
@@ -120,13 +120,13 @@ def recorded() -> Runs:
     return msgspec.json.decode(RECORDED.read_bytes(), type=Runs)
 
 
-def record_expected(open_child: OpenChild) -> bytes:
+def record_expected(open_child: OpenChild, rubric: Rubric) -> bytes:
     """The right runs of all checks with fixed inputs, for a copy that comes without a reference.
 
     `open_child` opens children of the reference.
     """
     runs: Runs = {}
-    for todo in load_rubric().todos:
+    for todo in rubric.todos:
         checks = importlib.import_module(f"grader.checks.{todo.file}")
         for check in todo.checks:
             if check.kind != "property" and not check.hidden:

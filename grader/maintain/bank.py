@@ -17,7 +17,7 @@ import os
 import re
 import shutil
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
 from typing import Literal
@@ -25,6 +25,7 @@ from typing import Literal
 import msgspec
 from msgspec import Struct
 
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
@@ -89,6 +90,7 @@ class Member:
     form: Form
     entry: Entry
     source: Path | None  # a patch, edits, a folder to lay over, or nothing but a transform
+    course: Course = field(default=FULL, compare=False)  # by which it is graded
 
     @property
     def is_patch(self) -> bool:
@@ -146,6 +148,15 @@ class Member:
         whole = self.kind == "right" or self.bonus
         return frozenset(wanted | {"whole"} if whole else wanted)
 
+    def belongs_to(self, course: Course) -> bool:
+        """Whether a course has the TODOs that it is about, and the programs it is wrong in."""
+        asked = {todo.id for todo in course.rubric.todos}
+        if self.breach is not None:
+            return "whole" in asked and self.breach.modules <= set(course.modules)
+        if self.kind == "right":
+            return not self.todos or not asked.isdisjoint(self.todos)
+        return self.todos <= asked
+
     def build(self, kit: Path, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
         base = self.entry.base
@@ -202,8 +213,20 @@ class Member:
         return "right" if names == {self.name.partition("-")[2].partition("+")[0]} else "wrong"
 
 
-def members(kit: Path) -> Iterator[Member]:
-    """Every member of the bank, wrong ones in each form they can take."""
+def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
+    """Every member of the bank that a course has to do with.
+
+    Attacks are on the judge, whatever it asks: they are graded by all that there is.
+    """
+    for member in every_member(kit):
+        if member.kind == "hostile":
+            yield member
+        elif member.belongs_to(course):
+            yield replace(member, course=course)
+
+
+def every_member(kit: Path) -> Iterator[Member]:
+    """All of the bank, wrong ones in each form they can take."""
     bank = kit / "tests" / "bank"
     book = msgspec.toml.decode((bank / "bank.toml").read_bytes(), type=Book)
     for path in sorted((bank / "wrong").glob("*.py")):

@@ -5,7 +5,15 @@ from typing import Annotated
 
 import typer
 
-from grader.commands import console, known_todos, needs_checkout, refuse_ignored, stop
+from grader.commands import (
+    CourseFile,
+    console,
+    course_in,
+    known_todos,
+    needs_checkout,
+    refuse_ignored,
+    stop,
+)
 from grader.judge.grade import KIT
 
 FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
@@ -35,6 +43,7 @@ def verify_command(
     jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    course: CourseFile = None,
 ) -> None:
     """Grade the bank of wrong, right and hostile submissions and ladders: the grader is graded.
 
@@ -43,7 +52,8 @@ def verify_command(
     needs_checkout("verify")
     from grader.maintain.verify import verify
 
-    raise typer.Exit(0 if verify(jobs, only, console, fresh).sound else 1)
+    taken = course_in(course)
+    raise typer.Exit(0 if verify(jobs, only, console, fresh, taken).sound else 1)
 
 
 @app.command("release")
@@ -53,6 +63,7 @@ def release_command(
     / "release",
     jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    course: CourseFile = None,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.
 
@@ -62,7 +73,7 @@ def release_command(
     from grader.maintain.release import Refused, release
 
     try:
-        made = release(out, jobs, console, fresh)
+        made = release(out, jobs, console, fresh, course_in(course))
     except Refused as error:
         stop(str(error), "release")
     for path in made:

@@ -18,9 +18,11 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from grader.judge.course import FULL, Course
 from grader.judge.definitions import statements
-from grader.judge.rubric import CHECKS, load_rubric
+from grader.judge.rubric import CHECKS, Rubric
 from grader.maintain.students_copy import cut_checks, hidden_checks, visible
+from grader.maintain.sync import laid_in
 from grader.todo_regions import python_files, read_source, regions_in, replaced
 
 WORD = re.compile(r"[^\W\d]\w*|\d+(?:\.\d+)?|\*\*|//|<=|>=|==|!=|[-+*/]=|\S")
@@ -120,18 +122,25 @@ def strings_in(document: Any) -> Iterator[str]:
 # ---------------------------------------------------------------- what is secret
 
 
-def secrets_of(kit: Path) -> list[Secret]:
-    """All that must not be in a release."""
+def secrets_of(kit: Path, course: Course = FULL) -> list[Secret]:
+    """All that must not be in the release of a course."""
     solution = kit / "solution"
-    given = Row("\n".join(given_texts(solution)))
+    asked = {todo.id for todo in course.rubric.todos}
+    given = given_texts(solution, asked)
+    programs = Row("\n".join(text for name, text in given if not laid_in(name)))
+    everything = Row("\n".join(text for _, text in given))
     found: dict[str, list[Secret]] = {}
-    for candidates in [*notebook_secrets(solution / "notebooks"), *region_secrets(solution)]:
-        for each in candidates:
-            if not any(each.found_in(given)):
-                found.setdefault(each.pattern.pattern, []).append(each)
-                break
+    for known, searched in (
+        (everything, notebook_secrets(solution / "notebooks")),
+        (programs, region_secrets(solution, asked)),  # what is laid in must not hold any of it
+    ):
+        for candidates in searched:
+            for each in candidates:
+                if not any(each.found_in(known)):
+                    found.setdefault(each.pattern.pattern, []).append(each)
+                    break
     merged = [merge(alike) for alike in found.values()]
-    return [*merged, *hidden_secrets()]
+    return [*merged, *hidden_secrets(course.rubric)]
 
 
 def merge(alike: list[Secret]) -> Secret:
@@ -140,23 +149,25 @@ def merge(alike: list[Secret]) -> Secret:
     return replace(alike[0], what=what)
 
 
-def given_texts(solution: Path) -> Iterator[str]:
-    """What students get anyway: all around the regions, and the stubs within."""
+def given_texts(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
+    """What students get anyway, by file: all around the regions asked, and the stubs within."""
+    found = []
     for path in python_files(solution):
         text = read_source(path)
-        yield replaced(text, {region.id: () for region in regions_in(text)})
+        around = replaced(text, {each.id: () for each in regions_in(text) if each.id in asked})
+        found.append((path.relative_to(solution).as_posix(), around))
     for path in notebooks_in(solution / "notebooks"):
-        for cell in cells_of(path):
-            yield MARKED.sub("", cell)
-    yield from json.loads((CHECKS / "stubs.json").read_bytes()).values()
+        found += [(path.name, MARKED.sub("", cell)) for cell in cells_of(path)]
+    stubs = json.loads((CHECKS / "stubs.json").read_bytes())
+    return [*found, *stubs.items()]
 
 
-def region_secrets(solution: Path) -> Iterator[list[Secret]]:
+def region_secrets(solution: Path, asked: set[str]) -> Iterator[list[Secret]]:
     """What stands in the regions: for each statement, what to look for, the widest first."""
     for path in python_files(solution):
         text = read_source(path)
         functions = list(functions_of(text))
-        for region in regions_in(text):
+        for region in (each for each in regions_in(text) if each.id in asked):
             within = range(region.start + 1, region.stop + 1)
             for function in functions:
                 if function.lineno < within.stop and within.start <= (function.end_lineno or 0):
@@ -253,9 +264,8 @@ def secret(what: str, text: str, chosen: set[str]) -> Secret:
     return Secret(what, " ".join(text.split()), pattern, max(fixed, key=len) + " ")
 
 
-def hidden_secrets() -> Iterator[Secret]:
+def hidden_secrets(rubric: Rubric) -> Iterator[Secret]:
     """The names of the hidden checks, and the lines of what is cut out with them."""
-    rubric = load_rubric()
     for name in hidden_checks(rubric):
         yield secret("a hidden check", name, set())
     for file, kept in cut_checks(visible(rubric)).items():

@@ -8,6 +8,9 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
+from grader.judge.course import FULL, Course
+from grader.maintain.handouts import handouts_of
+
 LEFT_OUT = {"hints.md"}  # the command gives them one at a time
 STYLE = """
 :root { color-scheme: light dark }
@@ -32,10 +35,10 @@ PAGE = """<!doctype html>
 """
 
 
-def write_pages(handouts: Path, folder: Path) -> None:
-    """Write a page for each of the students' handouts, and the figures that are in them."""
-    texts = {path.name: path.read_text(encoding="utf-8") for path in handouts.glob("*.md")}
-    texts = {name: text for name, text in sorted(texts.items()) if name not in LEFT_OUT}
+def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
+    """Write a page for each of a course's handouts, and the figures that are in them."""
+    every = handouts_of(handouts, course)
+    texts = {name: text for name, text in every.items() if name not in LEFT_OUT}
     (folder / "figures").mkdir(parents=True)
     for name, text in texts.items():
         target = folder / name.replace(".md", ".html")

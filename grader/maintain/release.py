@@ -20,15 +20,16 @@ import msgspec
 from rich.console import Console
 
 import grader
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, opened
 from grader.judge.replay import record_expected
 from grader.judge.result import Result
-from grader.judge.rubric import load_rubric
 from grader.maintain.bank import members
+from grader.maintain.handed_out import students_tree, write_tree
 from grader.maintain.leaks import leaks_in, secrets_of
+from grader.maintain.notebooks import notebooks_of
 from grader.maintain.pages import write_pages
 from grader.maintain.students_copy import Tree, visible, write_copy
-from grader.maintain.sync import students_files
 from grader.maintain.verify import verify
 from grader.report.sinks.classroom50 import write_bundle
 
@@ -41,24 +42,26 @@ class Refused(Exception):
     """Nothing is handed out; the message says why."""
 
 
-def release(out: Path, jobs: int, console: Console, fresh: bool = False) -> list[Path]:
-    """Verify the kit and build the release into `out`; returns what was written.
+def release(
+    out: Path, jobs: int, console: Console, fresh: bool = False, course: Course = FULL
+) -> list[Path]:
+    """Verify the kit and build the release of a course into `out`; returns what was written.
 
     What an earlier `verify` found sound and nothing has touched since is not graded again, unless
     all is to be graded `fresh`.
     """
-    if not verify(jobs, "", console, fresh).sound:
+    if not verify(jobs, "", console, fresh, course).sound:
         raise Refused("`grader verify` has complaints, see above")
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         work = Path(folder)
         with console.status("building the release (about two minutes)"):
-            built = build(work, wrong_submissions(work / "wrong"))
+            built = build(work, wrong_submissions(work / "wrong", course), course)
         return [put(each, out) for each in sorted(built.iterdir())]
 
 
-def wrong_submissions(folder: Path) -> Iterator[Tree]:
-    """The bank's wrong members, each written when it is its turn."""
-    for member in members(KIT):
+def wrong_submissions(folder: Path, course: Course) -> Iterator[Tree]:
+    """The bank's wrong members in a course, each written when it is its turn."""
+    for member in members(KIT, course):
         if member.kind == "wrong" and member.form == "package" and member.is_patch:
             member.build(KIT, folder / member.name)
             yield folder / member.name, member.todos
@@ -75,15 +78,15 @@ def put(made: Path, out: Path) -> Path:
     return target
 
 
-def build(work: Path, wrong: Iterable[Tree]) -> Path:
-    """Make all of the release below `work`; returns the folder that holds it, checked."""
+def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
+    """Make all of a course's release below `work`; returns the folder that holds it, checked."""
     copy, tree, built = work / "copy", work / NAME, work / "built"
     built.mkdir(parents=True)
-    write_copy(copy, wrong)
+    write_copy(copy, wrong, course)
     runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
     with opened(KIT / "solution") as open_child:
-        runs.write_bytes(record_expected(open_child))
-    lay_out(tree)
+        runs.write_bytes(record_expected(open_child, course.rubric))
+    lay_out(tree, course)
     lock = pinned((KIT / "requirements.txt").read_text(encoding="utf-8"))
     content = hash_of([copy, tree], lock)
     version = f"{grader.__version__}+r{content[:8]}"  # pip puts it in the place of the last one
@@ -94,24 +97,22 @@ def build(work: Path, wrong: Iterable[Tree]) -> Path:
     name = f"{NAME}-{grader.__version__}-{content[:8]}"
     write_zip(tree, built / f"{name}.zip")
     write_bundle(built / f"{name}-classroom50", wheel, tree / "requirements.txt")
-    prove(wheel, work / "installed")
-    look_for_leaks(built)
+    prove(wheel, work / "installed", tree, course)
+    look_for_leaks(built, course)
     return built
 
 
 # ---------------------------------------------------------------- what students get
 
 
-def lay_out(tree: Path) -> None:
+def lay_out(tree: Path, course: Course) -> None:
     """The student's folder, without what is made last: wheel, requirements and manifest."""
-    files = students_files(KIT)
+    files = students_tree(KIT, course)
     del files["requirements.txt"]
-    for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
-        files[f"notebooks/{path.name}"] = path
-    for name, path in files.items():
-        (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, tree / name)
-    write_pages(KIT / "handouts", tree / "handouts")
+    for name, content in notebooks_of(KIT / "starter" / "notebooks", course).items():
+        files[f"notebooks/{name}"] = content
+    write_tree(files, tree)
+    write_pages(KIT / "handouts", tree / "handouts", course)
 
 
 def pinned(lock: str) -> str:
@@ -134,7 +135,8 @@ def build_wheel(copy: Path, version: str, folder: Path) -> Path:
         path.chmod(0o755 if path.is_dir() else 0o644)
     command = [sys.executable, "-m", "pip", "wheel", str(copy), "--wheel-dir", str(folder)]
     options = ["--no-deps", "--no-build-isolation", "--no-index", "--quiet"]
-    environment = {**os.environ, "SOURCE_DATE_EPOCH": SECOND_ONE}
+    same = {"SOURCE_DATE_EPOCH": SECOND_ONE, "TZ": "UTC", "LC_ALL": "C", "PYTHONUTF8": "1"}
+    environment = {**os.environ, **same}
     run([*command, *options], folder, environment)
     (wheel,) = folder.glob("*.whl")
     return wheel
@@ -178,16 +180,16 @@ def sha256(data: bytes) -> str:
 # ---------------------------------------------------------------- proof
 
 
-def prove(wheel: Path, folder: Path) -> None:
-    """The students' copy must give the solution all of its points, and the starter none."""
+def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Course = FULL) -> None:
+    """The students' copy must give the solution all of its points, and what students get none."""
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(folder)
-    most = visible(load_rubric()).max_points
-    for tree, points in (("solution", most), ("starter", 0)):
-        result = grade_with(folder, KIT / tree)
+    most = visible(course.rubric).max_points
+    for what, path, points in (("solution", KIT / "solution", most), ("starter", tree, 0)):
+        result = grade_with(folder, path)
         if (result.points, result.max_points) != (points, most):
             marks = f"{result.points} / {result.max_points} instead of {points} / {most}"
-            raise Refused(f"the students' copy of the grader gives the {tree} {marks}")
+            raise Refused(f"the students' copy of the grader gives the {what} {marks}")
 
 
 def grade_with(package: Path, tree: Path) -> Result:
@@ -208,8 +210,8 @@ def alone(package: Path, code: str) -> list[str]:
     return [sys.executable, "-I", "-S", "-c", f"import sys; sys.path[:0] = {folders!r}; {code}"]
 
 
-def look_for_leaks(built: Path) -> None:
-    found = list(leaks_in(built, secrets_of(KIT)))
+def look_for_leaks(built: Path, course: Course = FULL) -> None:
+    found = list(leaks_in(built, secrets_of(KIT, course)))
     if found:
         raise Refused("\n".join(["it would give the solution away:", *map(str, found)]))
 
@@ -218,7 +220,9 @@ def run(
     command: list[str], folder: Path, environment: dict[str, str], statuses: tuple[int, ...] = (0,)
 ) -> str:
     """What the command printed; anything but these exit statuses stops the release."""
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, umask=0o022
+    )
     if done.returncode not in statuses:
         raise Refused(f"{' '.join(command[1:4])} failed:\n{done.stdout}{done.stderr}")
     return done.stdout + done.stderr

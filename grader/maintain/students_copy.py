@@ -5,8 +5,8 @@ its name and looks its answers up, and so do the known mistakes: see judge/recor
 """
 
 import json
-import re
 import shutil
+import tomllib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import wraps
@@ -19,11 +19,14 @@ import msgspec
 from grader.checks import exact
 from grader.judge import misconceptions
 from grader.judge.children import Worker, start_worker
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.lab import Observation
 from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracles
-from grader.judge.rubric import CHECKS, Rubric, load_rubric
+from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric
 from grader.maintain.cut import asked_of, pruned, with_bodies
+from grader.maintain.handed_out import students_tree
+from grader.maintain.sync import given_sources, laid_in
 
 NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
 HELPERS = (
@@ -54,8 +57,8 @@ def hidden_checks(rubric: Rubric) -> list[str]:
     return [name for name in dict.fromkeys(named) if name not in shown]
 
 
-def write_copy(folder: Path, wrong: Iterable[Tree]) -> None:
-    """Write the package into `folder`.
+def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> None:
+    """Write the package into `folder`, with what a course has of the checks.
 
     What a check asks next may follow from an answer. So wrong submissions are asked as well: the
     more there are, the more often a student's copy can name a mistake.
@@ -63,9 +66,14 @@ def write_copy(folder: Path, wrong: Iterable[Tree]) -> None:
     package = folder / "grader"
     shutil.copytree(KIT / "grader", package, ignore=shutil.ignore_patterns(*NOT_FOR_STUDENTS))
     checks = package / "checks"
-    texts = cut_checks(visible(load_rubric()))
-    texts["rubric.toml"] = visible_text(load_rubric())
-    table = record(wrong)
+    rubric = visible(course.rubric)
+    texts = cut_checks(rubric)
+    for todo in load_rubric().todos:
+        if f"{todo.file}.py" not in texts:
+            (checks / f"{todo.file}.py").unlink(missing_ok=True)
+    texts["rubric.toml"] = as_toml(rubric)
+    texts |= of_the_course(course)
+    table = record(wrong, rubric)
     asked = {
         name: each for name, each in table.oracles.items() if f"def {name}(" in texts["exact.py"]
     }
@@ -78,22 +86,48 @@ def write_copy(folder: Path, wrong: Iterable[Tree]) -> None:
 # ---------------------------------------------------------------- cutting
 
 
-def visible_text(rubric: Rubric) -> str:
-    """The text of rubric.toml without the hidden checks, and with what they are worth."""
-    wanted = visible(rubric)
-    points = {todo.id: todo.hidden_points for todo in wanted.todos if todo.hidden_points}
-    lines, todo = [], ""
-    for line in (CHECKS / "rubric.toml").read_text(encoding="utf-8").splitlines():
-        if named := re.match(r'id = "(.+)"', line):
-            todo = named[1]
-        if line.startswith("checks = ") and todo in points:
-            lines.append(f"hidden_points = {points[todo]}")
-        if "hidden = true" not in line and not line.startswith("# Hidden"):
-            lines.append(line)
-    text = "\n".join(lines) + "\n"
-    if msgspec.toml.decode(text, type=Rubric) != wanted:
-        raise ValueError("rubric.toml: write each check on a line of its own, hidden ones too")
-    return text
+def as_toml(rubric: Rubric) -> str:
+    """The text of a rubric.toml."""
+    lines = ["# What is asked and what it is worth, as far as it is checked here."]
+    for todo in rubric.todos:
+        fields = dict(msgspec.to_builtins(todo))
+        checks = [unusual(check) for check in todo.checks]
+        del fields["checks"]
+        lines += ["", "[[todos]]", *(f"{name} = {json.dumps(fields[name])}" for name in fields)]
+        lines += ["checks = [", *(f"  {inline(check)}," for check in checks), "]"]
+    return "\n".join(lines) + "\n"
+
+
+def unusual(check: Check) -> dict[str, Any]:
+    """The fields of a check that are not as they go without saying."""
+    usual = Check("", 0, "unit")
+    always = ("id", "points", "kind")
+    fields: dict[str, Any] = msgspec.to_builtins(check)
+    return {n: v for n, v in fields.items() if n in always or v != getattr(usual, n)}
+
+
+def inline(table: dict[str, Any]) -> str:
+    """A table of TOML on one line; of its values, JSON and TOML write the same."""
+    return "{ " + ", ".join(f"{name} = {json.dumps(table[name])}" for name in table) + " }"
+
+
+def of_the_course(course: Course) -> dict[str, str]:
+    """The files beside the checks that are about the TODOs: stubs, given code, hints, and dates."""
+    asked = {todo.id for todo in course.rubric.todos}
+    stubs = json.loads((CHECKS / "stubs.json").read_bytes())
+    stubs = {name: stub for name, stub in stubs.items() if name.removeprefix("def ") in asked}
+    files = students_tree(KIT, course)
+    programs = {n: files[n].decode() for n in files if n.endswith(".py") and not laid_in(n)}
+    hints = tomllib.loads((CHECKS / "hints.toml").read_text(encoding="utf-8"))
+    kept = [f"{id} = {json.dumps(hints[id])}\n" for id in hints if id in asked]
+    about = {"title": course.title, "due": course.due.isoformat() if course.due else ""}
+    return {
+        "stubs.json": json.dumps(stubs, indent=1) + "\n",
+        "given.json": json.dumps(given_sources(programs), indent=1) + "\n",
+        "hints.toml": "".join(kept),
+        "course.toml": f"title = {json.dumps(about['title'])}\n"
+        + (f"due = {about['due']}\n" if about["due"] else ""),
+    }
 
 
 def cut_checks(rubric: Rubric) -> dict[str, str]:
@@ -128,9 +162,8 @@ def with_recorded_oracles(source: str) -> str:
 # ---------------------------------------------------------------- recording
 
 
-def record(wrong: Iterable[Tree]) -> Recorded:
+def record(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
     """What the visible checks ask, and what the oracles and all models answer."""
-    rubric = visible(load_rubric())
     worker = start_worker()
     try:
         with oracles_noted() as notes:
@@ -139,13 +172,15 @@ def record(wrong: Iterable[Tree]) -> Recorded:
             seen += watch(path, todos, without_properties(rubric), worker)
     finally:
         worker.close()
-    for todo in load_rubric().todos:
-        misconceptions.load_known(todo.id)
+    asked = {todo.id for todo in rubric.todos}
+    for todo in asked:
+        misconceptions.load_known(todo)
     mistakes = [
         RecordedMistake(
             each.todo, each.id, each.meaning, each.about, answers(each.model, each.about, seen)
         )
         for each in misconceptions.known
+        if each.todo in asked
     ]
     right = {about: answers(model, about, seen) for about, model in misconceptions.right.items()}
     return Recorded(notes, right, mistakes)

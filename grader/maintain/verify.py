@@ -21,6 +21,7 @@ from rich.table import Table
 from grader.classroom.executor import begin_process
 from grader.classroom.progress import Counter
 from grader.judge.children import WarmWorker, Worker, start_worker
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -59,13 +60,21 @@ class Report:
         return not any([*self.complaints, *of_members, *(each.complaint for each in self.ladders)])
 
 
-def verify(jobs: int, only: str, console: Console, fresh: bool = False) -> Report:
-    """Grade the bank, as far as its names contain `only`; prints a table.
+def verify(
+    jobs: int, only: str, console: Console, fresh: bool = False, course: Course = FULL
+) -> Report:
+    """Grade what a course has of the bank, as far as its names contain `only`; prints a table.
 
-    What an earlier run found sound still is, unless all is to be graded `fresh`.
+    What an earlier run found sound still is, unless all is to be graded `fresh`. Points are those
+    of the rubric: a course may give a check none, and still it must tell right from wrong.
     """
+    course = course.as_rated
     report = Report(complaints=list(kit_complaints()))
-    chosen = [each for each in [*trees(), *members(KIT)] if only in f"{each.kind}/{each.name}"]
+    chosen = [
+        each
+        for each in [*trees(course), *members(KIT, course)]
+        if only in f"{each.kind}/{each.name}"
+    ]
     with Counter("grading the bank", len(chosen), console) as counter:
         for verdict in verdicts(chosen, jobs, Kept(KEPT), fresh):
             report.verdicts.append(verdict)
@@ -94,11 +103,12 @@ def verdicts(chosen: list[Member], jobs: int, kept: Kept, fresh: bool) -> Iterat
         yield verdict
 
 
-def trees() -> list[Member]:
+def trees(course: Course = FULL) -> list[Member]:
     """The shipped trees themselves: everything, and nothing."""
+    nothing = Entry(base="starter", points=0)
     return [
-        Member("right", "solution", "package", Entry(), None),
-        Member("hostile", "starter", "package", Entry(base="starter", points=0), None),
+        Member("right", "solution", "package", Entry(), None, course),
+        Member("hostile", "starter", "package", nothing, None, course),
     ]
 
 
@@ -125,12 +135,12 @@ def grade_all(chosen: Iterable[Member], jobs: int) -> Iterator[Verdict]:
 
 
 def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
-    """Grade it on all that may judge it, or on the TODOs in `only`."""
+    """Grade it on all of its course that may judge it, or on the TODOs in `only`."""
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         member.build(KIT, submission)
         todos, worker = only or member.judged_by, shared_worker()
-        options = Options(shipped_reference(), only=todos, trusted=True)
+        options = Options(shipped_reference(), only=todos, trusted=True, course=member.course)
         start = time.monotonic()
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose

@@ -7,8 +7,10 @@ arms: against a static body, turn the ball at its radius, not at radius - depth
 
 import math
 
+from pygame import Vector2
+
 from mini_engine import DistanceJoint, World
-from mini_engine.solver import target_speed
+from mini_engine.solver import apply_impulse, target_speed
 
 EDITS = ("bounce", "rods", "arms")
 
@@ -61,5 +63,5 @@ class AimedRod(DistanceJoint):
         if root2 < 0:
             return
         impulse = self.axis * ((math.sqrt(root2) - along) / (self.k * self.dt))
-        self.a.vel -= impulse * self.a.inv_mass
-        self.b.vel += impulse * self.b.inv_mass
+        centre = Vector2()  # where the rod holds its ends: no lever arm
+        apply_impulse(self.a, self.b, impulse, centre, centre)

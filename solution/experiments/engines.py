@@ -158,8 +158,8 @@ class Pymunk:
 
     def body(self, data):
         if isinstance(data, Ball) and data.mass > 0:
-            moment = pymunk.moment_for_circle(data.mass, 0, data.radius)
-            body = pymunk.Body(data.mass, moment)
+            disc = 0.5 * data.radius**2  # px²: moment of inertia per kg
+            body = pymunk.Body(data.mass, data.mass * disc)
         else:
             body = pymunk.Body(body_type=STATIC)
         body.position = data.pos

@@ -126,10 +126,10 @@ class Show:
     def advance(self, seconds):
         """Run the whole steps that one frame owes, and measure now and then."""
         if not self.paused:
-            self.owed += min(seconds, MAX_FRAME)
-            while self.owed >= self.dt and not self.paused:
-                self.owed -= self.dt
-                self.step()
+            steps, self.owed = divmod(self.owed + min(seconds, MAX_FRAME), self.dt)
+            for _ in range(int(steps)):
+                if not self.paused:
+                    self.step()
         self.frames += 1
         if self.frames % MEASURE_EVERY == 0:
             self.measure()

@@ -14,10 +14,10 @@ from rich.console import Console
 from grader.classroom.book import outcome_of
 from grader.classroom.dashboard import Entry, rates_of
 from grader.classroom.grading import rates, table_of
-from grader.classroom.nbgrader.notebooks import engine_notebook
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
+from grader.maintain.notebooks import engine_notebook
 from grader.maintain.verify import shared_worker
 from grader.report.files import as_json
 from grader.report.sinks.classroom50 import NEEDED, classroom50

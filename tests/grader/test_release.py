@@ -114,13 +114,13 @@ def released(once, expected_runs: bytes) -> Released:
 
     def fill(work: Path) -> None:
         most = visible(load_rubric()).max_points
-        marks = {"solution": most, "starter": 0}
+        marks = {"solution": most}
         with pytest.MonkeyPatch.context() as patched:
-            patched.setattr(releases, "record_expected", lambda tree: expected_runs)
+            patched.setattr(releases, "record_expected", lambda *_: expected_runs)
             patched.setattr(
                 releases,
                 "grade_with",
-                lambda _, tree: Result(1, tree.name, marks[tree.name], most, 0, [], []),
+                lambda _, tree: Result(1, tree.name, marks.get(tree.name, 0), most, 0, [], []),
             )
             make(work, SAMPLE)
 
@@ -268,7 +268,7 @@ def test_planted_leaks_stop_the_release(
     released: Released, secrets: list[Secret], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
-    monkeypatch.setattr(releases, "secrets_of", lambda kit: secrets)  # found out once
+    monkeypatch.setattr(releases, "secrets_of", lambda *_: secrets)  # found out once
     tree = tmp_path / releases.NAME
     shutil.copytree(released.tree, tree)
     solver = (KIT / "solution" / "mini_engine" / "solver.py").read_text(encoding="utf-8")
@@ -300,7 +300,7 @@ def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
 
 
 def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monkeypatch):
-    def made(work: Path, wrong: object) -> Path:
+    def made(work: Path, *_: object) -> Path:
         (work / "built" / "bundle").mkdir(parents=True)
         (work / "built" / "bundle" / "new").touch()
         (work / "built" / "a.zip").write_text("new", encoding="utf-8")
@@ -369,7 +369,12 @@ def test_the_manifest_knows_every_file(released: Released):
     assert all(releases.sha256(files[name].read_bytes()) == sums[name] for name in sums)
 
 
-def test_the_same_content_makes_the_same_bytes(released: Released, tmp_path: Path):
+def test_the_same_content_makes_the_same_bytes(
+    released: Released, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Also elsewhere, where files are made for nobody else, in another zone and language."""
+    monkeypatch.setenv("TZ", "Asia/Kathmandu")
+    monkeypatch.setenv("LC_ALL", "POSIX")
     copy = tmp_path / "copy"
     shutil.copytree(released.installed / "grader", copy / "grader")
     (copy / "grader" / "__init__.py").write_bytes((KIT / "grader" / "__init__.py").read_bytes())
@@ -378,10 +383,41 @@ def test_the_same_content_makes_the_same_bytes(released: Released, tmp_path: Pat
         shutil.rmtree(path)
     version = released.wheel.name.split("-")[1]
     (tmp_path / "wheel").mkdir()
-    again = build_wheel(copy, version, tmp_path / "wheel")
+    usual = os.umask(0o077)
+    try:
+        again = build_wheel(copy, version, tmp_path / "wheel")
+    finally:
+        os.umask(usual)
     assert again.read_bytes() == released.wheel.read_bytes()
     releases.write_zip(released.tree, tmp_path / "again.zip")
     assert (tmp_path / "again.zip").read_bytes() == released.archive.read_bytes()
+
+
+BUILD = """
+import os, sys
+from pathlib import Path
+os.umask(int(sys.argv[1], 8))
+from grader.judge.course import read_course
+from grader.maintain.release import build
+build(Path(sys.argv[2]), [], read_course(Path(sys.argv[3])))
+"""
+
+
+@pytest.mark.soak
+def test_the_release_is_the_same_wherever_and_whenever_it_is_built(tmp_path: Path):
+    """With other modes for new files, other paths, time zones, locales and orders of sets."""
+    course = KIT / "tests" / "courses" / "integrators.toml"
+    archives = []
+    for umask, name, zone, locale, seed in (
+        ("077", "a path with spaces", "Asia/Kathmandu", "POSIX", "1"),
+        ("002", "b", "America/St_Johns", "C.UTF-8", "2"),
+    ):
+        settings = {"TZ": zone, "LC_ALL": locale, "PYTHONHASHSEED": seed}
+        command = [sys.executable, "-c", BUILD, umask, tmp_path / name, course]
+        subprocess.run(command, check=True, env={**os.environ, **settings})
+        archives += (tmp_path / name / "built").glob("*.zip")
+    assert archives[0].name == archives[1].name
+    assert archives[0].read_bytes() == archives[1].read_bytes()
 
 
 @pytest.mark.soak

@@ -383,7 +383,7 @@ def all_or_some_expected_runs(request: pytest.FixtureRequest, whole: bool) -> by
     if not whole:
         return request.getfixturevalue("expected_runs")
     with opened(KIT / "solution") as open_child:
-        return record_expected(open_child)
+        return record_expected(open_child, load_rubric())
 
 
 @pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])

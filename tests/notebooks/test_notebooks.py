@@ -24,8 +24,8 @@ from handed_in import (
     source,
 )
 
-from grader.classroom.nbgrader.notebooks import engine_notebook, tidied
 from grader.judge.rubric import load_rubric
+from grader.maintain.notebooks import engine_notebook, tidied
 
 RUNNER = Path(__file__).with_name("run_cells.py")
 ALL = pytest.mark.parametrize("name", NAMES)

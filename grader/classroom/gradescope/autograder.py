@@ -14,6 +14,7 @@ from rich.console import Console
 
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.packing import pack
+from grader.judge.course import FULL, Course, told
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -29,6 +30,7 @@ class Settings(Struct, frozen=True):
 
     isolation: Isolation = "auto"
     seed: int | None = None
+    course: Course = FULL
 
 
 def main(top: Path) -> int:
@@ -49,7 +51,8 @@ def main(top: Path) -> int:
 def graded(submission: Path) -> bytes:
     """Take it in as that of a class is, folders around it and all."""
     settings = msgspec.json.decode((KIT / "settings.json").read_bytes(), type=Settings)
-    options = Options(shipped_reference(), settings.isolation, seed=settings.seed)
+    reference, course = shipped_reference(), settings.course
+    options = Options(reference, settings.isolation, seed=settings.seed, course=course)
     package = pack(Found("submission", (submission,)))
     with work_folder() as work:
         result = grade(package.unpack(work), options)
@@ -58,7 +61,7 @@ def graded(submission: Path) -> bytes:
         console.print(f"left out {clean(note)}")
     show(result, console)
     show_isolation(result, console)
-    return gradescope(result)
+    return gradescope(told(result, course), course)
 
 
 def ungraded(why: str) -> bytes:

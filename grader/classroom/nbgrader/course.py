@@ -16,9 +16,11 @@ from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.found import CannotTake, Found, Intake
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import laid_out
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options
 from grader.judge.submission import CannotGrade, plain_files
-from grader.maintain.sync import students_files
+from grader.maintain.handed_out import students_tree, write_tree
+from grader.maintain.notebooks import notebooks_of
 
 ASSIGNMENT = "physics-engine"
 NOTEBOOKS = "notebooks"  # the folder of both trees
@@ -34,7 +36,7 @@ class NoCourse(Exception):
 # ---------------------------------------------------------------- making a course
 
 
-def make_course(course: Path, renew: bool = False) -> list[str]:
+def make_course(course: Path, renew: bool = False, taken: Course = FULL) -> list[str]:
     """Make the folder in which nbgrader's commands run; returns the assignment's files.
 
     The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
@@ -52,24 +54,20 @@ def make_course(course: Path, renew: bool = False) -> list[str]:
             "settings, submissions and gradebook stay."
         )
     shutil.rmtree(source, ignore_errors=True)
-    files = dict(assignment_files())
-    for name, path in files.items():
-        target = source / name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, target)
+    files = dict(assignment_files(taken))
+    write_tree(files, source)
     for name in SETTINGS:
         if not (course / name).exists():
             shutil.copyfile(INSTRUCTOR / name, course / name)
     return sorted(files)
 
 
-def assignment_files() -> Iterator[tuple[str, Path]]:
+def assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:
     """What the source of the assignment holds: the notebooks, and beside them students' files."""
-    for name, path in students_files(KIT).items():
+    for name, content in students_tree(KIT, taken).items():
         if not name.startswith("."):
-            yield name, path
-    for path in sorted((KIT / "solution" / NOTEBOOKS).glob("*.ipynb")):
-        yield path.name, path
+            yield name, content
+    yield from notebooks_of(KIT / "solution" / NOTEBOOKS, taken).items()
 
 
 # ---------------------------------------------------------------- taking submissions in
@@ -124,7 +122,7 @@ def take(student: str, path: Path, course: Path) -> Taken:
 def lay_out(path: Path, target: Path) -> int:
     """Copy a submission as nbgrader wants it: notebooks on top. Returns how many there are."""
     target.mkdir()
-    wanted = {name for name, _ in assignment_files() if name.endswith(".ipynb")}
+    wanted = {path.name for path in (KIT / "solution" / NOTEBOOKS).glob("*.ipynb")}
     for source in plain_files(path):
         inside = source.relative_to(path)
         if inside.name in wanted and inside.parts[:-1] in ((), (NOTEBOOKS,)):

@@ -2,15 +2,21 @@
 
 import msgspec
 
+from grader.judge.course import FULL, Course
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.words import clean, named, points_in_words, reasons
 
 
-def gradescope(result: Result) -> bytes:
+def gradescope(result: Result, course: Course = FULL) -> bytes:
     """A test per check, all of them visible: one hidden test would hide the student's total.
 
-    The score is without bonus; what was earned there is said beside it.
+    The score is without bonus, unless the course adds it; what was earned there is said beside it.
     """
+    score: float = result.points + course.added(result.bonus)
+    output = points_in_words(result)
+    if course.out_of is not None and course.out_of != result.max_points:
+        score = round(score * course.out_of / result.max_points, 2)
+        output += f": {score:g} of {course.out_of:g}"
     tests = [
         test(todo, check, number)
         for todo in result.shown
@@ -19,8 +25,8 @@ def gradescope(result: Result) -> bytes:
     return msgspec.json.format(
         msgspec.json.encode(
             {
-                "score": result.points,
-                "output": points_in_words(result),
+                "score": score,
+                "output": output,
                 "output_format": "text",
                 "test_output_format": "text",
                 "visibility": "visible",

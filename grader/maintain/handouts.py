@@ -1,0 +1,140 @@
+"""The handouts of a course: the pages in `handouts/`, with what it leaves out left out.
+
+Sections and rows of tables that begin with the id of a TODO go with it, and points are the
+course's. What else depends on a course stands between Jinja's marks written as comments of HTML, so
+that a page reads well as it lies there: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
+"""
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, StrictUndefined
+
+from grader.judge.course import Course
+from grader.judge.rubric import Todo, load_rubric
+from grader.words import listed, number
+
+EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
+SECTION = re.compile(r"^(##+) (?:TODO )?([0-9]+[a-d]?|B[0-9]): ")
+ROW = re.compile(r"^\| \[?([0-9]+[a-d]?|B[0-9])(?:\]\([^)]*\))? \|")
+LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
+PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
+
+pages = Environment(
+    block_start_string="<!--%",
+    block_end_string="%-->",
+    variable_start_string="<!--=",
+    variable_end_string="=-->",
+    comment_start_string="<!--#",
+    comment_end_string="#-->",
+    trim_blocks=True,
+    lstrip_blocks=True,
+    keep_trailing_newline=True,
+    undefined=StrictUndefined,
+    autoescape=False,  # Markdown, written by ourselves
+)
+
+
+def of_course(text: str, course: Course) -> str:
+    """A page of Markdown as a course has it."""
+    text = pages.from_string(text).render(words_of(course))
+    todos = {todo.id: todo for todo in course.rubric.todos}
+    known = {todo.id for todo in load_rubric().todos}
+    text = "\n".join(kept_lines(text.split("\n"), todos, known - todos.keys()))
+    text = re.sub(r"\n{3,}", "\n\n", text).rstrip() + "\n"
+    return with_examples(text, course)
+
+
+def readme_of(text: str, course: Course) -> str:
+    """The student's README as a course has it: what names something left out goes."""
+    given = {todo.id for todo in course.given}
+    every = {todo.module for todo in load_rubric().todos} - set(course.modules)
+    names = [*(f"TODO {id}" for id in given), *map(start, every), *map(handed_in, every)]
+    if not names:
+        return text
+    about = re.compile(rf"(?<![\w./])({'|'.join(map(re.escape, names))})(?![\w/])")
+    parts = PARTS.split(of_course(text, course))
+    return "".join(part for part in parts if not about.search(part))
+
+
+def handouts_of(folder: Path, course: Course) -> dict[str, str]:
+    """The students' pages in this folder, by name; links to pages left out are plain words."""
+    bonus = any(todo.bonus for todo in course.rubric.todos)
+    paths = [path for path in sorted(folder.glob("*.md")) if bonus or path.name != "bonus.md"]
+    texts = {path.name: of_course(path.read_text(encoding="utf-8"), course) for path in paths}
+    return {name: without_dead_links(text, texts.keys()) for name, text in texts.items()}
+
+
+def without_dead_links(text: str, names: Iterable[str]) -> str:
+    """Links to other pages become words, and a row of a table that is about one is left out."""
+    dead = {link[2] for link in LINK.finditer(text) if "/" not in link[2]} - set(names)
+    for name in dead:
+        text = re.sub(rf"^\| \[[^\]]+\]\({re.escape(name)}\) .*\n", "", text, flags=re.M)
+    return LINK.sub(lambda link: link[1] if link[2] in dead else link[0], text)
+
+
+def words_of(course: Course) -> dict[str, Any]:
+    """What a page may ask of the course, and say of it."""
+    todos = {todo.id: todo for todo in course.rubric.todos}
+    tasks = [todo for todo in course.rubric.counted if todo.function]
+    bonus = [todo for todo in course.rubric.todos if todo.bonus]
+    ids = [todo.id for todo in tasks]
+    return {
+        "asked": lambda *names: any(name in todos for name in names),
+        "every": course.rubric == load_rubric(),
+        "title": course.title,
+        "tasks": number(len(tasks)),
+        "bonus_tasks": number(len(bonus)),
+        "bonus_points": sum(todo.max_points for todo in bonus),
+        "points": {id: todo.max_points for id, todo in todos.items()},
+        "span": f"TODO {ids[0]} to {ids[-1]}" if len(ids) > 1 else f"TODO {ids[0]}",
+        "programs": "\n".join(
+            ["```", *(f"python {start(each)}" for each in course.modules), "```"]
+        ),
+        "hand_in": listed([f"`{handed_in(each)}`" for each in course.modules]),
+    }
+
+
+def start(module: str) -> str:
+    return "-m mini_engine" if module == "mini_engine" else f"{module}.py"
+
+
+def handed_in(module: str) -> str:
+    """A program as it lies in the student's folder: a package, or a file."""
+    return module if module == "mini_engine" else f"{module}.py"
+
+
+def kept_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> Iterable[str]:
+    """Without the sections and rows of what is left out; points stand where a table has them."""
+    skipping, column, of_todos = 0, 0, False
+    for line in lines:
+        heading = re.match(r"^(#+) ", line)
+        if heading and len(heading[1]) <= (skipping or 9):
+            section = SECTION.match(line)
+            skipping = len(section[1]) if section and section[2] in left_out else 0
+        if skipping:
+            continue
+        if line.startswith("| TODO |") or line.startswith("| task |"):
+            names = [cell.strip() for cell in line.split("|")]
+            column, of_todos = names.index("points") if "points" in names else 0, True
+        row = ROW.match(line) if of_todos else None
+        if row and row[1] in left_out:
+            continue
+        if row and column and row[1] in todos:
+            cells = line.split("|")
+            cells[column] = f" {todos[row[1]].max_points} "
+            line = "|".join(cells)
+        elif not line.startswith("|"):
+            column, of_todos = 0, False
+        yield line
+
+
+def with_examples(text: str, course: Course) -> str:
+    """Commands and markers are shown with a TODO that the course has."""
+    for example, bonus in ((EXAMPLE, False), (BONUS_EXAMPLE, True)):
+        ids = [todo.id for todo in course.rubric.todos if todo.function and todo.bonus == bonus]
+        if ids and example not in ids:
+            text = re.sub(rf"(TODO[= ]|--todo ){example}\b", rf"\g<1>{ids[0]}", text)
+    return text

@@ -1,0 +1,114 @@
+"""The notebooks of a course: `engine` follows its rubric, the others ask what it has.
+
+A cell that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It is left out
+where a course has none of them, and so is a notebook in which nothing is left to do.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from grader.judge.course import Course
+from grader.judge.rubric import Rubric, load_rubric
+
+ENGINE = "engine.ipynb"
+
+Cell = dict[str, Any]
+
+INTRO = """\
+# The engine
+
+Nothing is to be done here. You write the engine in the Python files and hand everything in
+together. The points below come from the course's grader, which runs your files outside of this
+notebook. To see where you stand:
+
+    python -m grader check
+
+With the feedback you get the reasons for missing points in the same places.\
+"""
+
+
+def engine_notebook(rubric: Rubric) -> Cell:
+    """A notebook with a cell for each TODO, worth its points; bonus tasks are no part of a sum."""
+    cells = [markdown("title", INTRO, {})]
+    for todo in rubric.counted:
+        name = f"TODO {todo.id}" if todo.function else "The whole"
+        noun = "point" if todo.max_points == 1 else "points"
+        text = f"### {name}: {todo.title}\n\n{todo.max_points} {noun}"
+        if todo.function:
+            text += f", for `{todo.function.partition(':')[2]}` in `{todo.module}`"
+        details = {
+            "grade": False,
+            "grade_id": f"todo-{todo.id}",
+            "locked": True,
+            "points": todo.max_points,
+            "schema_version": 3,
+            "solution": False,
+            "task": True,
+        }
+        cells.append(markdown(f"todo-{todo.id}", text, {"nbgrader": details}))
+    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
+    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+
+
+def markdown(name: str, text: str, metadata: Cell) -> Cell:
+    lines = text.splitlines(keepends=True)
+    return {"cell_type": "markdown", "id": name, "metadata": metadata, "source": lines}
+
+
+def tidied(notebook: Cell) -> Cell:
+    """A notebook without what running it leaves behind."""
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            cell.update(execution_count=None, outputs=[])
+        for trace in ("execution", "ExecuteTime", "collapsed", "scrolled"):
+            cell["metadata"].pop(trace, None)
+    notebook["metadata"]["language_info"] = {"name": "python"}
+    return notebook
+
+
+def read(path: Path) -> Cell:
+    notebook: Cell = json.loads(path.read_text(encoding="utf-8"))
+    return notebook
+
+
+def as_text(notebook: Cell) -> str:
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
+
+
+def write(path: Path, notebook: Cell) -> bool:
+    """Write a notebook if it differs; returns whether it did."""
+    text = as_text(notebook)
+    if path.exists() and path.read_text(encoding="utf-8") == text:
+        return False
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8", newline="\n")
+    return True
+
+
+def notebooks_of(folder: Path, course: Course) -> dict[str, bytes]:
+    """The notebooks of this folder by name, as far as they belong to the course."""
+    found = {}
+    for path in sorted(folder.glob("*.ipynb")):
+        notebook = read(path)
+        if path.name == ENGINE and course.rubric != load_rubric():
+            notebook = engine_notebook(course.rubric)
+        cells = [cell for cell in notebook["cells"] if belongs(cell, course)]
+        if cells == read(path)["cells"]:
+            found[path.name] = path.read_bytes()
+        elif any(map(asks, cells)):
+            found[path.name] = as_text(notebook | {"cells": cells}).encode()
+    return found
+
+
+def belongs(cell: Cell, course: Course) -> bool:
+    """Whether a course has any of the TODOs that a cell is about."""
+    about = cell["metadata"].get("todos")
+    return about is None or any(todo.id in about for todo in course.rubric.todos)
+
+
+def asks(cell: Cell) -> bool:
+    """Whether something is to be done in a cell, or is marked there."""
+    details = cell["metadata"].get("nbgrader", {})
+    return any(details.get(each) for each in ("grade", "solution", "task"))

@@ -1,0 +1,70 @@
+"""A check that is wrong itself is blamed, and not the submission."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from conftest import KIT
+
+from grader.judge import plugin
+from grader.judge.grade import Options, grading, shipped_reference
+from grader.judge.rubric import CHECKS, Check, Rubric, Todo
+from grader.judge.submission import CannotGrade
+from grader.maintain.verify import shared_worker
+
+HEAD = '''from grader.judge.lab import Lab
+
+
+def mine(lab: Lab) -> None:
+    """Mine"""
+    lab.ran("one step")
+    '''
+WRONG = {
+    "what is no function": 'lab.call("OMEGA")',
+    "what is not there": 'lab.call("no_such_function")',
+    "an error of its own": "[].append(1, 2)",
+    "what is no argument": 'lab.call("rk4", object())',
+    "an expectation that nothing meets": 'lab.want(False, "a", "b")',
+}
+RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
+
+
+def graded(body: str, tree: Path, folder: Path, patched: pytest.MonkeyPatch) -> str:
+    """The state of the check; the sentence where it is refused."""
+    shutil.copyfile(CHECKS / "pytest.ini", folder / "pytest.ini")
+    name = f"todo_{abs(hash(body))}"  # pytest imports a file of a name once
+    (folder / f"{name}.py").write_text(HEAD + body + "\n", encoding="utf-8")
+    patched.setattr(plugin, "CHECKS", folder)
+    todo = Todo("8c", "RK4", "integrators", "integrators:rk4", name, [Check("mine", 1, "unit")])
+    options = Options(shipped_reference(), trusted=True)
+    try:
+        with grading(tree, options, shared_worker(), Rubric([todo])) as run:
+            return run.run().todos[0].checks[0].state
+    except CannotGrade as error:
+        return str(error)
+
+
+@pytest.mark.parametrize("body", WRONG.values(), ids=WRONG)
+def test_a_check_that_the_right_code_fails_is_wrong(
+    body: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    said = graded(body, KIT / "solution", tmp_path, monkeypatch)
+    assert said.startswith("the check mine in todo_")
+    assert "is wrong, for the right code fails it too. It ran: one step" in said
+
+
+@pytest.mark.parametrize("answer", ["None", "'far'", "(1.0, 'x')", "(1.0, 2.0, 3.0)", "1 / 0"])
+def test_a_submission_that_fails_what_the_right_code_passes_is_to_blame(
+    answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    (tmp_path / "checks").mkdir()
+    wrong = f"def rk4(x, v, dt, accel):\n    return {answer}\n"
+    (tmp_path / "integrators.py").write_text(wrong, encoding="utf-8")
+    state = graded(RIGHT, tmp_path / "integrators.py", tmp_path / "checks", monkeypatch)
+    assert state in ("not yet", "error")
+
+
+def test_what_the_right_code_passes_is_no_wrong_check(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    assert graded(RIGHT, KIT / "solution", tmp_path, monkeypatch) == "passed"
