@@ -125,7 +125,7 @@ def budget_figure(plot, scenes):
     for axes, scene in zip(panels.flat, scenes.values(), strict=True):
         budget_panel(axes, scene)
     for axes in panels[1]:
-        axes.set_xlabel("wall time for a frame of 1/60 s")
+        axes.set_xlabel("time for a frame of 1/60 s")
     handles, labels = panels[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncols=len(labels))
     title(figure, textwrap.fill(budget_message(scenes), 110))
@@ -208,7 +208,7 @@ def ladder_figure(plot, scene):
     axes.set_ylim(bottom / 1.5, top * 1.5)
     axes.set_ylabel(f"{scene['error']} ({scene['unit']})")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    title(figure, textwrap.fill(ladder_message(scene), 84))
+    title(figure, textwrap.fill(ladder_message(scene), 80))
     return figure
 
 
@@ -359,7 +359,7 @@ def energy_figure(plot, study):
 
 
 def dial_figure(plot, answers, error):
-    """One error of the lesson's engine against wall time and against solves, a curve per dial."""
+    """One error of the lesson's engine against time and against solves, a curve per dial."""
     counted = any(run["solves"] for run in answers["runs"])
     figure, panels = plot.subplots(
         1, 1 + counted, figsize=(7.0 + 4 * counted, 4.8), sharey=True, squeeze=False
@@ -411,7 +411,7 @@ def mark_frame(axes, bottom):
     axes.axvline(FRAME, color="0.35", linewidth=1)
     place = {"rotation": 90, "va": "bottom", "ha": "right", "fontsize": 8, "color": "0.35"}
     axes.text(FRAME * 0.95, bottom * 1.3, "a frame, 16.7 ms", **place)
-    axes.set_xlabel("wall time per frame of 1/60 s (ms)")
+    axes.set_xlabel("time per frame of 1/60 s (ms)")
 
 
 def tick_narrow(axes):
@@ -485,7 +485,7 @@ def pile_figure(plot, rows):
     plain_ticks(axes)
     axes.set_xticks([row["balls"] for row in rows], [str(row["balls"]) for row in rows])
     axes.set_xlabel("balls in the settled pile")
-    axes.set_ylabel("wall time per frame of 1/60 s (ms)")
+    axes.set_ylabel("time per frame of 1/60 s (ms)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     last = rows[-1]
     faster = span(last["stable"]["ratio"])
