@@ -496,6 +496,18 @@ def test_figures_of_every_result_are_drawn(tiny):
         assert "<svg" in (tiny / f"{name}.svg").read_text(encoding="utf-8")
 
 
+def test_a_slim_picture_says_the_same_in_fewer_bytes():
+    from experiments import figures
+
+    mark = '<path d="M 0.123456 2.5" style="stroke: red"/>'
+    line = '<g id="text_1"><text style="fill: blue">0.0001</text></g>'
+    svg = f'<svg><style>* {{}}</style><path id="m1"/>{3 * mark}{line}</svg>'
+    slim = figures.slim(svg)
+    assert '<text style="fill: blue">0.0001</text>' in slim  # what is read stays as it is
+    assert slim.count('<path d="M 0.12 2.5" class="s0"/>') == 3
+    assert "* {}.s0{stroke: red}</style>" in slim and 'id="m1"' in slim and "text_1" not in slim
+
+
 def test_piles_of_several_sizes_are_drawn_with_the_engines_that_ran(tiny, tmp_path):
     from experiments import figures
 
