@@ -23,7 +23,7 @@ from experiments.compiled import time_compiled
 from experiments.dials import QUESTIONS, dials, questions
 from experiments.table import Progress, write_markdown
 
-BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8, 40)  # in piles
+BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8,)  # in piles
 MOST_SAME_STEP = 200  # balls
 WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03, "box2d": 0.03}  # of a solve, roughly
 CHAIN_WEIGHT = 3e5  # of one engine
@@ -36,7 +36,7 @@ FIGURES = "To draw the figures, install matplotlib: python -m pip install matplo
 
 def measure(effort, balls, progress):
     """All results, as plain lists and dictionaries."""
-    results = {
+    return {
         "about": about(effort),
         "budgets": {name: measure_budgets(name, effort, progress) for name in budgets.SCENES},
         "chain": measure_chain(effort, progress),
@@ -45,7 +45,6 @@ def measure(effort, balls, progress):
         "piles": [measure_pile(count, effort, progress) for count in balls],
         "same step": measure_same_step(balls, effort, progress),
     }
-    return results | {"statements": statements.of_accuracy(results)}
 
 
 def measure_budgets(name, effort, progress):
@@ -151,10 +150,14 @@ def main(arguments=None):
     balls = balls[:1] if options.scale < 1 else balls
     options.out.mkdir(parents=True, exist_ok=True)
     progress = Progress(total_weight(effort, balls))
-    results = measure(effort, balls, progress)
-    progress.end()
-    text = json.dumps(results, indent=1, allow_nan=False)
-    (options.out / "results.json").write_text(text, encoding="utf-8")
+    saved = options.out / "results.json"
+    if options.again:
+        results = json.loads(saved.read_text(encoding="utf-8"))
+    else:
+        results = measure(effort, balls, progress)
+        progress.end()
+    results["statements"] = statements.of_accuracy(results)
+    saved.write_text(json.dumps(results, indent=1, allow_nan=False), encoding="utf-8")
     for table in accuracy_tables.all_tables(results):
         print(table.text())
     if options.no_figures:
@@ -196,6 +199,7 @@ def read(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="fewer values per dial, no pile")
     parser.add_argument("--no-figures", action="store_true", help="tables and results only")
+    parser.add_argument("--again", action="store_true", help="only write anew what DIR has")
     parser.add_argument("--out", type=Path, default=Path("build/accuracy"), metavar="DIR")
     parser.add_argument(
         "--markdown", type=Path, metavar="FILE", help="put tables between the markers of FILE"

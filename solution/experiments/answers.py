@@ -16,7 +16,7 @@ class Effort:
     def __init__(self, quick=False, scale=1.0):
         self.quick, self.scale = quick, scale
         self.repeats = 3 if quick else 7  # of each time
-        self.rounds = 2 if quick else 4  # in a repeat
+        self.rounds = 1 if quick else 4  # in a repeat
 
     def seconds(self, question):
         return self.scale * question.seconds

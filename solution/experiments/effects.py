@@ -11,7 +11,6 @@ import gc
 import json
 import math
 import platform
-import time
 from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
@@ -23,6 +22,7 @@ from stable_engine import contact, contacts, friction, rods, springs, sweep
 
 from . import effects_report, statements
 from .compiled import Compiled, time_compiled
+from .costs import now as clock_now
 from .engines import Lesson, Stable, State
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
@@ -37,9 +37,6 @@ WARM_UP = 20  # steps before anything is counted
 TIMED = 10  # steps in one round of the clock
 ROUNDS, QUICK_ROUNDS = 60, 3  # for 40 balls; fewer for more
 DAMPING = (0.05, 0.3)  # 1/s
-# The processor's own time leaves other programs out. On Windows it is too coarse.
-FINE = time.get_clock_info("thread_time").resolution < 1e-6  # s
-seconds_now = time.thread_time if FINE else time.perf_counter
 OUT = Path("build/effects")
 
 FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
@@ -245,9 +242,9 @@ def clock(cases, rounds):
 
 def clock_step(repeated):
     repeated.reset()
-    start = seconds_now()
+    start = clock_now()
     repeated.engine.world.step(DT)
-    return (seconds_now() - start) * 1000
+    return (clock_now() - start) * 1000
 
 
 # ---------------------------------------------------------------- the four lists

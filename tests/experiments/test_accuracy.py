@@ -253,7 +253,7 @@ def test_every_dial_goes_through_its_engine_as_it_is(quick):
 
 def test_wall_times_are_the_least_of_interleaved_rounds(monkeypatch):
     order, clock = [], SimpleNamespace(now=0.0)
-    monkeypatch.setattr(costs.time, "perf_counter", lambda: clock.now)
+    monkeypatch.setattr(costs, "now", lambda: clock.now)
 
     class Slow:
         def __init__(self, name, taken):
@@ -494,6 +494,18 @@ def test_figures_of_every_result_are_drawn(tiny):
     for name in names:
         assert (tiny / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert "<svg" in (tiny / f"{name}.svg").read_text(encoding="utf-8")
+
+
+def test_a_slim_picture_says_the_same_in_fewer_bytes():
+    from experiments import figures
+
+    mark = '<path d="M 0.123456 2.5" style="stroke: red"/>'
+    line = '<g id="text_1"><text style="fill: blue">0.0001</text></g>'
+    svg = f'<svg><style>* {{}}</style><path id="m1"/>{3 * mark}{line}</svg>'
+    slim = figures.slim(svg)
+    assert '<text style="fill: blue">0.0001</text>' in slim  # what is read stays as it is
+    assert slim.count('<path d="M 0.12 2.5" class="s0"/>') == 3
+    assert "* {}.s0{stroke: red}</style>" in slim and 'id="m1"' in slim and "text_1" not in slim
 
 
 def test_piles_of_several_sizes_are_drawn_with_the_engines_that_ran(tiny, tmp_path):

@@ -1,0 +1,91 @@
+"""What the handouts claim of measurements is what results.json beside them has.
+
+claims.toml names, for each such sentence, the lines it rests on and what they must say.
+"""
+
+import json
+import operator
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import accuracy
+
+HANDOUTS = Path(__file__).parents[2] / "handouts"
+RESULTS = json.loads((HANDOUTS / "results.json").read_text(encoding="utf-8"))
+CLAIMS = tomllib.loads((HANDOUTS / "claims.toml").read_text(encoding="utf-8"))
+RULES = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq}
+EACH = [(page, says) for page, claims in CLAIMS.items() for says in claims]
+
+
+def in_one_line(text: str) -> str:
+    return re.sub(r"\s+", " ", text)
+
+
+def value(lines: dict[str, Any], term: Any) -> Any:
+    """A number as it is; a line by its name; [factor, line] for a multiple of a line."""
+    if isinstance(term, list):
+        factor, name = term
+        return factor * lines[name]
+    return lines.get(term, term)
+
+
+def wrong(lines: dict[str, Any], evidence: list[Any]) -> str:
+    """What is wrong with a claim's evidence, or nothing."""
+    name, rule, limit = evidence
+    if name not in lines:
+        return f"{name}: there is no such line"
+    found, wanted = lines[name], value(lines, limit)
+    if isinstance(found, str) != isinstance(wanted, str) or not RULES[rule](found, wanted):
+        return f"{name}: {found}, not {rule} {wanted}"
+    return ""
+
+
+@pytest.mark.parametrize(("page", "says"), EACH)
+def test_a_claim_stands_in_its_handout_and_its_lines_say_so(page: str, says: str) -> None:
+    assert in_one_line(says) in in_one_line((HANDOUTS / page).read_text(encoding="utf-8"))
+    evidence = CLAIMS[page][says]
+    assert evidence
+    assert not [problem for line in evidence if (problem := wrong(RESULTS[page], line))]
+
+
+def test_every_page_with_measurements_has_claims() -> None:
+    assert set(CLAIMS) == set(RESULTS) == {"accuracy.md", "effects.md", "hard-cases.md"}
+
+
+@pytest.mark.parametrize(
+    ("evidence", "is_wrong"),
+    [
+        (["a", "<", 2], False),
+        (["a", ">", 2], True),
+        (["a", "<", "b"], False),
+        (["b", "<=", [2, "a"]], True),
+        (["b", "<=", [4, "a"]], False),
+        (["gone", "<", 1], True),
+        (["word", "=", "cannot help"], False),
+        (["word", "<", 1], True),
+    ],
+)
+def test_a_claim_that_differs_from_its_line_is_found(evidence: list[Any], is_wrong: bool) -> None:
+    lines = {"a": 1.0, "b": 3.0, "word": "cannot help"}
+    assert bool(wrong(lines, evidence)) == is_wrong
+
+
+@pytest.mark.soak
+def test_a_quick_run_agrees_with_every_claim_that_it_has_lines_for(tmp_path: Path) -> None:
+    accuracy.main(["--quick", "--no-figures", "--out", str(tmp_path)])
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
+    lines = results["statements"]
+    shared = [line for claim in CLAIMS["accuracy.md"].values() for line in claim]
+    shared = [line for line in shared if line[0] in lines and known(lines, line[2])]
+    assert len(shared) > 20
+    assert not [problem for line in shared if (problem := wrong(lines, line))]
+
+
+def known(lines: dict[str, Any], term: Any) -> bool:
+    """Whether a run has what a claim's line is compared with."""
+    name = term[1] if isinstance(term, list) else term
+    return not isinstance(name, str) or name in lines or name not in RESULTS["accuracy.md"]
