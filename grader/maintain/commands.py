@@ -113,10 +113,18 @@ def bench_command(
     class_: Annotated[
         int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
     ] = 0,
+    greedy: Annotated[
+        bool, typer.Option("--greedy", help="Instead: twelve, of which three want all there is.")
+    ] = False,
 ) -> None:
     """Measure what a grade costs and what the isolation adds to it; or what a class does."""
     needs_checkout("bench")
-    if class_:
+    if greedy:
+        refuse_ignored(context, ("class_",), "with --greedy")
+        from grader.maintain.bench_greedy import bench_greedy
+
+        bench_greedy(rounds, console)
+    elif class_:
         refuse_ignored(context, ("rounds",), "with --class")
         from grader.maintain.bench_class import bench_class
 

@@ -9,10 +9,10 @@ import os
 import py_compile
 import sys
 import tempfile
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import msgspec
 import pygame.sysfont
@@ -69,11 +69,14 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     would have run with the grader's rights and kept the real clock. `without` names layers that are
     left out, to see what the others hold.
     """
-    name, files = Path(setup.submission).name, files_of(setup.submission)
+    submission, name = setup.submission, Path(setup.submission).name
+    folders_of(
+        submission
+    )  # read now, if they are not: in a root of its own it goes by another name
     layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
     folder = Path(setup.scratch, name)
-    own_copy(files, folder, Path(setup.bytecode))
+    own_copy(submission, str(folder), setup.bytecode)
     sys.dont_write_bytecode = True
     if setup.confine and "system-calls" not in without:
         layers += refuse_system_calls()  # last: what came before needs some of them
@@ -85,7 +88,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     output, clock = Output(), ScriptedClock()
     output.install()
     clock.install()
-    ImportRule(files).install()
+    ImportRule(files_of(submission)).install()
     subject = Subject(folder)
     camera = Camera(subject)
     while True:
@@ -194,6 +197,9 @@ def refs_in(request: Call) -> list[int]:
     return [*given, *([int(own)] if own else [])]
 
 
+NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+
+
 @dataclass(frozen=True)
 class Kept:
     """A file of the submission."""
@@ -213,22 +219,35 @@ def files_of(submission: str) -> dict[str, Kept]:
     }
 
 
-def own_copy(files: Mapping[str, Kept], folder: Path, bytecode: Path) -> None:
+@lru_cache(maxsize=1)
+def folders_of(submission: str) -> list[str]:
+    """The folders of a submission that files are in, outer ones first; "" is its own."""
+    parents = {each.as_posix() for path in files_of(submission) for each in PurePath(path).parents}
+    return sorted("" if each == "." else each for each in parents)
+
+
+def own_copy(submission: str, folder: str, bytecode: str) -> None:
     """The submission once more, for this child alone: it may write there, and it ends with it.
 
     Files keep their times, by which Python knows whether what was compiled before is still good.
+    By the system's own calls: every child does this for every file, and needs the time for little
+    else.
     """
-    for inside in sorted({os.path.dirname(path) for path in files}):
-        here, compiled = folder / inside, bytecode / inside
+    for inside in folders_of(submission):
+        here, compiled = os.path.join(folder, inside), os.path.join(bytecode, inside)
         with contextlib.suppress(OSError):  # more than a child may have: to be missed
-            here.mkdir(parents=True, exist_ok=True)
-        if compiled.is_dir():
+            os.mkdir(here)
+        if os.path.isdir(compiled):
             with contextlib.suppress(OSError):  # Windows may not allow it: each compiles for itself
-                (here / "__pycache__").symlink_to(compiled, target_is_directory=True)
-    for path, kept in files.items():
+                os.symlink(compiled, os.path.join(here, "__pycache__"), target_is_directory=True)
+    for path, kept in files_of(submission).items():
         target = os.path.join(folder, path)
-        with contextlib.suppress(OSError), open(target, "wb", buffering=0) as file:  # or larger
-            file.write(kept.data)
+        with contextlib.suppress(OSError):  # or larger
+            descriptor = os.open(target, NEW_FILE, 0o666)
+            try:
+                os.write(descriptor, kept.data)
+            finally:
+                os.close(descriptor)
             os.utime(target, ns=(kept.time, kept.time))
 
 

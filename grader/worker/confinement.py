@@ -21,6 +21,7 @@ from functools import cache
 from pathlib import Path
 
 from grader.protocol import ChildSetup, Limits
+from grader.worker.filter import packed
 from grader.worker.root import (
     CLONE_NEWNS,
     MS_REC,
@@ -109,7 +110,7 @@ def bound_namespace() -> None:
     release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
     if release >= PID_MAX_SINCE:
         with suppress(OSError):
-            Path("/proc/sys/kernel/pid_max").write_text(str(MOST_NUMBERS))
+            write("/proc/sys/kernel/pid_max", str(MOST_NUMBERS))
 
 
 def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str], ChildSetup]:
@@ -190,7 +191,8 @@ def become_own_user(setup: ChildSetup) -> list[str]:
 
 def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
     """What all children share, once for the warm process: known in each when it is forked."""
-    readable_paths(tuple(setup.hidden))
+    kinds_of_paths(tuple(setup.hidden))
+    packed()
     if sys.platform.startswith("linux") and not {"own-root", "user-namespace"} & set(without):
         own_root(setup)
 
@@ -231,10 +233,19 @@ def enter_user_namespace(others: int) -> bool:
     if libc().unshare(CLONE_NEWUSER | others) != 0:
         return False
     with suppress(OSError):  # unmapped, files still belong to whom they did
-        Path("/proc/self/setgroups").write_text("deny")
-        Path("/proc/self/uid_map").write_text(f"{user} {user} 1")
-        Path("/proc/self/gid_map").write_text(f"{group} {group} 1")
+        write("/proc/self/setgroups", "deny")
+        write("/proc/self/uid_map", f"{user} {user} 1")
+        write("/proc/self/gid_map", f"{group} {group} 1")
     return True
+
+
+def write(path: str, text: str) -> None:
+    """Into a file of the kernel's, in one call."""
+    descriptor = os.open(path, os.O_WRONLY)
+    try:
+        os.write(descriptor, text.encode())
+    finally:
+        os.close(descriptor)
 
 
 def set_resource_limits(limits: Limits) -> list[str]:
@@ -283,6 +294,12 @@ def all_but(away: set[Path], path: Path) -> Iterator[Path]:
 
 
 @cache
+def kinds_of_paths(hidden: tuple[str, ...]) -> list[tuple[str, bool]]:
+    """The same paths, each with whether it is a folder."""
+    return [(str(path), path.is_dir()) for path in readable_paths(hidden)]
+
+
+@cache
 def libraries() -> list[Path]:
     """Where Python looks, and the C library, by the names they go by."""
     paths = sysconfig.get_paths()
@@ -324,12 +341,15 @@ def restrict_with_landlock(setup: ChildSetup) -> list[str]:
     ruleset = libc().syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
     if ruleset < 0:
         return []
-    allowed = [(path, READ_ONLY) for path in readable_paths(tuple(setup.hidden))]
+    allowed = [
+        (path, READ_ONLY if folder else READ_ONLY & ON_FILES)
+        for path, folder in kinds_of_paths(tuple(setup.hidden))
+    ]
     allowed += [
-        (Path(setup.submission), READ_ONLY),
-        (Path(setup.bytecode), every_right if setup.compiles else READ_ONLY),
-        (Path(setup.scratch), every_right),
-        (Path(os.devnull), READ_FILE | WRITE_FILE),
+        (setup.submission, READ_ONLY),
+        (setup.bytecode, every_right if setup.compiles else READ_ONLY),
+        (setup.scratch, every_right),
+        (os.devnull, READ_FILE | WRITE_FILE),
     ]
     for path, rights in allowed:
         allow_beneath(ruleset, path, rights & every_right)
@@ -343,12 +363,10 @@ def restrict_with_landlock(setup: ChildSetup) -> list[str]:
     )
 
 
-def allow_beneath(ruleset: int, path: Path, rights: int) -> None:
+def allow_beneath(ruleset: int, path: str, rights: int) -> None:
     """Add a rule: these rights on this path and all below it."""
     descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
     try:
-        if not path.is_dir():
-            rights &= ON_FILES
         rule = PathBeneathAttr(rights, descriptor)
         libc().syscall(
             LANDLOCK_ADD_RULE, ruleset, LANDLOCK_RULE_PATH_BENEATH, ctypes.byref(rule), 0

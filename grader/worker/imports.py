@@ -18,6 +18,10 @@ RULE = (
 )
 
 
+ALLOWED = frozenset({"__main__", *sys.stdlib_module_names, *LIBRARIES, *BENEATH})
+AWAY: dict[str, ModuleType] = {}  # kept: to free what a forked process shares costs more
+
+
 class NotAllowed(ModuleNotFoundError):
     """An import that the rule does not allow; `except ImportError` catches it as any other."""
 
@@ -28,17 +32,16 @@ class ImportRule(MetaPathFinder):
     def __init__(self, files: Iterable[str]) -> None:
         """For a submission with these files."""
         modules = (path.removesuffix(".py").split("/") for path in files if path.endswith(".py"))
-        own = {part for parts in modules for part in parts}
-        self.allowed = {"__main__"} | sys.stdlib_module_names | LIBRARIES.keys() | BENEATH | own
+        self.own = {part for parts in modules for part in parts}
 
     def install(self) -> None:
         """From now on; what the grader itself has loaded is out of reach by name."""
-        for name in [name for name in sys.modules if not self.allows(name)]:
-            del sys.modules[name]
+        put_away()
         sys.meta_path.insert(0, self)
 
     def allows(self, name: str) -> bool:
-        return name.partition(".")[0] in self.allowed
+        first = name.partition(".")[0]
+        return first in ALLOWED or first in self.own
 
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -48,3 +51,14 @@ class ImportRule(MetaPathFinder):
             first = name.partition(".")[0]
             raise NotAllowed(f"there is no {first} to import here: {RULE}", name=name)
         return None
+
+
+def put_away() -> None:
+    """Put what only the grader may import out of reach by name.
+
+    Before the fork, if there is one: to go through hundreds of modules in each child would copy the
+    memory of them all.
+    """
+    if not AWAY:
+        for name in [name for name in sys.modules if name.partition(".")[0] not in ALLOWED]:
+            AWAY[name] = sys.modules.pop(name)

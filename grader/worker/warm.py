@@ -13,7 +13,6 @@ import socket
 import sys
 import time
 from contextlib import suppress
-from pathlib import Path
 
 import msgspec
 import psutil
@@ -21,9 +20,11 @@ import pygame
 import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
-from grader.worker.child import files_of, serve, tidy_environment
-from grader.worker.confinement import isolate_server, prepare
+from grader.worker.child import folders_of, serve, tidy_environment
+from grader.worker.confinement import isolate_server, prepare, write
+from grader.worker.imports import put_away
 
+YOUNG = 10_000  # new objects, after which a child looks for garbage: seldom, for most end before
 MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
 
 decoder = msgspec.msgpack.Decoder(Open | End)
@@ -39,6 +40,7 @@ def main(control_fd: int, without: list[str]) -> None:
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
+    put_away()
     gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
         control.send(layers)
@@ -69,16 +71,18 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     The child never returns from here: whatever happens to it, it must not run the server's loop.
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    files_of(setup.submission)
+    folders_of(setup.submission)
     prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
+        gc.freeze()
     begin_numbers_anew()
     pid = os.fork()
     if pid:
         os.close(descriptor)
         return
     try:
+        gc.set_threshold(YOUNG)
         control.close()
         close_other_descriptors(descriptor)
         serve(Channel(socket.socket(fileno=descriptor)), setup, without)
@@ -93,7 +97,7 @@ def begin_numbers_anew() -> None:
     """
     if os.getpid() == 1:
         with suppress(OSError):
-            Path("/proc/sys/kernel/ns_last_pid").write_text("1")
+            write("/proc/sys/kernel/ns_last_pid", "1")
 
 
 def close_other_descriptors(descriptor: int) -> None:
