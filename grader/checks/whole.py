@@ -74,11 +74,15 @@ def run(lab: Lab, seconds: float, rate: int | None = None) -> Played:
     return played
 
 
+TENTH = 12  # steps in a tenth of a second
+
+
 class Mover:
     """A ball or the bob of the mini engine, and its trail."""
 
     def __init__(self, radius: float, trail: list[Moment]) -> None:
         self.radius, self.trail = radius, trail
+        self.tenths = trail[TENTH - 1 :: TENTH]
 
     def bottom(self, moment: Moment) -> float:
         return moment.y + self.radius
@@ -192,7 +196,7 @@ def balls_come_to_rest_on_the_ledge_and_roll_on_the_floor(lab: Lab) -> None:
     want_all_inside(lab, played)
     balls = [body for body in movers(played) if body.radius != BOB_RADIUS]
     lab.want(len(balls) >= 8, "8 balls", f"{len(balls)}")
-    restless = max(abs(moment.vy) for ball in balls for moment in ball.trail[-60:])
+    restless = max(abs(moment.vy) for ball in balls for moment in ball.tenths[-5:])
     lab.want(
         restless < 5.0,
         "balls that lie or roll, none still bouncing or falling",
@@ -206,7 +210,7 @@ def balls_come_to_rest_on_the_ledge_and_roll_on_the_floor(lab: Lab) -> None:
     lab.want(len(on_ledge) >= 4, "4 balls on the ledge", f"{len(on_ledge)}")
     for ball in balls:
         if ball.rests_at(FLOOR_TOP):
-            begin, end = ball.trail[-121], ball.trail[-1]  # the last second
+            begin, end = ball.tenths[-11], ball.tenths[-1]  # the last second
             way, turned = end.x - begin.x, (end.angle - begin.angle) * ball.radius
             # Contacts lie inside the rim, and a ball that meets a wall slides for a moment.
             lab.want(
