@@ -1,4 +1,5 @@
-# `make` alone lists the targets. Each one sets up what it needs in .venv first.
+# `make` alone lists the targets. Each one sets up what it needs in .venv first. COURSE_FILE=path
+# takes another course than course.toml: make hands it on to every command.
 
 ifeq ($(OS),Windows_NT)
 PYTHON ?= python
@@ -44,7 +45,7 @@ help:
 
 setup: $(CORE) ## Set up .venv for grading
 
-grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
+grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder (COURSE_FILE=path); alone, a demonstration
 	@$(PY) -m grader grade \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
 
@@ -55,6 +56,7 @@ contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podma
 	@$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
 		--volume "$(abspath $(SUBMISSIONS)):/root/submissions:ro" \
 		--volume "$(abspath $(RESULTS)):/root/results" \
+		$(if $(COURSE_FILE),--volume "$(abspath $(COURSE_FILE)):/root/kit/course.toml:ro") \
 		physics-grader $(if $(SEED),--seed $(SEED))
 
 dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)

@@ -122,15 +122,14 @@ def test_no_marks_are_no_error(tmp_path: Path):
     assert run.outputs == {"status": "failure", "summary": "0 of 100 points"}
 
 
-def test_folders_with_the_names_of_what_is_left_there_make_room(tmp_path: Path):
+def test_a_folder_with_the_name_of_the_report_makes_room(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
-    for name in ("report.html", "release-body.md"):
-        (checkout / name).mkdir()
-        (checkout / name / "inside.txt").write_text("mine", encoding="utf-8")
+    (checkout / "report.html").mkdir()
+    (checkout / "report.html" / "inside.txt").write_text("mine", encoding="utf-8")
     run = without_download(checkout)
     assert run.status == 0, run.log
     assert run.marks["score"] == 0
-    assert (checkout / "report.html").is_file() and (checkout / "release-body.md").is_file()
+    assert (checkout / "report.html").is_file()
 
 
 def test_the_page_says_how_many_points_there_are_to_have():
