@@ -3,10 +3,12 @@
 import io
 import json
 import re
+import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import msgspec
 import pytest
 import typer
 from conftest import KIT
@@ -20,8 +22,11 @@ from grader.classroom.adjustments import Adjustments, Late
 from grader.classroom.batch import Run
 from grader.classroom.book import Book, Outcome, as_table
 from grader.classroom.fingerprint import key_of
+from grader.classroom.gradescope import write_autograder
+from grader.classroom.gradescope.autograder import Settings
 from grader.classroom.intake.found import Found, Intake
 from grader.classroom.marks import load_marking
+from grader.classroom.nbgrader.course import make_course
 from grader.cli import app
 from grader.judge.course import FULL, Course, WrongCourse, read_course, spread, told
 from grader.judge.course import Late as Rules
@@ -347,6 +352,24 @@ def test_notebooks_ask_what_the_course_has():
     few = notebooks_of(folder, COURSES[CHEAP])
     assert {"integrators.ipynb", "accuracy.ipynb"} <= few.keys()
     assert b'"quiz-3"' in few["quiz.ipynb"] and b'"quiz-5"' not in few["quiz.ipynb"]
+
+
+def test_an_nbgrader_course_holds_what_the_course_has(tmp_path: Path):
+    course = COURSES["engine"]
+    files = make_course(tmp_path, taken=course)
+    assert "engine.ipynb" in files and "integrators.ipynb" not in files
+    shares = load_marking(tmp_path / "marks.toml", course).shares
+    assert {f"{name}.ipynb" for name in shares} == {n for n in files if n.endswith(".ipynb")}
+    text = (tmp_path / "source" / "physics-engine" / "pymunk_scene.py").read_text(encoding="utf-8")
+    assert "what TODO 7a asks for elsewhere is done here" in text
+
+
+def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
+    path = tmp_path / "course.zip"
+    write_autograder(path, Settings(course=COURSES["without-pymunk"]))
+    with zipfile.ZipFile(path) as archive:
+        settings = msgspec.json.decode(archive.read("settings.json"), type=Settings)
+    assert settings.course == COURSES["without-pymunk"]
 
 
 def test_code_that_is_given_is_no_secret_and_the_rest_is():

@@ -25,6 +25,7 @@ from grader.maintain.notebooks import notebooks_of
 ASSIGNMENT = "physics-engine"
 NOTEBOOKS = "notebooks"  # the folder of both trees
 INSTRUCTOR = KIT / "handouts" / "instructor"
+SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # of a notebook, in marks.toml
 SETTINGS = ("nbgrader_config.py", "marks.toml")
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
 
@@ -58,7 +59,9 @@ def make_course(course: Path, renew: bool = False, taken: Course = FULL) -> list
     write_tree(files, source)
     for name in SETTINGS:
         if not (course / name).exists():
-            shutil.copyfile(INSTRUCTOR / name, course / name)
+            text = (INSTRUCTOR / name).read_text(encoding="utf-8")
+            text = SHARE.sub(lambda share: share[0] if f"{share[1]}.ipynb" in files else "", text)
+            (course / name).write_text(text, encoding="utf-8", newline="\n")
     return sorted(files)
 
 
