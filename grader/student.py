@@ -14,7 +14,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import command, listed, plural
+from grader.words import command, listed, moment, plural
 
 app = typer.Typer()
 
@@ -60,9 +60,8 @@ def own_tree(path: Path, course: Course) -> Path:
 
 
 def until(course: Course) -> str:
-    """The due date, where the course has one: `, until 4 May 2027 23:59 (UTC+02:00)`."""
-    due = course.due
-    return f", until {due.day} {due:%B %Y %H:%M} ({due.tzname()})" if due else ""
+    """The due date, where the course has one."""
+    return f", until {moment(course.due)}" if course.due else ""
 
 
 @app.command("hand-in")

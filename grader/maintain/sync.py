@@ -53,7 +53,8 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
     texts = {name: content.decode() for name, content in wanted.items() if name.endswith(".py")}
     for name, sources in (("stubs", stub_sources(texts)), ("given", given_sources(texts))):
         text = json.dumps(sources, indent=1) + "\n"
-        before = (CHECKS / f"{name}.json").read_bytes()
+        known = CHECKS / f"{name}.json"
+        before = known.read_bytes() if known.exists() else b"{}"
         if renewed(CHECKS / f"{name}.json", text.encode(), write):
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
             lines.append(f"renewed {name}.json for the checks" if write else differs)

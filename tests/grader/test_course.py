@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shutil
 import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
@@ -330,13 +331,41 @@ def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
     assert re.findall(r"^## TODO (\w+):", sheet, re.M) == [todo.id for todo in tasks]
 
 
+def test_students_are_told_until_when_and_what_to_hand_in():
+    course = Course(todos=("8a", "1"), due=datetime(2027, 5, 4, 23, 59, tzinfo=UTC))
+    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    assert "**Hand in until 4 May 2027 23:59 (UTC).**" in sheet
+    assert "`make hand-in`" in sheet and "`mini_engine` and `integrators.py`," in sheet
+
+
+def test_hand_in_packs_the_work_and_nothing_that_was_given(
+    handed_out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    shutil.copytree(handed_out, tmp_path / "mine")
+    (tmp_path / "mine" / "helpers.py").write_text("x = 1\n", encoding="utf-8")
+    (tmp_path / "mine" / "grader-1.whl").touch()
+    monkeypatch.chdir(tmp_path / "mine" / "mini_engine")
+    for name in ("a.zip", "b.zip"):
+        done = CliRunner().invoke(EVERY, ["hand-in", "--out", str(tmp_path / name)])
+        assert done.exit_code == 0, done.output
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        names = archive.namelist()
+        archive.extractall(tmp_path / "unpacked")
+    assert {name.partition("/")[0] for name in names} == {
+        *("mini_engine", "pymunk_scene.py", "integrators.py", "helpers.py")
+    }
+    result = graded(tmp_path / "unpacked", COURSES[CHEAP])
+    assert (result.points, result.max_points) == (0, 40)
+
+
 def test_the_pages_of_the_full_course_are_as_they_lie_there():
     for name, page in handouts_of(KIT / "handouts", FULL).items():
         text = (KIT / "handouts" / name).read_text(encoding="utf-8")
         plain = re.sub(
             r"<!--% else %-->.*?(?=<!--% endif)|<!--% elif.*?(?=<!--% endif)", "", text, flags=re.S
         )
-        plain = re.sub(r"^<!--%.*%-->\n|<!--%.*?%-->", "", plain, flags=re.M)
+        plain = re.sub(r"^<!--%.*%-->\n|<!--%.*?%-->|<!--=.*?=-->", "", plain, flags=re.M)
         assert page.split() == plain.split(), name
         assert "<!--%" not in page and "<!--=" not in page
 
