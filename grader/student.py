@@ -74,7 +74,7 @@ def hand_in_command(
     chosen = course_in(course)
     folder = own_tree(path, chosen)
     target = out or folder / PACKED
-    files = packed_files(folder)
+    files = packed_files(folder, chosen)
     write_packed(files, target)
     programs = [place_of_program(folder, each) for each in chosen.modules]
     for name in [each for each in programs if each not in {n.partition("/")[0] for n in files}]:

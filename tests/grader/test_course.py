@@ -1,5 +1,6 @@
 """A course of one's own: what it takes, what follows from it, and what is wrong in its file."""
 
+import importlib
 import io
 import json
 import re
@@ -29,6 +30,7 @@ from grader.classroom.intake.found import Found, Intake
 from grader.classroom.marks import load_marking
 from grader.classroom.nbgrader.course import make_course
 from grader.cli import app
+from grader.handing_in import PROGRAMS
 from grader.judge.course import FULL, Course, WrongCourse, read_course, spread, told
 from grader.judge.course import Late as Rules
 from grader.judge.grade import Options, grade, shipped_reference
@@ -357,6 +359,22 @@ def test_hand_in_packs_the_work_and_nothing_that_was_given(
     }
     result = graded(tmp_path / "unpacked", COURSES[CHEAP])
     assert (result.points, result.max_points) == (0, 40)
+    course = str(KIT / "tests" / "courses" / f"{CHEAP}.toml")
+    done = CliRunner().invoke(EVERY, ["hand-in", "--out", "c.zip", "--course", course])
+    assert done.exit_code == 0, done.output
+    assert set(zipfile.ZipFile("c.zip").namelist()) == {"integrators.py", "helpers.py"}
+    assert set(PROGRAMS) == {todo.module for todo in load_rubric().todos}
+
+
+def test_the_sources_of_the_site_follow_the_course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.syspath_prepend(KIT / "handouts")
+    sources = importlib.import_module("make_site").sources
+    sources(tmp_path, False, COURSES[CHEAP])
+    hints = (tmp_path / "docs" / "hints.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## TODO (\w+):", hints, re.M) == ["8a", "8b", "8c"]
+    menu = re.findall(r": (\S+\.md)$", (tmp_path / "mkdocs.yml").read_text("utf-8"), re.M)
+    assert "lab-sheet.md" in menu and "bonus.md" not in menu
+    assert {path.name for path in (tmp_path / "docs").glob("*.md")} == set(menu)
 
 
 def test_the_pages_of_the_full_course_are_as_they_lie_there():
