@@ -32,6 +32,17 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
+# Debian's and Ubuntu's 3.11.0rc1 is no full version below 3.15 to their pip, but its Python is.
+define PLAIN_VERSIONS
+import re, sys
+from pathlib import Path
+for path in map(Path, sys.argv[1:]):
+    text = path.read_text(encoding="utf-8")
+    text = re.sub(r"python_full_version (<|>=) '(\d+\.\d+)'", r"python_version \1 '\2'", text)
+    path.write_text(text, encoding="utf-8", newline="\n")
+endef
+export PLAIN_VERSIONS
+
 .PHONY: help setup grade contained run dials accuracy effects cases compiled handouts \
 	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
 
@@ -133,6 +144,7 @@ lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
+	@$(PY) -c "$$PLAIN_VERSIONS" requirements*.txt
 
 clean: ## Remove .venv and everything else that can be made again
 	rm -rf .venv build solution/build starter/build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
