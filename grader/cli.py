@@ -74,7 +74,7 @@ def grade_command(
         int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
     ] = None,
     roster: Annotated[
-        Path | None, typer.Option(help="For a class: its list, a CSV from Canvas or Moodle.")
+        Path | None, typer.Option(help="For a class: its list, as the LMS exports it.")
     ] = None,
     adjust: Annotated[
         Path | None, typer.Option(help="For a class: late days and points set by hand, as TOML.")
@@ -210,7 +210,7 @@ def grade_folder(
         stop(str(error))
     except KeyboardInterrupt:
         stop("stopped; what is graded stays, and the same command goes on from there")
-    raise typer.Exit(2 if any(outcome.trouble for outcome in run.outcomes) else 0)
+    raise typer.Exit(2 if any(outcome.mark is None for outcome in run.outcomes) else 0)
 
 
 def demonstrate(options: Options) -> None:

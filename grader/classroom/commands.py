@@ -210,7 +210,7 @@ def marks_command(
     except (CannotRead, NoCourse, NoResults) as error:
         stop(str(error), "go on")
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_bytes(made.text.encode("utf-8"))
+    out.write_bytes(made.text.encode(made.encoding))
     for note in [*told, *made.notes]:
         console.print(clean(note))
     console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")

@@ -128,7 +128,8 @@ def entry_of(book: Book, outcome: Outcome) -> Entry:
     try:
         return Entry(outcome, msgspec.json.decode(path.read_bytes(), type=Result))
     except (OSError, msgspec.MsgspecError) as error:
-        return Entry(Outcome(outcome.name, f"its result cannot be read: {error}"))
+        words = f"its result cannot be read: {error}"
+        return Entry(msgspec.structs.replace(outcome, trouble=words))
 
 
 # ---------------------------------------------------------------- replays

@@ -44,12 +44,17 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     path = path.resolve()
     people = people_of(path, wanted.roster)
     adjust = wanted.adjust or beside(path, "adjustments.toml")
-    adjustments = load_adjustments(adjust) if adjust else Adjustments()
+    most = load_rubric().max_points
+    adjustments = load_adjustments(adjust, most) if adjust else Adjustments()
     out = wanted.out or path.with_name(f"{path.stem}-results")
     with opened_class(path, people) as intake, opened_executor(wanted) as executor:
-        run = grade_class(intake, out, key_of(wanted.options), executor, console, adjustments)
-        names = [each.name for each in intake.found]
-        if absent := people.absent(names):
+        names = [*(each.name for each in intake.found), *intake.troubles]
+        absent = people.absent(names)
+        adjustments.refuse_doubts([*names, *absent])
+        mine = absent if people.names else adjustments.unused(names)
+        key = key_of(wanted.options)
+        run = grade_class(intake, out, key, executor, console, adjustments, mine)
+        if absent:
             run.notes.append(f"nothing was handed in by {in_short(absent)}")
         if unlisted := people.unlisted(names):
             run.notes.append(f"not in the class list: {in_short(unlisted)}")
@@ -105,15 +110,15 @@ def show_class(run: Run, console: Console) -> None:
 def table_of(outcomes: list[Outcome]) -> Table:
     table = Table("submission", "points", "not passed")
     for each in outcomes:
-        if each.trouble:
-            table.add_row(clean(each.name), "none", clean(each.trouble))
-            continue
-        points = f"{each.final} / {each.max_points}"
-        told = [f"found {each.points}; {clean('; '.join(each.reasons))}"] if each.reasons else []
-        late = ["late"] if each.late and not each.reasons else []
+        points = "none" if each.mark is None else f"{each.mark} / {each.max_points}"
+        found = [] if each.trouble else [f"found {each.points}"]
+        decided = "; ".join([*found, *each.reasons])
+        told = [each.trouble, clean(decided) if each.reasons else "", *each.notes]
+        late = "late" if each.late and not each.reasons else ""
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
-        left = "all" if nothing else ", ".join(each.left)
-        table.add_row(clean(each.name), points, "\n".join(filter(None, [left, *late, *told])))
+        left = "all" if nothing and not each.trouble else ", ".join(each.left)
+        words = [clean(line) for line in (left, late, *told) if line]
+        table.add_row(clean(each.name), points, "\n".join(words))
     return table
 
 

@@ -163,7 +163,7 @@ class ClassList:
         return column in self._columns
 
     def handed_in(self, name: str) -> datetime | None:
-        """When somebody handed in, where the list says so; the school's own time, without a zone."""
+        """When somebody handed in, where the list says so: the school's own time, no zone."""
         return self._handed_in.get(name)
 
     def absent(self, handed_in: Iterable[str]) -> list[str]:

@@ -207,7 +207,7 @@ def test_folders_checkouts_and_system_files(classroom):
     with opened_class(classroom) as taken:
         assert [each.name for each in taken.found] == ["ann", "ben", "cem", "empty"]
         assert all(names_in(each) == sorted(PROGRAM) for each in taken.found[:3])
-        with pytest.raises(CannotTake, match="nothing of the lab .* it holds no file"):
+        with pytest.raises(CannotTake, match=r"nothing of the lab .* it holds no file"):
             pack(taken.found[3])
         assert not taken.troubles and not taken.notes
 

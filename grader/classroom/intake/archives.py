@@ -14,8 +14,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from grader.classroom.intake.found import CannotTake
 from grader.classroom.intake import repack
+from grader.classroom.intake.found import CannotTake
 from grader.classroom.intake.places import is_system_file
 from grader.classroom.names import folded, portable
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES

@@ -9,7 +9,8 @@ from grader.classroom.names import portable
 from grader.classroom.roster import ClassList
 
 NAME = re.compile(
-    r"(?P<ids>\d+-\d+) - (?P<name>.+?) - (?P<when>[^-]*\d{4} \d{3,4}(?: [AP]M)?)(?: - (?P<file>.+))?"
+    r"(?P<ids>\d+-\d+) - (?P<name>.+?) - (?P<when>[^-]*\d{4} \d{3,4}(?: [AP]M)?)"
+    r"(?: - (?P<file>.+))?"
 )
 DATES = ("%b %d, %Y", "%B %d, %Y", "%d %B, %Y", "%d %b, %Y", "%d %B %Y", "%d %b %Y", "%Y %b %d")
 INDEX = "index.html"  # a list of all that was handed in

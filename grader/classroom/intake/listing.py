@@ -15,8 +15,8 @@ from grader.classroom.intake import (
     loose,
     moodle,
 )
-from grader.classroom.intake.found import CannotTake, Found, Intake, Upload
 from grader.classroom.intake.archives import unzip_class
+from grader.classroom.intake.found import CannotTake, Found, Intake, Upload
 from grader.classroom.intake.packing import laid_out, pack
 from grader.classroom.intake.pieces import ManyPrograms
 from grader.classroom.intake.places import (
@@ -42,7 +42,7 @@ FORMS = (  # the first that knows a name decides
 
 @contextmanager
 def opened_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
-    """List the submissions in a folder or an archive of them; unpacked ones are there until the end."""
+    """List the submissions in a folder or an archive of them; unpacked ones stay till the end."""
     if path.is_dir():
         yield listed(path, people or ClassList())
     elif is_archive(path) and path.is_file():

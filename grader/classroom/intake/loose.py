@@ -7,7 +7,7 @@ from grader.classroom.intake.found import Intake
 from grader.classroom.intake.gradescope import METADATA
 from grader.classroom.names import portable
 
-SIDE_FILES = {METADATA, INDEX, "adjustments.toml", "decisions.toml", "roster.csv"}  # of the class folder itself
+SIDE_FILES = {METADATA, INDEX, "adjustments.toml", "roster.csv"}  # of the class folder itself
 WORK = {".py", ".ipynb"}  # what is somebody's
 
 

@@ -30,7 +30,7 @@ def upload(path: Path, people: ClassList) -> Upload | None:
 
 
 def without_group(name: str) -> list[str]:
-    """What may be the student's name where the group's stands before it, as in `Group 3-Ann Lee`."""
+    """What may be the student's name where the group's stands before it: `Group 3-Ann Lee`."""
     parts = name.split("-")
     return ["-".join(parts[at:]) for at in range(1, len(parts))]
 

@@ -9,7 +9,13 @@ from pathlib import Path
 from grader.classroom.intake import blackboard, brightspace, canvas, moodle
 from grader.classroom.intake.archives import Bounds, check_size, unzip
 from grader.classroom.intake.found import CannotTake, Found, Package
-from grader.classroom.intake.pieces import Arranged, ManyPrograms, arranged, meant, nothing_of_the_lab
+from grader.classroom.intake.pieces import (
+    Arranged,
+    ManyPrograms,
+    arranged,
+    meant,
+    nothing_of_the_lab,
+)
 from grader.classroom.intake.places import (
     DEEPEST,
     is_archive,
@@ -132,7 +138,9 @@ def unpacked(found: Found, folder: Path, bounds: Bounds) -> Arranged:
     laid = arranged(folder)
     if refused and not complete(laid):
         names = {each.name for each in found.sources}
-        told = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())
+        told = (
+            f"{name}: {words}" * (name not in names) or words for name, words in refused.items()
+        )
         raise CannotTake("; ".join(told))
     laid.notes += [f"left out {name}: {words}" for name, words in refused.items()]
     return laid

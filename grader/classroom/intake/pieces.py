@@ -1,8 +1,8 @@
 """The lab's files in what was handed in: at any depth, and under names that others have changed.
 
-Browsers and learning systems put `(1)`, `-2` or `copy` into a name. Python can import no such name,
-so nobody meant it for one of a file of their own: it is taken as what it was, and that is said. Where
-two files could be the same one, a person must choose.
+Browsers and learning systems put `(1)`, `-2` or `copy` into a name. Python can import no such
+name, so nobody meant it for a file of their own: it is taken as what it was, and that is said.
+Where two files could be the same one, a person must choose.
 """
 
 import re
@@ -22,7 +22,9 @@ PACKAGE = "mini_engine"
 INIT = "__init__.py"
 NUMBER = r"\(\d{1,3}\)"
 WORD = r"(copy|copie|copia|kopie)"  # as desktops of several languages say it
-ADDED = re.compile(rf"(\s*{NUMBER}|\s*-?\s+{WORD}(\s+\d+|\s*{NUMBER})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I)
+ADDED = re.compile(
+    rf"(\s*{NUMBER}|\s*-?\s+{WORD}(\s+\d+|\s*{NUMBER})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
+)
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
 
@@ -117,7 +119,7 @@ def arranged(folder: Path) -> Arranged:
     for path in paths:
         if path not in elsewhere and path.is_relative_to(top):
             files.setdefault(path.relative_to(top).as_posix(), folder / path)
-    for parent in {piece.path.parent for piece in pieces if not piece.module == PACKAGE} - {top}:
+    for parent in {piece.path.parent for piece in pieces if piece.module != PACKAGE} - {top}:
         for path in paths:
             if path.parent == parent and path.suffix == ".py" and path not in elsewhere:
                 files.setdefault(path.name, folder / path)
@@ -235,5 +237,3 @@ def nothing_of_the_lab(folder: Path) -> CannotTake:
     held = f"it holds {', '.join(names[:MENTIONED])}{more}" if names else "it holds no file"
     asked = ", ".join(sorted(modules()))
     return CannotTake(f"nothing of the lab was found ({asked}): {held}")
-
-
