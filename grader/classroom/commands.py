@@ -5,7 +5,7 @@ of the grader, `check` included.
 """
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 import typer
@@ -21,6 +21,7 @@ course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
 app.add_typer(course_app, name="nbgrader")
 
 Course = Annotated[Path, typer.Option(help="The course folder.")]
+Feedbacks = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
 
 
 @course_app.command("course")
@@ -165,7 +166,65 @@ def dashboard_command(
     console.print(f"made {page}", soft_wrap=True)
 
 
-List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
+@app.command("feedback")
+def feedback_command(
+    results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
+    for_: Annotated[
+        Feedbacks, typer.Option("--for", help="Who takes it: the LMS, mail, or nbgrader.")
+    ],
+    submissions: Annotated[
+        Path | None, typer.Option(help="The class as it was graded; for an LMS.")
+    ] = None,
+    roster: Annotated[Path | None, typer.Option(help="The class list; needed for email.")] = None,
+    key: Annotated[str, typer.Option(help="Its column that names students.")] = "",
+    out: Annotated[
+        Path | None, typer.Option(help="The zip, or for email and nbgrader the folder, to write.")
+    ] = None,
+) -> None:
+    """Put everybody's page where it can go back from. Exit status 1: somebody was left out."""
+    from grader.classroom import feedback
+    from grader.classroom.dashboard import NoResults, read_class, write_dashboard
+    from grader.classroom.grading import beside, people_of
+    from grader.classroom.intake.listing import opened_class
+    from grader.classroom.roster import CannotRead, read_roster
+    from grader.report.files import write_whole
+
+    try:
+        entries = read_class(results)
+        write_dashboard(results, entries)
+        pages = results.resolve()
+        if for_ == "nbgrader":
+            made = feedback.for_nbgrader(entries, pages)
+        elif for_ == "email":
+            listed = roster or (beside(submissions, "roster.csv") if submissions else None)
+            if listed is None:
+                stop("addresses are in the class list: name it with --roster", "go on")
+            book = read_roster(listed)
+            made = feedback.by_address(book, book.key(key), entries, pages)
+        else:
+            if submissions is None:
+                stop(f"{for_} knows files by the names it gave: name --submissions", "go on")
+            with opened_class(submissions, people_of(submissions, roster)) as intake:
+                made = feedback.by_export(for_, intake, entries, pages)
+    except (CannotGrade, CannotRead, NoResults) as error:
+        stop(str(error), "go on")
+    name = results.resolve().name
+    if for_ in ("email", "nbgrader"):
+        target = out or (
+            Path("feedback") if for_ == "nbgrader" else results.parent / f"{name}-mail"
+        )
+        for file, content in made.files.items():
+            write_whole(content, target / file)
+    else:
+        target = out or results.resolve().with_name(f"{name}-{for_}.zip")
+        write_whole(made.zipped(), target)
+    for note in made.notes:
+        console.print(clean(note), soft_wrap=True)
+    console.print(f"{len(made.files)} files are in {target}", soft_wrap=True)
+    raise typer.Exit(1 if made.notes else 0)
+
+
+List = Annotated[Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")]
 Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
 
 
@@ -183,7 +242,7 @@ def marks_command(
     ] = None,
     so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
 ) -> None:
-    """Make one mark per student, for Canvas or Moodle.
+    """Make one mark per student, in the gradebook's own form.
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """

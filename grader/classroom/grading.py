@@ -11,7 +11,7 @@ from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.book import Outcome
 from grader.classroom.cluster import connected
-from grader.classroom.dashboard import read_class, write_dashboard
+from grader.classroom.dashboard import notes_of, read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.listing import opened_class
@@ -111,13 +111,9 @@ def table_of(outcomes: list[Outcome]) -> Table:
     table = Table("submission", "points", "not passed")
     for each in outcomes:
         points = "none" if each.mark is None else f"{each.mark} / {each.max_points}"
-        found = [] if each.trouble else [f"found {each.points}"]
-        decided = "; ".join([*found, *each.reasons])
-        told = [each.trouble, clean(decided) if each.reasons else "", *each.notes]
-        late = "late" if each.late and not each.reasons else ""
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
         left = "all" if nothing and not each.trouble else ", ".join(each.left)
-        words = [clean(line) for line in (left, late, *told) if line]
+        words = [clean(line) for line in (left, *notes_of(each)) if line]
         table.add_row(clean(each.name), points, "\n".join(words))
     return table
 
