@@ -1,7 +1,7 @@
 """Pages of a whole class on their way back: as each learning system takes them, or by mail.
 
-Nobody gets another's page: a student whom the export or the class list does not name for sure is left
-out, and said.
+Nobody gets another's page: a student whom the export or the class list does not name for sure is
+left out, and said.
 """
 
 import csv

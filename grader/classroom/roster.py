@@ -18,6 +18,7 @@ BRIGHTSPACE = ("OrgDefinedId", "Username", "Last Name", "First Name", "Email")
 END_OF_LINE = "End-of-Line Indicator"  # Brightspace's last column, a # in each row
 SUBMITTED = "Last modified (submission)"  # in Moodle's worksheet, the school's own time
 MOMENTS = ("%A, %d %B %Y, %I:%M %p", "%A, %B %d, %Y, %I:%M %p", "%d %B %Y, %I:%M %p")
+CALLED = "Called"  # a column of one's own: what an export calls somebody whom it does not identify
 KEYS = (
     "SIS Login ID",
     "Email address",

@@ -82,17 +82,22 @@ def checked_archive(path: Path) -> Iterator[zipfile.ZipFile]:
             yield archive
         return
     with work_folder() as work:
-        script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(work / "plain.zip")]
-        try:
-            done = subprocess.run(script, capture_output=True, text=True, timeout=PATIENCE)
-        except subprocess.TimeoutExpired as error:
-            raise CannotTake("the archive takes too long to unpack") from error
-        if done.returncode == repack.REFUSED:
-            raise CannotTake(done.stdout.strip())
-        if done.returncode:
-            raise CannotTake("the archive takes too much memory or time to unpack")
+        make_plain(path, work / "plain.zip")
         with checked_zip(work / "plain.zip") as archive:
             yield archive
+
+
+def make_plain(path: Path, target: Path) -> None:
+    """Have the same files packed as a zip, by a process that may take only so much."""
+    script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
+    try:
+        done = subprocess.run(script, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired as error:
+        raise CannotTake("the archive takes too long to unpack") from error
+    if done.returncode == repack.REFUSED:
+        raise CannotTake(done.stdout.strip())
+    if done.returncode:
+        raise CannotTake("the archive takes too much memory or time to unpack")
 
 
 @contextmanager

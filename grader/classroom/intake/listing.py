@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
@@ -26,8 +27,8 @@ from grader.classroom.intake.places import (
     modules,
     programs_in,
 )
-from grader.classroom.names import folded
-from grader.classroom.roster import ClassList
+from grader.classroom.names import folded, portable
+from grader.classroom.roster import CALLED, ClassList
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 
@@ -116,7 +117,10 @@ def by_name(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Fo
 
 
 def upload_at(path: Path, people: ClassList) -> Upload | None:
-    return next(filter(None, (form(path, people) for form in FORMS)), None)
+    """Whose a file or folder is, by the first form that knows such a name."""
+    upload = next(filter(None, (form(path, people) for form in FORMS)), None)
+    called = people.name_of([CALLED], upload.name) if upload else None
+    return replace(upload, name=portable(called)) if upload and called else upload
 
 
 def without_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
