@@ -20,6 +20,7 @@ from grader.classroom.intake.found import CannotTake, Found, Intake, Package
 from grader.classroom.intake.packing import pack
 from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
+from grader.classroom.similarity import Prints, prints_of
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
 
@@ -45,6 +46,7 @@ class Run:
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
     same: dict[str, dict[tuple[Path, ...], str]] = field(default_factory=dict)  # names, by files
+    prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
     said: dict[str, list[str]] = field(default_factory=dict)  # by name: what taking in had to say
 
     def tasks(self) -> Iterator[Task]:
@@ -58,6 +60,7 @@ class Run:
             self.same.setdefault(package.digest, {})[found.sources] = found.name
             self.notes += [f"{found.name}: {each}" for each in package.notes]
             self.said[found.name] = package.notes
+            self.prints.append(prints_of(package, found.sources))
             key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
             kept = self.book.kept(found.name, key)
             if kept is None:

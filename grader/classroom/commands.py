@@ -4,6 +4,7 @@ Each imports what it needs itself: all of it together would add a tenth of a sec
 of the grader, `check` included.
 """
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -164,6 +165,42 @@ def dashboard_command(
     except (CannotGrade, NoResults) as error:
         stop(str(error), "go on")
     console.print(f"made {page}", soft_wrap=True)
+
+
+@app.command("alike")
+def alike_command(
+    results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
+    submissions: Annotated[Path, typer.Option(help="The class as it was graded.")],
+    also: Annotated[
+        list[Path] | None, typer.Option(help="Another class, as last year's; may be repeated.")
+    ] = None,
+    roster: Annotated[
+        Path | None, typer.Option(help="The class list, if it was graded with one.")
+    ] = None,
+    least: Annotated[
+        float, typer.Option(min=0, max=1, help="The share above which a pair is shown.")
+    ] = 0.5,
+) -> None:
+    """Show which submissions are alike, also those of earlier years, on the page of the class."""
+    from grader.classroom.dashboard import NoResults, read_class, write_dashboard
+    from grader.classroom.grading import people_of
+    from grader.classroom.similarity import alike, prints_of_class, write_alike
+
+    try:
+        entries = read_class(results)
+        with ExitStack() as stack:
+            found, prints = prints_of_class(stack, submissions, people_of(submissions, roster))
+            here = {each.name for each in prints}
+            for folder in also or []:
+                others, more = prints_of_class(stack, folder, people_of(folder, None), folder.name)
+                found |= others
+                prints += more
+            pairs = alike(prints, least, here)
+            page = write_alike(results, pairs, found, least)
+        write_dashboard(results, entries)
+    except (CannotGrade, NoResults) as error:
+        stop(str(error), "go on")
+    console.print(f"{len(pairs)} pairs are on {page}", soft_wrap=True)
 
 
 @app.command("feedback")

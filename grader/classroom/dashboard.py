@@ -19,6 +19,7 @@ from grader.classroom.adjustments import told
 from grader.classroom.book import Book, Outcome, outcome_of
 from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.packing import pack
+from grader.classroom.similarity import read_alike
 from grader.judge.children import start_worker
 from grader.judge.grade import Options, grade
 from grader.judge.result import Result, State, TodoResult
@@ -267,6 +268,7 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
             bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
             rates=rates_of(graded),
             mistakes=mistakes_of(graded, folder),
+            alike=read_alike(folder),
             slowest=slowest(graded),
             bonus=any(each.outcome.bonus + each.outcome.bonus_by_hand for each in marked),
             marks=MARKS,

@@ -17,6 +17,7 @@ from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.names import in_short
 from grader.classroom.roster import CannotRead, ClassList, read_roster
+from grader.classroom.similarity import alike, write_alike
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
@@ -54,6 +55,9 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
         mine = absent if people.names else adjustments.unused(names)
         key = key_of(wanted.options)
         run = grade_class(intake, out, key, executor, console, adjustments, mine)
+        if len(run.outcomes) <= LONGEST_PAGE:
+            by_name = {each.name: each for each in intake.found}
+            write_alike(run.book.folder, alike(run.prints), by_name)
         if absent:
             run.notes.append(f"nothing was handed in by {in_short(absent)}")
         if unlisted := people.unlisted(names):

@@ -168,7 +168,7 @@ def by_module(pieces: list[Piece]) -> list[list[Piece]]:
 def chosen(pieces: list[Piece], folder: Path, notes: list[str]) -> Piece:
     """Of all that could be one program, what lies nearest to the top."""
     nearest = min(len(piece.path.parts) for piece in pieces)
-    first, *others = [piece for piece in pieces if len(piece.path.parts) == nearest]
+    first, *others = without_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
     for other in others:
         if first.exact and other.exact and first.path.parent == other.path.parent:
             continue  # a package beside a file: Python takes the package
@@ -179,6 +179,21 @@ def chosen(pieces: list[Piece], folder: Path, notes: list[str]) -> Piece:
         if len(other.path.parts) > nearest and not first.same_as(other, folder):
             notes.append(f"{other.path} was left out: {first.path} lies nearer to the top")
     return first
+
+
+def without_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
+    """A desktop's copy beside what it was made of is somebody's backup: the other one counts."""
+    kept = [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
+    if not kept:
+        return pieces
+    for piece in pieces:
+        if piece not in kept:
+            notes.append(f"{piece.path} was left out as a backup")
+    return kept
+
+
+def is_backup(name: str) -> bool:
+    return re.search(rf"\b{WORD}\b", name, re.I) is not None
 
 
 def too_many(what: str, paths: list[PurePosixPath]) -> ManyPrograms:
@@ -214,6 +229,9 @@ def within(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, Pure
         known = meant(inside.name, package_files()) if len(inside.parts) == 1 else None
         target = f"{PACKAGE}/{known}" if known else name
         other = files.setdefault(target, path)
+        if other != path and is_backup(path.name):
+            notes.append(f"{path} was left out as a backup")
+            continue
         if other != path and (folder / other).read_bytes() != (folder / path).read_bytes():
             raise too_many(target, [other, path])
         if target != name:
