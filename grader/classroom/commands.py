@@ -29,15 +29,23 @@ Feedbacks = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
 def course_command(
     course: Annotated[Path, typer.Argument(help="The course folder to make.")],
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
+    release: Annotated[
+        Path | None,
+        typer.Option(help="What students get, an archive; the newest in build/release."),
+    ] = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     needs_checkout("nbgrader course")
-    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
+    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course, newest_release
 
+    release = release or newest_release(KIT / "build" / "release")
     try:
-        files = make_course(course, renew)
+        files = make_course(course, renew, release)
     except NoCourse as error:
         stop(str(error), "go on")
+    if release is None:
+        console.print("There is no release in build/release, so that make check will not work in")
+        console.print("what students get. Run make release first, then this again with --renew.")
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 

@@ -96,7 +96,8 @@ def test_what_many_have_tells_nothing(right):
 
 
 def test_the_same_pairs_whatever_the_hash_seed_is():
-    code = "from grader.classroom.similarity import runs_of; print(sorted(runs_of('a = b + c * d - e / f\\n' * 9)))"
+    text = "a = b + c * d - e / f\n" * 9
+    code = f"from grader.classroom.similarity import runs_of; print(sorted(runs_of({text!r})))"
     told = {
         subprocess.run(
             [sys.executable, "-c", code],

@@ -4,6 +4,7 @@ import filecmp
 import re
 import shutil
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,11 +35,12 @@ class NoCourse(Exception):
 # ---------------------------------------------------------------- making a course
 
 
-def make_course(course: Path, renew: bool = False) -> list[str]:
+def make_course(course: Path, renew: bool = False, release: Path | None = None) -> list[str]:
     """Make the folder in which nbgrader's commands run; returns the assignment's files.
 
     The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
-    lies beside the notebooks.
+    lies beside the notebooks. From the archive of a `release` come the checks as well, so that
+    `make check` works in what students get.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
         raise NoCourse(
@@ -52,15 +54,36 @@ def make_course(course: Path, renew: bool = False) -> list[str]:
             "settings, submissions and gradebook stay."
         )
     shutil.rmtree(source, ignore_errors=True)
-    files = dict(assignment_files())
-    for name, path in files.items():
+    files = {name: path.read_bytes() for name, path in assignment_files()}
+    if release is not None:
+        notebooks = {name: text for name, text in files.items() if name.endswith(".ipynb")}
+        files = dict(released_files(release)) | notebooks
+    for name, content in files.items():
         target = source / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, target)
+        target.write_bytes(content)
     for name in SETTINGS:
         if not (course / name).exists():
             shutil.copyfile(INSTRUCTOR / name, course / name)
     return sorted(files)
+
+
+def released_files(release: Path) -> Iterator[tuple[str, bytes]]:
+    """What students get in an archive of `release`, but for its notebooks."""
+    try:
+        with zipfile.ZipFile(release) as archive:
+            for member in archive.infolist():
+                _, _, name = member.filename.partition("/")
+                if name and not name.startswith((".", f"{NOTEBOOKS}/")):
+                    yield name, archive.read(member)
+    except (OSError, zipfile.BadZipFile) as error:
+        raise NoCourse(f"{release} is no archive of a release ({error}): make one") from error
+
+
+def newest_release(folder: Path) -> Path | None:
+    """The archive that students get, as `release` left it in a folder."""
+    found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
+    return found[-1] if found else None
 
 
 def assignment_files() -> Iterator[tuple[str, Path]]:

@@ -68,7 +68,11 @@ def fill(course: Path, results: Iterable[tuple[str, Result | str]]) -> Iterator[
             if submission.student.id not in done and ungraded(book, cells, submission.student.id):
                 for cell in cells:
                     write_mark(book, cell, submission.student.id, None)
-                yield f"{submission.student.id}: no result, so 0 points for the engine until then"
+                    book.find_grade(
+                        cell.name, ENGINE, ASSIGNMENT, submission.student.id
+                    ).needs_manual_grade = True
+                book.db.commit()
+                yield f"{submission.student.id}: no result, so the engine waits for a person"
 
 
 def fill_one(book: Any, api: ModuleType, cells: list[Any], student: str, result: Result) -> Filled:
