@@ -1,4 +1,4 @@
-"""What students run in their own tree: `check` and `hint`."""
+"""What students run in their own tree: `check`, `hint` and `hand-in`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -7,12 +7,13 @@ import msgspec
 import typer
 
 from grader.commands import console, graded, known_todos, stop
+from grader.hand_in import hand_in
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import command
+from grader.words import clean, command
 
 app = typer.Typer()
 
@@ -33,6 +34,7 @@ def check_command(
     else:
         result = graded(folder, options)
         show_standing(result, Teller(console, options.replays))
+        say(f"To hand in: {command('hand-in')} packs what is asked for.", console)
     raise typer.Exit(0 if result.complete else 1)
 
 
@@ -63,6 +65,23 @@ def replays_in(tree: Path) -> Path | None:
     except OSError:
         return None
     return folder
+
+
+@app.command("hand-in")
+def hand_in_command(
+    path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+) -> None:
+    """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
+    try:
+        packed, names, missing = hand_in(own_tree(path))
+    except (CannotGrade, OSError) as error:
+        stop(str(error), "pack")
+    for name in names:
+        console.print(f"  {clean(name)}", soft_wrap=True)
+    console.print(f"{len(names)} files are in {packed}: hand in this one file", soft_wrap=True)
+    for name in missing:
+        console.print(f"There is no {name} here. Hand in from the folder that holds all programs.")
+    raise typer.Exit(1 if missing else 0)
 
 
 @app.command("hint")

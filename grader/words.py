@@ -111,12 +111,12 @@ def about(value: float) -> str:
 # ---------------------------------------------------------------- what to type
 
 
-def command(name: str, todo: str, level: int = 1) -> str:
+def command(name: str, todo: str = "", level: int = 1) -> str:
     """One of the student's commands, as this person would type it here."""
     if "MAKELEVEL" in os.environ:
-        return f"make {name} TODO={todo}" + f" LEVEL={level}" * (level > 1)
+        return f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
     python = sys.orig_argv[0]
     start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
-    return f"{start} {name} --todo {todo}" + f" --level {level}" * (level > 1)
+    return f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)

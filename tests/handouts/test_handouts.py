@@ -424,12 +424,12 @@ def test_the_guides_options_of_grade_exist() -> None:
 
 
 def targets(makefile: Path) -> set[str]:
-    return set(re.findall(r"^([a-z]+):", makefile.read_text(encoding="utf-8"), re.M))
+    return set(re.findall(r"^([a-z-]+):", makefile.read_text(encoding="utf-8"), re.M))
 
 
 def test_every_make_target_that_is_named_exists() -> None:
     for pages, makefiles in ((STUDENTS, [STARTER]), (PAGES, [KIT, STARTER])):
         known = set().union(*(targets(folder / "Makefile") for folder in makefiles))
         for page in pages:
-            named = set(re.findall(r"(?:`|^ *)make ([a-z]+)", page.read_text("utf-8"), re.M))
+            named = set(re.findall(r"(?:`|^ *)make ([a-z-]+)", page.read_text("utf-8"), re.M))
             assert named <= known, f"{page.name}: {named - known}"
