@@ -44,12 +44,12 @@ endef
 export PLAIN_VERSIONS
 
 .PHONY: help setup grade contained run dials accuracy effects cases compiled handouts \
-	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
+	release dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
 		/^##@ / { printf "\n%s\n", substr($$0, 5) } \
-		/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+		/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
 
 ##@ Grading
 
@@ -103,6 +103,10 @@ release: $(CORE) ## Make what students get, in build/release, once verify has no
 handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
 	@$(PY) handouts/make_site.py
+
+course-check: $(CORE) ## Say what would go wrong with SUBMISSIONS, ROSTER, ADJUST, before it does
+	@$(PY) -m grader course-check $(if $(SUBMISSIONS),"$(SUBMISSIONS)") \
+		$(if $(ROSTER),--roster "$(ROSTER)") $(if $(ADJUST),--adjust "$(ADJUST)")
 
 course: $(NOTEBOOKS) ## Make an nbgrader course in COURSE=folder
 	@$(PY) -m grader nbgrader course "$(COURSE)"

@@ -175,6 +175,33 @@ def dashboard_command(
     console.print(f"made {page}", soft_wrap=True)
 
 
+@app.command("course-check")
+def course_check_command(
+    submissions: Annotated[
+        Path | None, typer.Argument(help="Submissions, all or some: read, and not graded.")
+    ] = None,
+    roster: Annotated[Path | None, typer.Option(help="The class list.")] = None,
+    key: Annotated[str, typer.Option(help="Its column that names students.")] = "",
+    adjust: Annotated[Path | None, typer.Option(help="The adjustments.")] = None,
+    settings: Annotated[
+        Path | None, typer.Option(help="marks.toml: what the parts are worth, and the title.")
+    ] = None,
+) -> None:
+    """Say what would go wrong, before it does. Exit status 1: something would."""
+    from grader.classroom.course_check import Files, faults_of_course
+    from grader.classroom.grading import beside
+
+    if submissions is not None:
+        roster = roster or beside(submissions, "roster.csv")
+        adjust = adjust or beside(submissions, "adjustments.toml")
+    faults = list(faults_of_course(Files(roster, key, adjust, settings, submissions)))
+    for fault in faults:
+        console.print(clean(fault), soft_wrap=True)
+    if not faults:
+        console.print("Nothing would go wrong with what is there.")
+    raise typer.Exit(1 if faults else 0)
+
+
 @app.command("alike")
 def alike_command(
     results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
