@@ -13,7 +13,7 @@ from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import pack
-from grader.classroom.marks import load_marking
+from grader.classroom.marks import Marking, load_marking, total_of
 from grader.classroom.names import folded, in_short
 from grader.classroom.owners import GROUPS
 from grader.classroom.roster import CannotRead, ClassList, Roster, names_in, read_roster
@@ -49,6 +49,7 @@ def faults_of_course(files: Files) -> Iterator[str]:
             marking = load_marking(files.marking)
             if roster is not None:
                 yield from faults_of_title(roster, marking.title, files.marking)
+                yield from faults_of_total(roster, marking)
         except CannotRead as error:
             yield str(error)
     if files.adjust is not None:
@@ -102,6 +103,13 @@ def faults_of_title(roster: Roster, title: str, path: Path) -> Iterator[str]:
             f"{roster.path} has no column {title!r}, as {path} calls it: make the assignment and "
             "export again, or change the title"
         )
+
+
+def faults_of_total(roster: Roster, marking: Marking) -> Iterator[str]:
+    """Marks out of one number, in a gradebook that counts to another."""
+    worth = total_of(roster, marking.title)
+    if worth is not None and worth != marking.total:
+        yield f"{roster.path} counts to {worth:g}, and the marks' total is {marking.total:g}"
 
 
 def faults_of_submissions(

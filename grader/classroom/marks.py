@@ -6,6 +6,7 @@ so that a spreadsheet would run them.
 
 import csv
 import io
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
@@ -29,6 +30,7 @@ from grader.classroom.roster import (
 from grader.report.sinks.tables import harmless
 from grader.words import clean
 
+TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.]+)")  # Blackboard's and Brightspace's columns
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
@@ -162,6 +164,9 @@ def marks(
         rows.append((row, mark, words))
     for student in sorted(owners.strangers):
         notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
+    worth = total_of(roster, marking.title)
+    if worth is not None and worth != marking.total:
+        notes.append(f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}")
     table = TABLES[roster.kind](roster, key, rows, marking)
     return Marks(as_csv(table, roster), given, notes, roster.encoding)
 
@@ -226,6 +231,20 @@ def brightspace_table(
     own = [name for name in ("OrgDefinedId", "Username") if name in roster.columns]
     table = [[*own, f"{marking.title} Points Grade", END_OF_LINE]]
     return [*table, *([*(row[name] for name in own), mark, "#"] for row, mark, _ in rows)]
+
+
+def total_of(roster: Roster, title: str) -> float | None:
+    """What full marks are in the gradebook; None where it does not say."""
+    if roster.kind == "worksheet":
+        totals = {row.get("Maximum Grade", "").strip() for row in roster.rows}
+        told = next(iter(totals)) if len(totals) == 1 else ""
+    else:
+        columns = (name for name in roster.columns if name.startswith(title))
+        told = next((match[1] for name in columns if (match := TOTAL.search(name))), "")
+    try:
+        return float(told) if told else None
+    except ValueError:  # a number as another country writes it
+        return None
 
 
 def titled(roster: Roster, start: str, otherwise: str) -> str:

@@ -84,6 +84,15 @@ def test_a_gradebook_without_the_assignments_column(place):
     )
 
 
+@pytest.mark.parametrize("system", ["moodle", "blackboard", "brightspace"])
+def test_marks_out_of_another_number_than_the_gradebooks(place, system):
+    roster = classes.SYSTEMS[system](place / "other", classes.students())
+    marking = 'title = "Physics engine"\nshares.engine = 1\ntotal = '
+    assert any("counts to 20" in f for f in told(place, roster=roster, marking=marking + "100"))
+    fine = told(place, roster=roster, marking=f"{marking}{classes.FULL}")
+    assert not any("counts to" in fault for fault in fine)
+
+
 def test_decisions_are_checked_as_a_whole(place):
     adjust = (
         "[late]\nper_day = 'x'\ngrace = -1\n"
