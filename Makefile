@@ -145,6 +145,7 @@ bench: $(CORE) ## Measure how fast the grader is
 
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
+	$(LOCK) -o requirements-archives.txt --extra archives -c requirements.txt
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
@@ -167,9 +168,9 @@ venv:
 	@echo "Making .venv with $(PYTHON) ..."
 	@$(PYTHON) -m venv --clear .venv
 
-$(CORE): requirements.txt pyproject.toml
+$(CORE): requirements-archives.txt pyproject.toml
 	@echo "Installing what grading needs into .venv (less than a minute) ..."
-	@$(PIP) install --require-hashes -r requirements.txt
+	@$(PIP) install --require-hashes -r requirements-archives.txt
 	@$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@
 

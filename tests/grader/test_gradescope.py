@@ -293,10 +293,11 @@ def test_it_is_set_up_and_grades_on_ubuntu(archive: Path, tmp_path: Path, releas
     if shutil.which("debootstrap") is None or os.geteuid():
         pytest.skip("making a root of Ubuntu takes debootstrap, and root")
     root, name = tmp_path / "root", UBUNTU[release]
-    scripts = Path("/usr/share/debootstrap/scripts")
-    script = [] if (scripts / name).exists() else ["", str(scripts / "gutsy")]  # of all Ubuntus
+    script = Path("/usr/share/debootstrap/scripts/gutsy")  # of all Ubuntus, known to it or not
+    mirrors = re.findall(r"default_mirror (\S+)", script.read_text())
+    mirror = next(each for each in mirrors if "//archive." in each)  # what it takes with a keyring
     make = ["debootstrap", "--variant=minbase", "--components=main,universe"]
-    made = subprocess.run([*make, "--include=ca-certificates", name, root, *script])
+    made = subprocess.run([*make, "--include=ca-certificates", name, root, mirror, script])
     if made.returncode:
         pytest.skip(f"debootstrap reaches no packages of Ubuntu {release} from here")
     sources = root / "etc/apt/sources.list"
