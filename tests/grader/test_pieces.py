@@ -11,6 +11,9 @@ from grader.classroom.intake.found import CannotTake, Found, Package
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import pack
 from grader.classroom.intake.pieces import original
+from grader.judge.grade import KIT
+from grader.judge.submission import plain_files
+from grader.maintain.bank import members
 
 PROGRAM: packed.Files = {
     "mini_engine/__init__.py": "from mini_engine.solver import *\n",
@@ -275,3 +278,23 @@ def test_a_second_of_an_lms_is_known_again(tmp_path):
         package = pack(taken.found[0])
     assert names(package) == ["helper.py", "integrators.py"]
     assert package.notes == ["integrators-3.py is taken as integrators.py"]
+
+
+# ---------------------------------------------------------------- the bank
+
+
+def test_what_deserves_points_is_taken_in_whole(tmp_path):
+    """No right submission of the bank loses a file or meets a doubt on its way in."""
+    for member in members(KIT):
+        if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
+            member.build(KIT, tmp_path / member.name)
+            package = pack(Found("ann", (tmp_path / member.name,)))
+            there = {
+                path.relative_to(tmp_path / member.name).as_posix()
+                for path in plain_files(tmp_path / member.name)
+            }
+            assert {name for name, _ in package.files} >= there - backups(there), member.name
+
+
+def backups(names: set[str]) -> set[str]:
+    return {name for name in names if " copy" in name or "Copy" in name}

@@ -172,7 +172,8 @@ def chosen(pieces: list[Piece], folder: Path, notes: list[str]) -> Piece:
     for other in others:
         if first.exact and other.exact and first.path.parent == other.path.parent:
             continue  # a package beside a file: Python takes the package
-        if not first.same_as(other, folder):
+        apart = first.path.parent != other.path.parent  # may well be two people's
+        if apart or not first.same_as(other, folder):
             raise too_many(first.module, [first.path, other.path])
         notes.append(f"{first.path} and {other.path} are the same")
     for other in pieces:
