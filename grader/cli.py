@@ -31,6 +31,7 @@ from grader.judge.submission import CannotGrade
 from grader.report import commands as report
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
+from grader.words import clean
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -138,7 +139,7 @@ def submission_at(path: Path) -> Iterator[Path]:
             "them with --class, or name one"
         )
     try:
-        with opened_submission(path) as folder:
+        with opened_submission(path, lambda note: console.print(clean(note))) as folder:
             yield folder
     except CannotGrade as error:
         stop(str(error))

@@ -9,10 +9,10 @@ import pytest
 from grader.classroom.intake import repack
 from grader.classroom.intake.found import CannotTake, Found, Package
 from grader.classroom.intake.listing import opened_class
-from grader.classroom.intake.packing import pack
+from grader.classroom.intake.packing import opened_submission, pack
 from grader.classroom.intake.pieces import original
 from grader.judge.grade import KIT
-from grader.judge.submission import plain_files
+from grader.judge.submission import CannotGrade, plain_files
 from grader.maintain.bank import members
 
 PROGRAM: packed.Files = {
@@ -298,3 +298,22 @@ def test_what_deserves_points_is_taken_in_whole(tmp_path):
 
 def backups(names: set[str]) -> set[str]:
     return {name for name in names if " copy" in name or "Copy" in name}
+
+
+# ---------------------------------------------------------------- one submission
+
+
+def test_one_folder_is_laid_out_as_one_of_a_class_is(tmp_path):
+    write(tmp_path / "well", PROGRAM | {"old/integrators.py": "x = 0\n"})
+    write(tmp_path / "deep", under("work", {"integrators (1).py": "x = 1\n"}))
+    write(tmp_path / "two", PROGRAM | {"integrators (1).py": "x = 2\n"})
+    write(tmp_path / "none", {"notes.txt": ""})
+    said: list[str] = []
+    for name in ("well", "none"):
+        with opened_submission(tmp_path / name, said.append) as folder:
+            assert folder == tmp_path / name and not said
+    with opened_submission(tmp_path / "deep", said.append) as folder:
+        assert folder.name == "deep" and (folder / "integrators.py").read_text() == "x = 1\n"
+    assert said == ["work/integrators (1).py is taken as integrators.py"]
+    with pytest.raises(CannotGrade, match="more than one"), opened_submission(tmp_path / "two"):
+        pass

@@ -1,6 +1,9 @@
 """A class from the export to the gradebook and back: nobody is silently 0, nobody is lost."""
 
 import csv
+import subprocess
+import sys
+import time
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -8,6 +11,7 @@ from pathlib import Path
 
 import classes
 import gradebooks
+import packed
 import pytest
 from classes import TITLE, Student
 from points_pool import Inline, PointsPool
@@ -18,7 +22,10 @@ from grader.classroom import commands, grading
 from grader.classroom.batch import Run
 from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.intake import archives, repack
-from grader.judge.grade import Options
+from grader.judge.children import start_worker
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.submission import plain_files
+from grader.maintain.bank import members
 
 QUIET = Console(quiet=True)
 SYSTEMS = list(classes.SYSTEMS)
@@ -238,3 +245,72 @@ def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
     run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
     marks = {each.name: each.mark for each in run.outcomes}
     assert (marks["ann"], marks["ann2"]) == (3, 4)
+
+
+# ---------------------------------------------------------------- graded in earnest
+
+PACKED = {
+    ".zip": packed.as_zip,
+    ".7z": packed.as_7z,
+    ".rar": packed.as_rar,
+    ".tar.gz": packed.as_tar,
+}
+CHOSEN = ("whole-very-terse", "copies-beside", "single-file-dataclasses", "4-clamps-the-increment")
+TODOS = ("4", "8a")
+
+
+@pytest.fixture(scope="module")
+def bank(tmp_path_factory) -> list[Student]:
+    """Submissions of the bank, each in another archive, among all that goes wrong; as graded."""
+    place = tmp_path_factory.mktemp("bank")
+    options = Options(shipped_reference(), only=frozenset(TODOS))
+    found, worker = [], start_worker()
+    chosen = [each for each in members(KIT) if each.name in CHOSEN and each.form == "package"]
+    for number, member in enumerate(chosen):
+        member.build(KIT, place / member.name)
+        points = grade(place / member.name, options, worker).points
+        kind, make = list(PACKED.items())[number % len(PACKED)]
+        files = {
+            f"work/{path.relative_to(place / member.name).as_posix()}": path.read_bytes()
+            for path in plain_files(place / member.name)
+            if path.suffix == ".py"
+        }
+        upload = {f"work{kind}": make(files)}
+        found.append(Student(f"bank{number}", "Bank", f"No {number}", upload, points))
+    worker.close()
+    odd = [s for s in classes.students() if s.points is None]
+    return [*found, *odd]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, bank, system):
+    kept = []
+    for name, jobs, kills in (("once", 1, 0), ("again", 2, 2)):
+        folder = tmp_path / name / "class"
+        folder.mkdir(parents=True)
+        roster = tmp_path / name / "list.csv"
+        roster.write_text(classes.SYSTEMS[system](folder, bank), encoding="utf-8")
+        decisions = classes.decisions(bank, lambda each: name_in(system, each))
+        (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
+        todos = [word for todo in TODOS for word in ("--todo", todo)]
+        words = ["grade", "--class", str(folder), "--roster", str(roster), "--jobs", str(jobs)]
+        command = [sys.executable, "-m", "grader", *words, *todos]
+        results = folder.with_name("class-results")
+        for count in range(1, kills + 1):
+            process = subprocess.Popen(command, cwd=KIT, stdout=subprocess.DEVNULL)
+            while process.poll() is None and len(list(results.glob("[!.]*.json"))) < count:
+                time.sleep(0.02)
+            process.kill()
+            process.wait()
+        done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+        assert done.returncode == 2, done.stderr  # some are for a person to look at
+        files = [folder.with_name("class-results.class.csv"), *sorted(results.iterdir())]
+        kept.append({path.name: path.read_bytes() for path in files})
+    assert kept[0] == kept[1]
+    told = kept[0]["class-results.class.csv"].decode("utf-8-sig").splitlines()
+    rows = {row["name"]: row for row in csv.DictReader(told)}
+    for student in bank:
+        if student.files or student.by_hand is not None:
+            mark = rows[name_in(system, student)]["points"]
+            assert mark == ("" if student.mark is None else str(student.mark)), student.login

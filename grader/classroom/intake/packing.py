@@ -2,7 +2,7 @@
 
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -32,22 +32,37 @@ COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file t
 
 
 @contextmanager
-def opened_submission(path: Path) -> Iterator[Path]:
-    """The submission at `path`; what an archive holds is there, in a folder of its name.
+def opened_submission(path: Path, say: Callable[[str], None] = lambda note: None) -> Iterator[Path]:
+    """The submission at `path`, as the lab lays it out: unpacked, and its files put together.
 
-    Raises CannotGrade where it cannot be taken.
+    Raises CannotGrade where it cannot be taken. A folder with nothing of the lab is left as it is:
+    whoever names one sees what is in it.
     """
-    if not is_archive(path) or not path.is_file():
+    if (path.is_file() and not is_archive(path)) or not path.exists() or lies_well(path):
         yield path
         return
     with work_folder() as temporary:
         try:
-            package = pack(Found(portable(stem_of(path)), (path,)))
+            package = pack(Found(portable(stem_of(path.resolve())), (path,)))
         except ManyPrograms as error:
             raise CannotGrade(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
             raise CannotGrade(f"{path}: {error}") from error
+        for note in package.notes:
+            say(note)
         yield package.unpack(temporary)
+
+
+def lies_well(path: Path) -> bool:
+    """Whether a folder can be graded as it lies, or holds nothing that could be put together."""
+    if not path.is_dir():
+        return False
+    try:
+        laid = arranged(path)
+    except ManyPrograms:
+        return False
+    as_it_is = laid.as_found and laid.root == path
+    return as_it_is or not (laid.files or archives_in(path))
 
 
 def pack(found: Found) -> Package:
