@@ -1,4 +1,5 @@
-# `make` alone lists the targets. Each one sets up what it needs in .venv first.
+# `make` alone lists the targets. Each one sets up what it needs in .venv first. COURSE_FILE=path
+# takes another course than course.toml: make hands it on to every command.
 
 ifeq ($(OS),Windows_NT)
 PYTHON ?= python
@@ -32,19 +33,30 @@ except ImportError:
 endef
 export CHECK_PYTHON
 
+# Debian's and Ubuntu's 3.11.0rc1 is no full version below 3.15 to their pip, but its Python is.
+define PLAIN_VERSIONS
+import re, sys
+from pathlib import Path
+for path in map(Path, sys.argv[1:]):
+    text = path.read_text(encoding="utf-8")
+    text = re.sub(r"python_full_version (<|>=) '(\d+\.\d+)'", r"python_version \1 '\2'", text)
+    path.write_text(text, encoding="utf-8", newline="\n")
+endef
+export PLAIN_VERSIONS
+
 .PHONY: help setup grade contained run dials accuracy effects cases compiled wheels handouts \
-	release dashboard gradescope course notebooks verify mutants sync test soak lint format bench lock clean venv
+	release dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
 		/^##@ / { printf "\n%s\n", substr($$0, 5) } \
-		/^[a-z]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+		/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
 
 ##@ Grading
 
 setup: $(CORE) ## Set up .venv for grading
 
-grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder; alone, a demonstration
+grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder (COURSE_FILE=path); alone, a demonstration
 	@$(PY) -m grader grade \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
 
@@ -55,6 +67,7 @@ contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podma
 	@$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
 		--volume "$(abspath $(SUBMISSIONS)):/root/submissions:ro" \
 		--volume "$(abspath $(RESULTS)):/root/results" \
+		$(if $(COURSE_FILE),--volume "$(abspath $(COURSE_FILE)):/root/kit/course.toml:ro") \
 		physics-grader $(if $(SEED),--seed $(SEED))
 
 dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)
@@ -98,6 +111,10 @@ handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py
 	@$(PY) handouts/make_site.py
 
+course-check: $(CORE) ## Say what would go wrong with SUBMISSIONS, ROSTER, ADJUST, before it does
+	@$(PY) -m grader course-check $(if $(SUBMISSIONS),"$(SUBMISSIONS)") \
+		$(if $(ROSTER),--roster "$(ROSTER)") $(if $(ADJUST),--adjust "$(ADJUST)")
+
 course: $(NOTEBOOKS) ## Make an nbgrader course in COURSE=folder
 	@$(PY) -m grader nbgrader course "$(COURSE)"
 
@@ -135,9 +152,11 @@ bench: $(CORE) ## Measure how fast the grader is
 
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
+	$(LOCK) -o requirements-archives.txt --extra archives -c requirements.txt
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
+	@$(PY) -c "$$PLAIN_VERSIONS" requirements*.txt
 
 clean: ## Remove .venv and everything else that can be made again
 	rm -rf .venv build solution/build starter/build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -156,9 +175,9 @@ venv:
 	@echo "Making .venv with $(PYTHON) ..."
 	@$(PYTHON) -m venv --clear .venv
 
-$(CORE): requirements.txt pyproject.toml
+$(CORE): requirements-archives.txt pyproject.toml
 	@echo "Installing what grading needs into .venv (less than a minute) ..."
-	@$(PIP) install --require-hashes -r requirements.txt
+	@$(PIP) install --require-hashes -r requirements-archives.txt
 	@$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@
 

@@ -33,6 +33,7 @@ from grader.judge.submission import CannotGrade
 from grader.report import commands as report
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
+from grader.words import clean
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -78,7 +79,7 @@ def grade_command(
         int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
     ] = None,
     roster: Annotated[
-        Path | None, typer.Option(help="For a class: its list, a CSV from Canvas or Moodle.")
+        Path | None, typer.Option(help="For a class: its list, as the LMS exports it.")
     ] = None,
     adjust: Annotated[
         Path | None, typer.Option(help="For a class: late days and points set by hand, as TOML.")
@@ -146,7 +147,7 @@ def submission_at(path: Path) -> Iterator[Path]:
             "them with --class, or name one"
         )
     try:
-        with opened_submission(path) as folder:
+        with opened_submission(path, lambda note: console.print(clean(note))) as folder:
             yield folder
     except CannotGrade as error:
         stop(str(error))
@@ -218,7 +219,7 @@ def grade_folder(
         stop(str(error))
     except KeyboardInterrupt:
         stop("stopped; what is graded stays, and the same command goes on from there")
-    raise typer.Exit(2 if any(outcome.trouble for outcome in run.outcomes) else 0)
+    raise typer.Exit(2 if any(outcome.mark is None for outcome in run.outcomes) else 0)
 
 
 def demonstrate(options: Options) -> None:

@@ -1,4 +1,4 @@
-"""What students run in their own tree: `check` and `hint`."""
+"""What students run in their own tree: `check`, `hint` and `hand-in`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -7,14 +7,14 @@ import msgspec
 import typer
 
 from grader.commands import CourseFile, console, course_in, graded, known_todos, stop
-from grader.handing_in import PACKED, packed_files, place_of_program, write_packed
+from grader.hand_in import hand_in, missing_programs
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import command, listed, plural
+from grader.words import clean, command, moment, plural
 
 app = typer.Typer()
 
@@ -60,9 +60,8 @@ def own_tree(path: Path, course: Course) -> Path:
 
 
 def until(course: Course) -> str:
-    """The due date, where the course has one: `, until 4 May 2027 23:59 (UTC+02:00)`."""
-    due = course.due
-    return f", until {due.day} {due:%B %Y %H:%M} ({due.tzname()})" if due else ""
+    """The due date, where the course has one."""
+    return f", until {moment(course.due)}" if course.due else ""
 
 
 @app.command("hand-in")
@@ -71,20 +70,20 @@ def hand_in_command(
     out: Annotated[Path | None, typer.Option(help="The zip; hand-in.zip if left out.")] = None,
     course: CourseFile = None,
 ) -> None:
-    """Make the zip that you hand in: the programs you worked on, and files of your own."""
+    """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
     chosen = course_in(course)
-    folder = own_tree(path, chosen)
-    target = out or folder / PACKED
-    files = packed_files(folder)
-    write_packed(files, target)
-    programs = [place_of_program(folder, each) for each in chosen.modules]
-    for name in [each for each in programs if each not in {n.partition("/")[0] for n in files}]:
-        say(f"{name} is not in {folder}: it will be missing", console, style="yellow")
-    say(
-        f"made {target}: {plural(len(files), 'file')}, {listed(programs)} and what is your own",
-        console,
-    )
-    say(f"Hand in this file{until(chosen)}.", console)
+    try:
+        packed, names = hand_in(own_tree(path, chosen), chosen, out)
+    except (CannotGrade, OSError) as error:
+        stop(str(error), "pack")
+    for name in names:
+        console.print(f"  {clean(name)}", soft_wrap=True)
+    missing = missing_programs(names, chosen)
+    for name in missing:
+        say(f"There is no {name} here: hand in once all programs are there.", console)
+    say(f"{plural(len(names), 'file')} in {packed}", console)
+    say(f"Hand in this one file{until(chosen)}.", console)
+    raise typer.Exit(1 if missing else 0)
 
 
 def replays_in(tree: Path) -> Path | None:

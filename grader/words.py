@@ -6,6 +6,7 @@ The terminal, pages, tables, exports and replays all take it from here, so that 
 import math
 import os
 import sys
+from datetime import datetime
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
@@ -96,6 +97,11 @@ def hidden_points_note(result: Result) -> str:
 def plural(number: int, noun: str) -> str:
     """`1 point`, `2 points`."""
     return f"{number} {noun}" + "s" * (number != 1)
+
+
+def moment(when: datetime | None) -> str:
+    """`4 May 2027 23:59 (UTC+02:00)`; empty for none."""
+    return f"{when.day} {when:%B %Y %H:%M} ({when.tzname()})" if when else ""
 
 
 NUMBERS = (

@@ -22,6 +22,7 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 KIT = Path(__file__).parents[1]
+os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
 
 HandIn = Callable[..., Path]
 Once = Callable[[str, Callable[[Path], object]], Path]

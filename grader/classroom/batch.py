@@ -4,7 +4,7 @@ Results are written as they come, and what stands from an earlier run is not gra
 """
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
@@ -13,13 +13,14 @@ from pathlib import Path
 import msgspec
 from rich.console import Console
 
-from grader.classroom.adjustments import Adjustments
-from grader.classroom.book import Book, Outcome, outcome_of
+from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.classroom.book import NOTHING, Book, Outcome, outcome_of
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.intake.found import CannotTake, Found, Intake, Package
 from grader.classroom.intake.packing import pack
 from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
+from grader.classroom.similarity import Prints, prints_of
 from grader.judge.course import FULL, Course
 from grader.judge.submission import CannotGrade
 
@@ -46,6 +47,8 @@ class Run:
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
     same: dict[str, dict[tuple[Path, ...], str]] = field(default_factory=dict)  # names, by files
+    prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
+    said: dict[str, list[str]] = field(default_factory=dict)  # by name: what taking in had to say
 
     def tasks(self) -> Iterator[Task]:
         """The submissions that must be graded; all others are recorded on the way."""
@@ -56,7 +59,9 @@ class Run:
                 self.trouble(found, str(error))
                 continue
             self.same.setdefault(package.digest, {})[found.sources] = found.name
-            self.notes += [f"{found.name}: left out {each}" for each in package.notes]
+            self.notes += [f"{found.name}: {each}" for each in package.notes]
+            self.said[found.name] = package.notes
+            self.prints.append(prints_of(package, found.sources))
             key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
             kept = self.book.kept(found.name, key)
             if kept is None:
@@ -74,17 +79,39 @@ class Run:
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        added = self.course.added(outcome.bonus)
-        final = self.adjustments.final(found, outcome.points + added)
+        outcome = msgspec.structs.replace(outcome, bonus_by_hand=self.adjustments.bonus(found.name))
+        added = 0 if outcome.trouble else self.course.added(outcome.bonus)
+        earned = None if outcome.trouble else outcome.points + added
+        final = self.adjustments.final(found, earned)
+        counted = [f"bonus: +{added}"] if added and not final.by_hand else []
         outcome = msgspec.structs.replace(
             outcome,
-            final=final.points if not outcome.trouble else 0,
-            reasons=[*([f"bonus: +{added}"] if added else []), *final.reasons],
-            late=found.late,
-            handed_in=found.handed_in,
+            final=final.points or 0,
+            by_hand=final.by_hand,
+            reasons=[*counted, *final.reasons],
+            notes=self.said.get(found.name, []),
+            late=bool(self.adjustments.days_late(found)),
+            due=final.due,
+            handed_in=self.adjustments.aware(found.handed_in) if found.handed_in else None,
         )
-        self.counts[how] += 1
+        self.counts[how] = self.counts.get(how, 0) + 1
         self.outcomes.append(outcome)
+
+    def nothing_handed_in(self, names: Iterable[str]) -> None:
+        """Whose points are set by hand has a mark, whatever they handed in."""
+        for name in names:
+            found = Found(name, ())
+            if self.adjustments.final(found, None).by_hand:
+                self.record("by hand", found, Outcome(name, NOTHING))
+
+    def comparable(self, outcomes: list[Outcome]) -> list[Outcome]:
+        """Marks that a person gave are out of as many points as the others'."""
+        most = max((each.max_points for each in outcomes), default=0)
+        most = most or self.course.rubric.max_points
+        return [
+            msgspec.structs.replace(each, max_points=most) if each.by_hand else each
+            for each in outcomes
+        ]
 
     def copies(self) -> Iterator[str]:
         """Those who handed in the same files apart, unless these are worth nothing."""
@@ -102,11 +129,15 @@ def grade_class(
     console: Console,
     adjustments: Adjustments | None = None,
     course: Course = FULL,
+    absent: Iterable[str] = (),
 ) -> Run:
-    """Grade what is new in a class; results, book and table are in and beside the folder `out`."""
+    """Grade what is new in a class; results, book and table are in and beside the folder `out`.
+
+    `absent` are those who might have handed in and did not; points set by hand are theirs too.
+    """
     total = len(intake.found) + len(intake.troubles)
     with Book(out) as book, Counter("grading", total, console) as counter:
-        decided = (adjustments or Adjustments()).within(course)
+        decided = adjustments or load_adjustments(None, course)
         run = Run(intake, book, key, decided, course, notes=list(intake.notes))
         for name, words in intake.troubles.items():
             run.trouble(Found(name, ()), words)
@@ -117,7 +148,8 @@ def grade_class(
                 run.graded(task, graded)
             counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
             counter.reached(len(run.outcomes), counts)
-        run.outcomes.sort(key=lambda each: each.name)
+        run.nothing_handed_in(absent)
+        run.outcomes = run.comparable(sorted(run.outcomes, key=lambda each: each.name))
         book.close_with(run.outcomes, course)
     run.notes += run.copies()
     names = [each.name for each in run.outcomes]

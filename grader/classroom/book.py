@@ -18,10 +18,13 @@ from typing import Self
 import msgspec
 from msgspec import Struct
 
+from grader.classroom.adjustments import timestamp
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, is_bonus
 from grader.report.files import write_whole
 from grader.report.sinks.tables import harmless
+
+NOTHING = "nothing was handed in"
 
 
 class Outcome(Struct, frozen=True):
@@ -41,10 +44,21 @@ class Outcome(Struct, frozen=True):
     graded: datetime | None = None
     key: str = ""  # the hash of all that the result depends on
     content: str = ""  # the hash of the result's file
+    bonus_by_hand: int = 0  # beside what was graded
+    by_hand: bool = False  # the final points were set by a person, whatever was graded
+    due: datetime | None = None  # for this student
+    notes: list[str] = []  # what taking it in has to say
+
+    @property
+    def mark(self) -> int | None:
+        """The points that count; None where a person must look first."""
+        return self.final if self.by_hand or not self.trouble else None
 
     @property
     def bonus(self) -> int:
-        return sum(points for todo, points in self.todos.items() if is_bonus(todo))
+        """The points of bonus tasks and those that a person gave as such, all of them."""
+        graded = sum(points for todo, points in self.todos.items() if is_bonus(todo))
+        return graded + self.bonus_by_hand
 
 
 class Book:
@@ -134,10 +148,16 @@ def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
     todos = [todo.id for todo in course.rubric.todos]
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(["name", "points", "found", "of", "late", "adjusted", "trouble", *todos])
+    titles = ["name", "points", "found", "of", "bonus", "handed in", "due", "late", "adjusted"]
+    writer.writerow([*titles, "trouble", "notes", *todos])
     for each in outcomes:
-        graded = [each.final, each.points, each.max_points] if not each.trouble else [""] * 3
-        told = ["late" if each.late else "", "; ".join(each.reasons), each.trouble]
+        mark = "" if each.mark is None else each.mark
+        found = ["", each.max_points or ""] if each.trouble else [each.points, each.max_points]
+        bonus = each.bonus if each.mark is not None else ""
+        times = [timestamp(when) if when else "" for when in (each.handed_in, each.due)]
+        late = "late" if each.late else ""
+        words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
-        writer.writerow([harmless(each.name), *graded, *map(harmless, told), *points])
+        numbers = [mark, *found, bonus, *times]
+        writer.writerow([harmless(each.name), *numbers, *map(harmless, words), *points])
     return out.getvalue()

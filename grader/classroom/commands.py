@@ -4,8 +4,9 @@ Each imports what it needs itself: all of it together would add a tenth of a sec
 of the grader, `check` included.
 """
 
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 import typer
@@ -30,22 +31,31 @@ TakenFile = Annotated[  # where --course is nbgrader's folder
         help="What the course takes of the kit; its course.toml if left out.",
     ),
 ]
+Feedbacks = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
 
 
 @course_app.command("course")
 def course_command(
     course: Annotated[Path, typer.Argument(help="The course folder to make.")],
     renew: Annotated[bool, typer.Option(help="Replace the assignment's source.")] = False,
+    release: Annotated[
+        Path | None,
+        typer.Option(help="What students get, an archive; the newest in build/release."),
+    ] = None,
     taken: TakenFile = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     needs_checkout("nbgrader course")
-    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
+    from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course, newest_release
 
+    release = release or newest_release(KIT / "build" / "release")
     try:
-        files = make_course(course, renew, course_in(taken))
+        files = make_course(course, renew, release, course_in(taken))
     except NoCourse as error:
         stop(str(error), "go on")
+    if release is None:
+        console.print("There is no release in build/release, so that make check will not work in")
+        console.print("what students get. Run make release first, then this again with --renew.")
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 
@@ -183,7 +193,133 @@ def dashboard_command(
     console.print(f"made {page}", soft_wrap=True)
 
 
-List = Annotated[Path, typer.Argument(help="The class list: a CSV from Canvas or Moodle.")]
+@app.command("course-check")
+def course_check_command(
+    submissions: Annotated[
+        Path | None, typer.Argument(help="Submissions, all or some: read, and not graded.")
+    ] = None,
+    roster: Annotated[Path | None, typer.Option(help="The class list.")] = None,
+    key: Annotated[str, typer.Option(help="Its column that names students.")] = "",
+    adjust: Annotated[Path | None, typer.Option(help="The adjustments.")] = None,
+    settings: Annotated[
+        Path | None, typer.Option(help="marks.toml: what the parts are worth, and the title.")
+    ] = None,
+    course: CourseFile = None,
+) -> None:
+    """Say what would go wrong, before it does. Exit status 1: something would."""
+    from grader.classroom.course_check import Files, faults_of_course
+    from grader.classroom.grading import beside
+
+    if submissions is not None:
+        roster = roster or beside(submissions, "roster.csv")
+        adjust = adjust or beside(submissions, "adjustments.toml")
+    faults = list(faults_of_course(Files(roster, key, adjust, settings, submissions), course))
+    for fault in faults:
+        console.print(clean(fault), soft_wrap=True)
+    if not faults:
+        console.print("Nothing would go wrong with what is there.")
+    raise typer.Exit(1 if faults else 0)
+
+
+@app.command("alike")
+def alike_command(
+    results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
+    submissions: Annotated[Path, typer.Option(help="The class as it was graded.")],
+    also: Annotated[
+        list[Path] | None, typer.Option(help="Another class, as last year's; may be repeated.")
+    ] = None,
+    roster: Annotated[
+        Path | None, typer.Option(help="The class list, if it was graded with one.")
+    ] = None,
+    least: Annotated[
+        float, typer.Option(min=0, max=1, help="The share above which a pair is shown.")
+    ] = 0.5,
+    course: CourseFile = None,
+) -> None:
+    """Show which submissions are alike, also those of earlier years, on the page of the class."""
+    from grader.classroom.dashboard import NoResults, read_class, write_dashboard
+    from grader.classroom.grading import people_of
+    from grader.classroom.similarity import alike, prints_of_class, write_alike
+
+    taken = course_in(course)
+    try:
+        entries = read_class(results)
+        with ExitStack() as stack:
+            found, prints = prints_of_class(stack, submissions, people_of(submissions, roster))
+            here = {each.name for each in prints}
+            for folder in also or []:
+                others, more = prints_of_class(stack, folder, people_of(folder, None), folder.name)
+                found |= others
+                prints += more
+            pairs = alike(prints, least, here)
+            page = write_alike(results, pairs, found, least)
+        write_dashboard(results, entries, taken)
+    except (CannotGrade, NoResults) as error:
+        stop(str(error), "go on")
+    console.print(f"{len(pairs)} pairs are on {page}", soft_wrap=True)
+
+
+@app.command("feedback")
+def feedback_command(
+    results: Annotated[Path, typer.Argument(help="The results of a class, a folder.")],
+    for_: Annotated[
+        Feedbacks, typer.Option("--for", help="Who takes it: the LMS, mail, or nbgrader.")
+    ],
+    submissions: Annotated[
+        Path | None, typer.Option(help="The class as it was graded; for an LMS.")
+    ] = None,
+    roster: Annotated[Path | None, typer.Option(help="The class list; needed for email.")] = None,
+    key: Annotated[str, typer.Option(help="Its column that names students.")] = "",
+    out: Annotated[
+        Path | None, typer.Option(help="The zip, or for email and nbgrader the folder, to write.")
+    ] = None,
+    course: CourseFile = None,
+) -> None:
+    """Put everybody's page where it can go back from. Exit status 1: somebody was left out."""
+    from grader.classroom import feedback
+    from grader.classroom.dashboard import NoResults, read_class, write_dashboard
+    from grader.classroom.grading import beside, people_of
+    from grader.classroom.intake.listing import opened_class
+    from grader.classroom.roster import CannotRead, read_roster
+    from grader.report.files import write_whole
+
+    taken = course_in(course)
+    try:
+        entries = read_class(results)
+        write_dashboard(results, entries, taken)
+        pages = results.resolve()
+        if for_ == "nbgrader":
+            made = feedback.for_nbgrader(entries, pages)
+        elif for_ == "email":
+            listed = roster or (beside(submissions, "roster.csv") if submissions else None)
+            if listed is None:
+                stop("addresses are in the class list: name it with --roster", "go on")
+            book = read_roster(listed)
+            made = feedback.by_address(book, book.key(key), entries, pages)
+        else:
+            if submissions is None:
+                stop(f"{for_} knows files by the names it gave: name --submissions", "go on")
+            with opened_class(submissions, people_of(submissions, roster)) as intake:
+                made = feedback.by_export(for_, intake, entries, pages, taken)
+    except (CannotGrade, CannotRead, NoResults) as error:
+        stop(str(error), "go on")
+    name = results.resolve().name
+    if for_ in ("email", "nbgrader"):
+        target = out or (
+            Path("feedback") if for_ == "nbgrader" else results.parent / f"{name}-mail"
+        )
+        for file, content in made.files.items():
+            write_whole(content, target / file)
+    else:
+        target = out or results.resolve().with_name(f"{name}-{for_}.zip")
+        write_whole(made.zipped(), target)
+    for note in made.notes:
+        console.print(clean(note), soft_wrap=True)
+    console.print(f"{len(made.files)} files are in {target}", soft_wrap=True)
+    raise typer.Exit(1 if made.notes else 0)
+
+
+List = Annotated[Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")]
 Key = Annotated[str, typer.Option(help="Its column that names students as their folders do.")]
 
 
@@ -202,7 +338,7 @@ def marks_command(
     so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
     taken: TakenFile = None,
 ) -> None:
-    """Make one mark per student, for Canvas or Moodle.
+    """Make one mark per student, in the gradebook's own form.
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
@@ -230,7 +366,7 @@ def marks_command(
     except (CannotRead, NoCourse, NoResults) as error:
         stop(str(error), "go on")
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_bytes(made.text.encode("utf-8"))
+    out.write_bytes(made.text.encode(made.encoding))
     for note in [*told, *made.notes]:
         console.print(clean(note))
     console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")

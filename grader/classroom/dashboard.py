@@ -15,9 +15,11 @@ from urllib.parse import quote
 import msgspec
 from markupsafe import Markup
 
+from grader.classroom.adjustments import timestamp
 from grader.classroom.book import Book, Outcome, outcome_of
 from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.packing import pack
+from grader.classroom.similarity import read_alike
 from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course, told
 from grader.judge.grade import Options, grade
@@ -26,7 +28,7 @@ from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 from grader.player.page import allowed, environment, one_line, theme
 from grader.report.files import write_whole
-from grader.report.html import write_report
+from grader.report.html import Standing, write_report, write_standing
 
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
@@ -129,7 +131,8 @@ def entry_of(book: Book, outcome: Outcome) -> Entry:
     try:
         return Entry(outcome, msgspec.json.decode(path.read_bytes(), type=Result))
     except (OSError, msgspec.MsgspecError) as error:
-        return Entry(Outcome(outcome.name, f"its result cannot be read: {error}"))
+        words = f"its result cannot be read: {error}"
+        return Entry(msgspec.structs.replace(outcome, trouble=words))
 
 
 # ---------------------------------------------------------------- replays
@@ -216,19 +219,39 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
     folder = Book(results).folder
     for entry in entries:
         report = folder / f"{entry.outcome.name}.html"
+        standing = standing_of(entry.outcome)
         if entry.result is None:
-            report.unlink(missing_ok=True)  # none may outlive its submission
+            write_standing(standing, report)
         else:
-            write_report(told(entry.result, course), report)
+            write_report(told(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(dashboard(folder, entries).encode("utf-8"), path)
     return path
 
 
+def standing_of(outcome: Outcome) -> Standing:
+    """What a page says beside the checks: the mark, the dates, and all that was decided."""
+    lines = [
+        ("Handed in", timestamp(outcome.handed_in) if outcome.handed_in else ""),
+        ("Due", timestamp(outcome.due) if outcome.due else ""),
+        ("Not graded", outcome.trouble),
+        *(("Decided", words) for words in outcome.reasons),
+        *(("Note", words) for words in outcome.notes),
+    ]
+    return Standing(
+        outcome.name,
+        outcome.mark,
+        outcome.max_points,
+        outcome.bonus,
+        [(name, words) for name, words in lines if words],
+    )
+
+
 def dashboard(folder: Path, entries: list[Entry]) -> str:
     """The page; reports and replays are linked to as they lie in `folder`, beside it."""
     graded = [each for each in entries if each.result]
-    points = [each.outcome.final for each in graded]
+    marked = [each for each in entries if each.outcome.mark is not None]
+    points = [each.outcome.final for each in marked]
     style = theme() + (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
     return (
@@ -239,16 +262,18 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
             folder=f"./{quote(folder.name)}/",
             entries=entries,
             graded=graded,
-            troubled=[each for each in entries if not each.result],
+            troubled=[each for each in entries if each.outcome.mark is None],
             mean=f"{statistics.fmean(points):.1f}" if points else "none",
             median=f"{statistics.median(points):g}" if points else "none",
-            full=sum(each.outcome.final >= each.outcome.max_points for each in graded),
-            bins=[sum(each.bin == number for each in graded) for number in range(BINS)],
+            full=sum(each.outcome.final >= each.outcome.max_points for each in marked),
+            bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
             rates=rates_of(graded),
             mistakes=mistakes_of(graded, folder),
+            alike=read_alike(folder),
             slowest=slowest(graded),
-            bonus=any(each.result.bonus for each in graded if each.result),
+            bonus=any(each.outcome.bonus for each in marked),
             marks=MARKS,
+            notes=notes_of,
             clean=one_line,
             quote=quote,
             style=Markup(style),
@@ -257,6 +282,14 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
             script_hash=f"'{allowed(script)}'",
         )
     )
+
+
+def notes_of(outcome: Outcome) -> list[str]:
+    """What a table says of one submission, beside its points."""
+    decided = [] if outcome.trouble or not outcome.reasons else [f"found {outcome.points}"]
+    decided = ["; ".join([*decided, *outcome.reasons])]
+    late = ["late"] if outcome.late and not outcome.reasons else []
+    return [words for words in [outcome.trouble, *late, *decided, *outcome.notes] if words]
 
 
 def slowest(graded: list[Entry]) -> list[Entry]:

@@ -7,19 +7,20 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.book import Outcome
 from grader.classroom.cluster import connected
-from grader.classroom.dashboard import read_class, write_dashboard
+from grader.classroom.dashboard import notes_of, read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import key_of
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.names import in_short
 from grader.classroom.roster import CannotRead, ClassList, read_roster
+from grader.classroom.similarity import alike, write_alike
+from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
-from grader.judge.rubric import load_rubric
 from grader.judge.submission import CannotGrade
 from grader.words import clean
 
@@ -44,13 +45,20 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     path = path.resolve()
     people = people_of(path, wanted.roster)
     adjust = wanted.adjust or beside(path, "adjustments.toml")
-    adjustments = load_adjustments(adjust) if adjust else Adjustments()
+    course = wanted.options.course
+    adjustments = load_adjustments(adjust, course)
     out = wanted.out or path.with_name(f"{path.stem}-results")
     with opened_class(path, people) as intake, opened_executor(wanted) as executor:
-        key, course = key_of(wanted.options), wanted.options.course
-        run = grade_class(intake, out, key, executor, console, adjustments, course)
-        names = [each.name for each in intake.found]
-        if absent := people.absent(names):
+        names = [*(each.name for each in intake.found), *intake.troubles]
+        absent = people.absent(names)
+        adjustments.refuse_doubts([*names, *absent])
+        mine = absent if people.names else adjustments.unused(names)
+        key = key_of(wanted.options)
+        run = grade_class(intake, out, key, executor, console, adjustments, course, mine)
+        if len(run.outcomes) <= LONGEST_PAGE:
+            by_name = {each.name: each for each in intake.found}
+            write_alike(run.book.folder, alike(run.prints), by_name)
+        if absent:
             run.notes.append(f"nothing was handed in by {in_short(absent)}")
         if unlisted := people.unlisted(names):
             run.notes.append(f"not in the class list: {in_short(unlisted)}")
@@ -94,7 +102,7 @@ def show_class(run: Run, console: Console) -> None:
         console.print(table_of(run.outcomes))
     results = [each for each in run.outcomes if not each.trouble]
     if len(results) > 1:
-        console.print(rates(results))
+        console.print(rates(results, run.course))
     for note in run.notes[:LONGEST]:
         console.print(clean(note), soft_wrap=True)
     counts = ", ".join(f"{count} {how}" for how, count in run.counts.items())
@@ -106,22 +114,18 @@ def show_class(run: Run, console: Console) -> None:
 def table_of(outcomes: list[Outcome]) -> Table:
     table = Table("submission", "points", "not passed")
     for each in outcomes:
-        if each.trouble:
-            table.add_row(clean(each.name), "none", clean(each.trouble))
-            continue
-        points = f"{each.final} / {each.max_points}"
-        told = [f"found {each.points}; {clean('; '.join(each.reasons))}"] if each.reasons else []
-        late = ["late"] if each.late and not each.reasons else []
+        points = "none" if each.mark is None else f"{each.mark} / {each.max_points}"
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
-        left = "all" if nothing else ", ".join(each.left)
-        table.add_row(clean(each.name), points, "\n".join(filter(None, [left, *late, *told])))
+        left = "all" if nothing and not each.trouble else ", ".join(each.left)
+        words = [clean(line) for line in (left, *notes_of(each)) if line]
+        table.add_row(clean(each.name), points, "\n".join(words))
     return table
 
 
-def rates(results: list[Outcome]) -> Table:
+def rates(results: list[Outcome], course: Course) -> Table:
     """The share of submissions that pass each TODO of the assignment."""
     table = Table("TODO", "passed by", box=None)
-    for todo in load_rubric().counted:
+    for todo in course.rubric.counted:
         asked = [each for each in results if todo.id in each.todos]
         if asked:
             passed = sum(todo.id not in each.left for each in asked)

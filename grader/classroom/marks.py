@@ -6,8 +6,9 @@ so that a spreadsheet would run them.
 
 import csv
 import io
+import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
@@ -15,13 +16,23 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.book import Outcome
-from grader.classroom.names import folded, names_of
-from grader.classroom.roster import CANVAS, MOODLE, POINTS_POSSIBLE, CannotRead, Roster
+from grader.classroom.book import NOTHING, Outcome
+from grader.classroom.owners import match
+from grader.classroom.roster import (
+    BLACKBOARD,
+    CANVAS,
+    END_OF_LINE,
+    MOODLE,
+    POINTS_POSSIBLE,
+    CannotRead,
+    Kind,
+    Roster,
+)
 from grader.judge.course import FULL, Course
 from grader.report.sinks.tables import harmless
 from grader.words import clean
 
+TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.]+)")  # Blackboard's and Brightspace's columns
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
@@ -46,6 +57,7 @@ class Part:
     max_points: float
     waiting: bool = False  # for a person to grade it
     note: str = ""  # why these points
+    handed_in: bool = True  # a person may set points for who handed in nothing
 
 
 Parts = dict[str, Part]
@@ -90,17 +102,21 @@ def waiting(parts: Parts, marking: Marking) -> list[str]:
 def parts_from_results(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
     """The engine alone, where no notebooks are used: after adjustments, which are its note.
 
-    What could not be graded waits for a person.
+    What could not be graded waits for a person, unless one has set its points.
     """
     return {
-        each.name: {ENGINE: Part(each.final, each.max_points, bool(each.trouble), why(each))}
+        each.name: {
+            ENGINE: Part(
+                each.final, each.max_points, each.mark is None, why(each), each.trouble != NOTHING
+            )
+        }
         for each in outcomes
     }
 
 
 def why(outcome: Outcome) -> str:
     """Why these are its points, if they are not what the checks gave."""
-    return outcome.trouble or "; ".join(outcome.reasons)
+    return "; ".join(filter(None, [outcome.trouble, *outcome.reasons]))
 
 
 # ---------------------------------------------------------------- marks for the LMS
@@ -113,6 +129,7 @@ class Marks:
     text: str
     given: int
     notes: list[str]
+    encoding: str = "utf-8"
 
 
 def marks(
@@ -120,29 +137,43 @@ def marks(
 ) -> Marks:
     """The class list with a mark for each student.
 
-    A mark that still waits for a person is left empty, unless `so_far`.
+    A mark that still waits for a person is left empty, unless `so_far`. So is a row that could be
+    more than one student's: nobody gets another's mark, nor a zero for bearing another's name.
     """
-    by_name = {folded(student): student for student in scores}
-    rows, notes, met = [], [], set()
+    absent = [
+        name for name, parts in scores.items() if not any(p.handed_in for p in parts.values())
+    ]
+    owners = match(roster, key, scores, absent)
+    rows: list[Marked] = []
+    notes: list[str] = []
     given = 0
     for row in roster.rows:
-        student = next((by_name[name] for name in names_of(row[key]) if name in by_name), None)
+        found = owners.of(row)
         mark, words = str(marking.absent), "nothing handed in"
-        if student is not None:
-            met.add(student)
-            mark, words = mark_of(scores[student], marking), summary(scores[student], marking)
-            left = waiting(scores[student], marking)
+        if row in owners.doubtful or len(found) > 1:
+            mark, words = "", ""
+            names = found or [name for name, them in owners.doubts.items() if row in them]
+            notes.append(f"{row[key]}: no mark, {' and '.join(names)} could be theirs: see by hand")
+        elif found:
+            parts = scores[found[0]]
+            mark, words = mark_of(parts, marking), summary(parts, marking)
+            left = waiting(parts, marking)
             if left and not so_far:
                 mark = ""
                 notes.append(f"{row[key]}: no mark yet, {', '.join(left)} must be graded by hand")
+            if mates := owners.mates(row):
+                notes.append(f"{row[key]}: the mark of {' and '.join(mates)}, of the same group")
         else:
             notes.append(f"{row[key]}: nothing handed in")
         given += mark != ""
         rows.append((row, mark, words))
-    for student in sorted(set(scores) - met):
+    for student in sorted(owners.strangers):
         notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
-    table = canvas_table(roster, rows, marking) if roster.canvas else plain_table(roster, key, rows)
-    return Marks(as_csv(table, roster), given, notes)
+    worth = total_of(roster, marking.title)
+    if worth is not None and worth != marking.total:
+        notes.append(f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}")
+    table = TABLES[roster.kind](roster, key, rows, marking)
+    return Marks(as_csv(table, roster), given, notes, roster.encoding)
 
 
 def summary(parts: Parts, marking: Marking) -> str:
@@ -158,10 +189,10 @@ def summary(parts: Parts, marking: Marking) -> str:
 Marked = tuple[dict[str, str], str, str]  # a row of the class list, its mark, the summary
 
 
-def canvas_table(roster: Roster, rows: list[Marked], marking: Marking) -> list[list[str]]:
+def canvas_table(roster: Roster, key: str, rows: list[Marked], marking: Marking) -> list[list[str]]:
     """Canvas takes back its own first columns and one column per assignment."""
     own = [name for name in CANVAS if name in roster.columns]
-    title = next((c for c in roster.columns if c.startswith(f"{marking.title} (")), marking.title)
+    title = titled(roster, f"{marking.title} (", marking.title)
     table = [[*own, title]]
     if roster.possible:
         table.append([f"    {POINTS_POSSIBLE}", *[""] * (len(own) - 1), f"{marking.total:g}"])
@@ -169,12 +200,70 @@ def canvas_table(roster: Roster, rows: list[Marked], marking: Marking) -> list[l
     return table
 
 
-def plain_table(roster: Roster, key: str, rows: list[Marked]) -> list[list[str]]:
-    """Moodle asks at import which column is which."""
+def plain_table(roster: Roster, key: str, rows: list[Marked], marking: Marking) -> list[list[str]]:
+    """Moodle's gradebook asks at import which column is which."""
     own = [name for name in roster.columns if name in MOODLE or name == key]
     table = [[*own, "Grade", "Feedback"]]
     table += [[*(row[name] for name in own), mark, words] for row, mark, words in rows]
     return table
+
+
+def worksheet_table(
+    roster: Roster, key: str, rows: list[Marked], marking: Marking
+) -> list[list[str]]:
+    """Moodle's grading worksheet goes back as it came: by its Identifier, two columns filled."""
+    filled = {"Grade": 1, "Feedback comments": 2}
+    table = [roster.columns]
+    for marked in rows:
+        cells = {name: str(marked[at]) for name, at in filled.items()}
+        table.append([cells.get(name, marked[0][name]) for name in roster.columns])
+    return table
+
+
+def blackboard_table(
+    roster: Roster, key: str, rows: list[Marked], marking: Marking
+) -> list[list[str]]:
+    """Blackboard knows people by their username, and a column by the id behind its title."""
+    own = [name for name in BLACKBOARD if name in roster.columns]
+    title = titled(roster, f"{marking.title} [", marking.title)
+    return [[*own, title], *([*(row[name] for name in own), mark] for row, mark, _ in rows)]
+
+
+def brightspace_table(
+    roster: Roster, key: str, rows: list[Marked], marking: Marking
+) -> list[list[str]]:
+    """Brightspace wants an identifier, the points, and a sign at the end of each row."""
+    own = [name for name in ("OrgDefinedId", "Username") if name in roster.columns]
+    table = [[*own, f"{marking.title} Points Grade", END_OF_LINE]]
+    return [*table, *([*(row[name] for name in own), mark, "#"] for row, mark, _ in rows)]
+
+
+def total_of(roster: Roster, title: str) -> float | None:
+    """What full marks are in the gradebook; None where it does not say."""
+    if roster.kind == "worksheet":
+        totals = {row.get("Maximum Grade", "").strip() for row in roster.rows}
+        told = next(iter(totals)) if len(totals) == 1 else ""
+    else:
+        columns = (name for name in roster.columns if name.startswith(title))
+        told = next((match[1] for name in columns if (match := TOTAL.search(name))), "")
+    try:
+        return float(told) if told else None
+    except ValueError:  # a number as another country writes it
+        return None
+
+
+def titled(roster: Roster, start: str, otherwise: str) -> str:
+    """The gradebook's own name of the assignment's column, an id behind it."""
+    return next((name for name in roster.columns if name.startswith(start)), otherwise)
+
+
+TABLES: dict[Kind, Callable[[Roster, str, list[Marked], Marking], list[list[str]]]] = {
+    "canvas": canvas_table,
+    "worksheet": worksheet_table,
+    "blackboard": blackboard_table,
+    "brightspace": brightspace_table,
+    "plain": plain_table,
+}
 
 
 def as_csv(table: list[list[str]], roster: Roster) -> str:

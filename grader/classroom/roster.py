@@ -1,16 +1,36 @@
-"""Class lists: the CSV files of Canvas and Moodle, and who is meant by what an LMS says."""
+"""Class lists: the gradebook files of learning systems, and who is meant by what one says."""
 
 import csv
 import io
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
+from typing import Literal
 
 from grader.classroom.names import folded, names_of
 
 CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
-MOODLE = ("First name", "Last name", "ID number", "Email address")
-KEYS = ("SIS Login ID", "Email address", "ID number", "SIS User ID")
+MOODLE = ("First name", "Last name", "Surname", "ID number", "Email address")
+WORKSHEET = ("Identifier", "Full name", "ID number", "Email address")  # Moodle's, of one assignment
+BLACKBOARD = ("Last Name", "First Name", "Username", "Student ID")
+BRIGHTSPACE = ("OrgDefinedId", "Username", "Last Name", "First Name", "Email")
+END_OF_LINE = "End-of-Line Indicator"  # Brightspace's last column, a # in each row
+SUBMITTED = "Last modified (submission)"  # in Moodle's worksheet, the school's own time
+MOMENTS = ("%A, %d %B %Y, %I:%M %p", "%A, %B %d, %Y, %I:%M %p", "%d %B %Y, %I:%M %p")
+CALLED = "Called"  # a column of one's own: what an export calls somebody whom it does not identify
+KEYS = (
+    "SIS Login ID",
+    "Email address",
+    "ID number",
+    "SIS User ID",
+    "Username",
+    "OrgDefinedId",
+    "Student ID",
+    "Email",
+    "Identifier",
+)
+Kind = Literal["canvas", "worksheet", "blackboard", "brightspace", "plain"]
 POINTS_POSSIBLE = "Points Possible"  # the first cell of Canvas's second row
 TEST_STUDENT = "Student, Test"  # Canvas's own, who never hands in
 
@@ -29,26 +49,31 @@ class Roster:
     path: Path
     columns: list[str]
     rows: list[dict[str, str]]  # of students
-    canvas: bool
+    kind: Kind
     possible: bool  # there is a row of points possible
     delimiter: str
     mark: str  # the byte order mark, where there is one
+    encoding: str = "utf-8"
 
     def key(self, wanted: str = "") -> str:
         """The column that identifies students."""
         if wanted and wanted not in self.columns:
             columns = ", ".join(self.columns)
             raise CannotRead(f"{self.path} has no column {wanted!r}; it has {columns}")
-        for name in [wanted] if wanted else KEYS:
-            if name in self.columns and any(row[name].strip() for row in self.rows):
-                return name
+        for enough in (all, any):  # one that everybody has, before one that some have
+            for name in [wanted] if wanted else KEYS:
+                if name in self.columns and enough(row[name].strip() for row in self.rows):
+                    return name
         raise CannotRead(f"{self.path} has none of {', '.join(KEYS)}: name yours with --key")
 
 
 def read_roster(path: Path) -> Roster:
-    """Read a class list of Canvas, Moodle, or any CSV with a row of titles."""
+    """Read the gradebook of a learning system, or any CSV with a row of titles."""
     try:
-        text = path.read_bytes().decode("utf-8")
+        content = path.read_bytes()
+        # Blackboard calls its tables .xls and writes them so
+        encoding = "utf-16" if content.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8"
+        text = content.decode(encoding)
     except OSError as error:
         raise CannotRead(f"there is no class list at {path}") from error
     except UnicodeDecodeError as error:
@@ -64,10 +89,23 @@ def read_roster(path: Path) -> Roster:
     if len(set(columns)) < len(columns):
         raise CannotRead(f"{path} has two columns of one name: {', '.join(columns)}")
     rows = [dict(zip(columns, [*row, *[""] * len(columns)], strict=False)) for row in lines[1:]]
-    canvas = set(CANVAS[:2]) <= set(columns)
+    kind = kind_of(columns)
+    canvas = kind == "canvas"
     possible = canvas and any(row["Student"].strip() == POINTS_POSSIBLE for row in rows)
     students = [row for row in rows if not canvas or is_student(row)]
-    return Roster(path, columns, students, canvas, possible, delimiter, mark)
+    return Roster(path, columns, students, kind, possible, delimiter, mark, encoding)
+
+
+def kind_of(columns: list[str]) -> Kind:
+    """Whose gradebook has these columns."""
+    here = set(columns)
+    if set(CANVAS[:2]) <= here:
+        return "canvas"
+    if {"Identifier", "Grade"} <= here:
+        return "worksheet"
+    if END_OF_LINE in here or "OrgDefinedId" in here:
+        return "brightspace"
+    return "blackboard" if set(BLACKBOARD[:3]) <= here else "plain"
 
 
 def is_student(row: dict[str, str]) -> bool:
@@ -82,9 +120,9 @@ def people(roster: Roster, key: str) -> Iterator[dict[str, str]]:
         last, comma, first = row.get("Student", "").partition(", ")
         yield {
             "id": row[key].strip(),
-            "first_name": row.get("First name", first if comma else ""),
-            "last_name": row.get("Last name", last),
-            "email": row.get("Email address", ""),
+            "first_name": row.get("First name", row.get("First Name", first if comma else "")),
+            "last_name": row.get("Last name", row.get("Last Name", last)),
+            "email": row.get("Email address", row.get("Email", "")),
         }
 
 
@@ -97,13 +135,18 @@ class ClassList:
     def __init__(self, roster: Roster | None = None, key: str = "") -> None:
         self.names: list[str] = []
         self._known: dict[tuple[str, str], set[str]] = {}
+        self._columns: set[str] = set()
+        self._handed_in: dict[str, datetime] = {}
         if roster is None:
             return
         key = roster.key(key)
+        self._columns = set(roster.columns)
         for row in roster.rows:
             if not row[key].strip():
                 continue
             self.names.append(row[key].strip())
+            if when := moment(row.get(SUBMITTED, "")):
+                self._handed_in[row[key].strip()] = when
             for column, label in [*row.items(), *(("name", name) for name in names_in(row))]:
                 self._known.setdefault((column, folded(label)), set()).add(row[key].strip())
 
@@ -115,6 +158,14 @@ class ClassList:
                 if label and len(names) == 1:
                     return next(iter(names))
         return None
+
+    def knows(self, column: str) -> bool:
+        """Whether the list has such identifiers: then no name need be guessed from."""
+        return column in self._columns
+
+    def handed_in(self, name: str) -> datetime | None:
+        """When somebody handed in, where the list says so: the school's own time, no zone."""
+        return self._handed_in.get(name)
 
     def absent(self, handed_in: Iterable[str]) -> list[str]:
         """Those who handed in nothing, given the names of the others."""
@@ -130,6 +181,21 @@ class ClassList:
 def names_in(row: dict[str, str]) -> Iterator[str]:
     """Someone's full name, first name first and last name first."""
     last, _, first = row.get("Student", "").partition(", ")
-    last, first = row.get("Last name", row.get("Surname", last)), row.get("First name", first)
+    for title in ("Last name", "Last Name", "Surname"):
+        last = row.get(title, last)
+    for title in ("First name", "First Name"):
+        first = row.get(title, first)
     if first and last:
         yield from (f"{first} {last}", f"{last} {first}")
+    if full := row.get("Full name", ""):
+        yield full
+
+
+def moment(words: str) -> datetime | None:
+    """A time as Moodle's worksheet has it, in English."""
+    for form in MOMENTS:
+        try:
+            return datetime.strptime(words.strip(), form)
+        except ValueError:
+            continue
+    return None

@@ -4,6 +4,7 @@
 one sentence, before anything is graded.
 """
 
+import re
 import tomllib
 from collections.abc import Iterator, Sequence
 from datetime import datetime
@@ -27,10 +28,22 @@ class WrongCourse(Exception):
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
-    """What each day after the due date costs, begun days counted as whole."""
+    """What lateness costs, begun days counted as whole: in a course, and in a class's decisions."""
 
-    per_day: int  # points
-    at_most: int = 100  # points
+    per_day: int | str = 0  # points, or a share of those earned, as "10%"
+    at_most: int = 100  # points that lateness takes
+    grace: int = 0  # minutes after the due date that cost nothing
+    free_days: int = 0  # late days that each student has
+    cap: int | None = None  # the most that late work can have
+    closed_after: int | None = None  # days, after which there are no points
+    due: datetime | None = None  # in decisions alone: a course has a line of its own for it
+
+    def loss(self, days: int, points: int) -> int:
+        """The points that so many days take off `points`; a begun point of a share is kept."""
+        if isinstance(self.per_day, str):
+            share = min(days * int(self.per_day.removesuffix("%")), 100)
+            return min(points * share // 100, self.at_most)
+        return min(days * self.per_day, self.at_most)
 
 
 class Course(Struct, frozen=True, forbid_unknown_fields=True):
@@ -81,6 +94,12 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     def added(self, bonus: int) -> int:
         """How many points of a bonus count with the others."""
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
+
+    @property
+    def most(self) -> int:
+        """The most points that a mark can have, with as much of the bonus as counts."""
+        bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
+        return self.rubric.max_points + self.added(bonus)
 
 
 FULL = Course()
@@ -262,14 +281,25 @@ def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
         yield f'bonus = {bonus!r} must be "apart", "left out", or how many points count at most'
     if late is None:
         return
-    if not isinstance(late, dict) or "per_day" not in late:
+    if not isinstance(late, dict) or not late.keys() & {"per_day", "cap", "closed_after"}:
         yield f"late = {late!r} must be a table: write [late] on a line and per_day = 10 below it"
-        return
+    elif "due" in late:
+        yield "late: due stands below [late]: write it above that line"
+    else:
+        yield from wrong_late(late)
+
+
+def wrong_late(late: dict[str, Any]) -> Iterator[str]:
+    """All that is wrong with rules for late work; their date aside."""
+    known = [name for name in Late.__struct_fields__ if name != "due"]
     for name, worth in late.items():
-        if name not in Late.__struct_fields__:
-            yield f"late: there is no key {name}; there are {', '.join(Late.__struct_fields__)}"
-        elif type(worth) is not int or worth < 0:
-            yield f"late: {name} = {worth!r} must be a whole number of points, 0 or more"
+        share = isinstance(worth, str) and re.fullmatch(r"\d+%", worth)
+        if name not in known:
+            yield f"late: there is no key {name}; there are {', '.join(known)}"
+        elif name == "per_day" and isinstance(worth, str) and not share:
+            yield f'late: per_day = {worth!r} must be points, or a share as "10%"'
+        elif not (name == "per_day" and share) and (type(worth) is not int or worth < 0):
+            yield f"late: {name} = {worth!r} must be a whole number, 0 or more"
 
 
 def wrong_dates(document: dict[str, Any]) -> Iterator[str]:

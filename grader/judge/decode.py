@@ -47,6 +47,7 @@ class Decoder:
             self.fail(expected, got, meaning)
 
     def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
+        """Fail the check at once; the words are those of `want`."""
         raise self.remember(NotYet(self.running, expected, got, meaning))
 
     def remember(self, failure: NotYet | Broke) -> NotYet | Broke:

@@ -222,9 +222,11 @@ class Lab(Decoder):
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
     def get(self, thing: Thing, name: str) -> Value:
+        """An attribute of an object, such as a rod's `length`."""
         return self._value(Get(thing.ref, name))
 
     def put(self, thing: Thing, **fields: Any) -> None:
+        """Set attributes of an object; a tuple becomes a pair."""
         self._value(Set(thing.ref, {name: plain(value) for name, value in fields.items()}))
 
     # ------------------------------------------------------------ the lesson's engine
@@ -419,6 +421,7 @@ class Moment:
 
     @property
     def speed(self) -> float:
+        """px/s, whatever the direction."""
         return math.hypot(self.vx, self.vy)
 
 

@@ -15,6 +15,7 @@ from grader.commands import (
     stop,
 )
 from grader.judge.grade import KIT
+from grader.judge.rubric import load_rubric
 
 FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
 
@@ -35,6 +36,10 @@ def sync_command(
         stop(str(error), "go on")
     for line in lines or ["nothing to do: starter and solution are in step"]:
         console.print(line)
+    asked = {todo.id for todo in course_in(None).rubric.todos}
+    left = [todo.id for todo in load_rubric().todos if todo.id not in asked]
+    if left and not check:
+        console.print(f"course.toml does not name TODO {', '.join(left)}: nobody is asked for it")
     raise typer.Exit(1 if check and lines else 0)
 
 

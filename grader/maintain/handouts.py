@@ -14,7 +14,7 @@ from jinja2 import Environment, StrictUndefined
 
 from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
-from grader.words import listed, number
+from grader.words import listed, moment, number
 
 EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
 SECTION = re.compile(r"^(##+) (?:TODO )?([0-9]+[a-d]?|B[0-9]): ")
@@ -85,6 +85,7 @@ def words_of(course: Course) -> dict[str, Any]:
         "asked": lambda *names: any(name in todos for name in names),
         "every": course.rubric == load_rubric(),
         "title": course.title,
+        "due": moment(course.due),
         "tasks": number(len(tasks)),
         "bonus_tasks": number(len(bonus)),
         "bonus_points": sum(todo.max_points for todo in bonus),

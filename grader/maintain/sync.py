@@ -53,10 +53,21 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
     texts = {name: content.decode() for name, content in wanted.items() if name.endswith(".py")}
     for name, sources in (("stubs", stub_sources(texts)), ("given", given_sources(texts))):
         text = json.dumps(sources, indent=1) + "\n"
+        known = CHECKS / f"{name}.json"
+        before = known.read_bytes() if known.exists() else b"{}"
         if renewed(CHECKS / f"{name}.json", text.encode(), write):
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
             lines.append(f"renewed {name}.json for the checks" if write else differs)
+            lines += new_todos(before, sources) if write and name == "stubs" else []
     return lines
+
+
+def new_todos(before: bytes, stubs: dict[str, str]) -> list[str]:
+    """A line for each TODO that the checks did not know, or know no more."""
+    known = {id for id in json.loads(before) if not id.startswith("def ")}
+    now = {id for id in stubs if not id.startswith("def ")}
+    lines = [f"TODO {id} is new" for id in sorted(now - known)]
+    return lines + [f"TODO {id} is gone" for id in sorted(known - now)]
 
 
 def renewed(path: Path, content: bytes, write: bool) -> bool:

@@ -38,6 +38,9 @@ def export_command(
 ) -> None:
     """Turn a result into a form that another system reads."""
     tables = format in TABLES and result.is_dir()
+    if result.is_dir() and not tables:
+        several = " and ".join(TABLES)
+        stop(f"{result} is a folder, and {format} takes one result; {several} take many", "export")
     files = sorted(result.glob("[!.]*.json")) if tables else [result]
     if not files:
         stop(f"there are no results in {result}", "export")

@@ -14,7 +14,9 @@ import ci_readers
 import pytest
 
 from grader.judge.grade import KIT
+from grader.judge.rubric import load_rubric
 from grader.maintain.bank import patch
+from grader.maintain.students_copy import hidden_checks, visible
 from grader.report.sinks.classroom50 import BUNDLE, write_bundle
 
 ALL_BUT_THE_DOWNLOAD = """
@@ -118,6 +120,25 @@ def test_no_marks_are_no_error(tmp_path: Path):
     assert run.status == 0, run.log
     assert run.marks["score"] == 0 and len(run.marks["tests"]) == 14
     assert run.outputs == {"status": "failure", "summary": "0 of 100 points"}
+
+
+def test_a_folder_with_the_name_of_the_report_makes_room(tmp_path: Path):
+    checkout = checkout_of("starter", tmp_path)
+    (checkout / "report.html").mkdir()
+    (checkout / "report.html" / "inside.txt").write_text("mine", encoding="utf-8")
+    run = without_download(checkout)
+    assert run.status == 0, run.log
+    assert run.marks["score"] == 0
+    assert (checkout / "report.html").is_file()
+
+
+def test_the_page_says_how_many_points_there_are_to_have():
+    most = visible(load_rubric()).max_points
+    page = (KIT / "handouts" / "instructor" / "ci.md").read_text(encoding="utf-8")
+    assert f"out of {most}: the other {100 - most} come" in " ".join(page.split())
+    guide = (KIT / "handouts" / "instructor" / "guide.md").read_text(encoding="utf-8")
+    hidden = hidden_checks(load_rubric())
+    assert len(hidden) == 7 and f"Seven checks, {100 - most} points, ask" in guide
 
 
 def test_a_mistake_costs_its_todo_and_is_told(tmp_path: Path):

@@ -66,11 +66,10 @@ def test_an_unknown_todo_ends_with_status_2():
 
 def test_a_class_is_graded_into_a_folder(tmp_path: Path, hand_in):
     handed_in = tmp_path / "class"
-    (handed_in / "anna").mkdir(parents=True)
-    (handed_in / "ben").mkdir()
-    (handed_in / "anna" / "integrators.py").write_bytes(
-        (KIT / "solution" / "integrators.py").read_bytes()
-    )
+    for name, tree in (("anna", "solution"), ("ben", "starter")):
+        (handed_in / name).mkdir(parents=True)
+        content = (KIT / tree / "integrators.py").read_bytes()
+        (handed_in / name / "integrators.py").write_bytes(content)
     done = grader("grade", handed_in, "--class", "--out", tmp_path / "marks", "--jobs", 1)
     assert done.returncode == 0, done.stderr
     marks = {

@@ -1,12 +1,16 @@
 """A course of one's own: what it takes, what follows from it, and what is wrong in its file."""
 
+import importlib
 import io
 import json
 import re
+import shutil
+import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import msgspec
 import pytest
 import typer
 from conftest import KIT
@@ -16,18 +20,22 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 from grader import student
-from grader.classroom.adjustments import Adjustments, Late
+from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run
 from grader.classroom.book import Book, Outcome, as_table
 from grader.classroom.fingerprint import key_of
+from grader.classroom.gradescope import write_autograder
+from grader.classroom.gradescope.autograder import Settings
 from grader.classroom.intake.found import Found, Intake
 from grader.classroom.marks import load_marking
+from grader.classroom.nbgrader.course import make_course
 from grader.cli import app
-from grader.judge.course import FULL, Course, WrongCourse, read_course, spread, told
-from grader.judge.course import Late as Rules
+from grader.hand_in import PROGRAMS
+from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread, told
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
+from grader.judge.submission import CannotGrade
 from grader.maintain.bank import every_member, members
 from grader.maintain.handed_out import students_tree, write_tree
 from grader.maintain.handouts import handouts_of
@@ -143,8 +151,12 @@ WRONG = {
     "due = 2027-05-04T12:00:00Z\nvisible = 2027-05-03T12:00:00Z": "is before due",
     "late = 5": "must be a table",
     "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
-    "late = { per_day = 5, grace = 1 }": "there is no key grace",
+    "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
     "late = { per_day = -5 }": "per_day = -5 must be a whole number",
+    'late = { per_day = "5" }': 'must be points, or a share as "10%"',
+    "late = { cap = 80.5 }": "cap = 80.5 must be a whole number",
+    "late = { grace = 5 }": "must be a table",
+    "[late]\nper_day = 5\ndue = 2027-05-04T12:00:00Z": "write it above that line",
     "colour = 1": "there is no key colour; there are title, todos",
     "title = 3": "title = 3 is no title",
     "title =": "is no TOML",
@@ -220,21 +232,75 @@ def test_the_points_of_the_class_follow_from_the_course():
     found = Found("ann", (), handed_in=datetime(2027, 5, 6, tzinfo=UTC))
     due = datetime(2027, 5, 5, tzinfo=UTC)
     course = Course(todos=("8a", "8b", "8c", "B1"), bonus=3, due=due)
-    run = Run(Intake([found]), Book(Path("x")), "", Adjustments().within(course), course)
+    run = Run(Intake([found]), Book(Path("x")), "", load_adjustments(None, course), course)
     run.record("graded", found, outcome)
     assert (run.outcomes[0].final, run.outcomes[0].reasons) == (33, ["bonus: +3", "1 day late: 0"])
     head = as_table(run.outcomes, course).splitlines()[0]
-    assert head.endswith("trouble,8a,8b,8c,B1")
+    assert head.endswith("trouble,notes,8a,8b,8c,B1")
 
 
-def test_a_decision_goes_before_the_courses_rules():
+def test_a_decision_goes_before_the_courses_rules_line_by_line(tmp_path: Path):
     due = datetime(2027, 5, 5, tzinfo=UTC)
-    course = Course(due=due, late=Rules(10, 50))
-    assert Adjustments().within(course).late == Late(10, 50, due)
+    course = Course(due=due, late=Late(10, 50, cap=80))
+    assert load_adjustments(None, course).late == Late(10, 50, cap=80, due=due)
+
+    def decided(text: str) -> Late | None:
+        (tmp_path / "adjustments.toml").write_text(text, encoding="utf-8")
+        return load_adjustments(tmp_path / "adjustments.toml", course).late
+
     later = due + timedelta(days=2)
-    own = Adjustments(late=Late(5, due=later))
-    assert own.within(course).late == Late(5, due=later)
-    assert Adjustments(late=Late(5)).within(course).late == Late(5, due=due)
+    moved = decided("[late]\ndue = 2027-05-07T00:00:00Z")
+    assert moved == Late(10, 50, cap=80, due=later)
+    assert decided('[late]\nper_day = "5%"\ngrace = 9') == Late("5%", 50, 9, cap=80, due=due)
+    assert decided("[late]\nper_day = 0") == Late(0, 50, cap=80, due=due)
+    assert decided('zone = "Europe/Berlin"') == Late(10, 50, cap=80, due=due)
+
+
+def test_the_courses_due_date_can_be_extended(tmp_path: Path):
+    due = datetime(2027, 5, 5, tzinfo=UTC)
+    path = tmp_path / "adjustments.toml"
+    decision = "[[adjust]]\nstudent = 'ann'\nreason = 'ill'\ndue = 2027-05-0{}T00:00:00Z\n"
+    found = Found("ann", (), handed_in=due + timedelta(days=3))
+    path.write_text(decision.format(8), encoding="utf-8")
+    course = Course(due=due, late=Late("10%"))
+    assert load_adjustments(path, course).final(found, 80).points == 80
+    assert load_adjustments(None, course).final(found, 80).points == 80 - 24
+    with pytest.raises(CannotGrade, match="has a due to extend"):
+        load_adjustments(path)
+    path.write_text(decision.format(4), encoding="utf-8")
+    with pytest.raises(CannotGrade, match="is before the others'"):
+        load_adjustments(path, course)
+
+
+def test_a_bonus_by_hand_counts_as_the_course_counts_a_bonus(tmp_path: Path):
+    path = tmp_path / "adjustments.toml"
+    path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'shown'\nbonus = 4\n")
+    outcome = Outcome("ann", points=30, max_points=40, todos={"8a": 30, "B1": 2})
+    finals = []
+    for bonus in ("apart", "left out", 5, 50):
+        course = Course(bonus=bonus)
+        run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
+        run.record("graded", Found("ann", ()), outcome)
+        finals.append((run.outcomes[0].final, run.outcomes[0].bonus))
+    assert finals == [(30, 6), (30, 6), (35, 6), (36, 6)]
+
+
+def test_points_by_hand_are_the_mark_whatever_the_bonus_and_nobody_has_one_by_it(tmp_path: Path):
+    path = tmp_path / "adjustments.toml"
+    path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'seen'\npoints = 101\n")
+    with pytest.raises(CannotGrade, match="more than the 100"):
+        load_adjustments(path)
+    course = Course(bonus=3, todos=("8a", "8b", "B1"), points={"8a": 50, "8b": 49})
+    run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
+    run.record("graded", Found("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
+    run.record("trouble", Found("ben", ()), Outcome("ben", "broken"))
+    run.nothing_handed_in(["ann"])
+    assert [(each.mark, each.reasons) for each in run.comparable(run.outcomes)] == [
+        (101, ["seen: set to 101"]),
+        (None, []),
+        (101, ["seen: set to 101"]),
+    ]
+    assert [each.max_points for each in run.comparable(run.outcomes)] == [99, 0, 99]
 
 
 def test_gradebooks_scale_to_what_the_course_says(tmp_path: Path):
@@ -325,13 +391,59 @@ def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
     assert re.findall(r"^## TODO (\w+):", sheet, re.M) == [todo.id for todo in tasks]
 
 
+def test_students_are_told_until_when_and_what_to_hand_in():
+    course = Course(todos=("8a", "1"), due=datetime(2027, 5, 4, 23, 59, tzinfo=UTC))
+    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    assert "**Hand in until 4 May 2027 23:59 (UTC).**" in sheet
+    assert "`make hand-in`" in sheet and "`mini_engine` and `integrators.py`," in sheet
+
+
+def test_hand_in_packs_the_work_and_nothing_that_was_given(
+    handed_out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    shutil.copytree(handed_out, tmp_path / "mine")
+    (tmp_path / "mine" / "helpers.py").write_text("x = 1\n", encoding="utf-8")
+    (tmp_path / "mine" / "grader-1.whl").touch()
+    monkeypatch.chdir(tmp_path / "mine" / "mini_engine")
+    for name in ("a.zip", "b.zip"):
+        done = CliRunner().invoke(EVERY, ["hand-in", "--out", str(tmp_path / name)])
+        assert done.exit_code == 0, done.output
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        names = archive.namelist()
+        archive.extractall(tmp_path / "unpacked")
+    assert {name.partition("/")[0] for name in names} == {
+        *("mini_engine", "pymunk_scene.py", "integrators.py", "helpers.py", "lab_runtime.py")
+    }
+    result = graded(tmp_path / "unpacked", COURSES[CHEAP])
+    assert (result.points, result.max_points) == (0, 40)
+    course = str(KIT / "tests" / "courses" / f"{CHEAP}.toml")
+    done = CliRunner().invoke(EVERY, ["hand-in", "--out", "c.zip", "--course", course])
+    assert done.exit_code == 0, done.output
+    with zipfile.ZipFile("c.zip") as archive:
+        names = archive.namelist()
+    assert names == ["helpers.py", "integrators.py", "lab_runtime.py"]
+    assert set(PROGRAMS) == {todo.module for todo in load_rubric().todos}
+
+
+def test_the_sources_of_the_site_follow_the_course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.syspath_prepend(KIT / "handouts")
+    sources = importlib.import_module("make_site").sources
+    sources(tmp_path, False, COURSES[CHEAP])
+    hints = (tmp_path / "docs" / "hints.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## TODO (\w+):", hints, re.M) == ["8a", "8b", "8c"]
+    menu = re.findall(r": (\S+\.md)$", (tmp_path / "mkdocs.yml").read_text("utf-8"), re.M)
+    assert "lab-sheet.md" in menu and "bonus.md" not in menu
+    assert {path.name for path in (tmp_path / "docs").glob("*.md")} == set(menu)
+
+
 def test_the_pages_of_the_full_course_are_as_they_lie_there():
     for name, page in handouts_of(KIT / "handouts", FULL).items():
         text = (KIT / "handouts" / name).read_text(encoding="utf-8")
         plain = re.sub(
             r"<!--% else %-->.*?(?=<!--% endif)|<!--% elif.*?(?=<!--% endif)", "", text, flags=re.S
         )
-        plain = re.sub(r"^<!--%.*%-->\n|<!--%.*?%-->", "", plain, flags=re.M)
+        plain = re.sub(r"^<!--%.*%-->\n|<!--%.*?%-->|<!--=.*?=-->", "", plain, flags=re.M)
         assert page.split() == plain.split(), name
         assert "<!--%" not in page and "<!--=" not in page
 
@@ -347,6 +459,24 @@ def test_notebooks_ask_what_the_course_has():
     few = notebooks_of(folder, COURSES[CHEAP])
     assert {"integrators.ipynb", "accuracy.ipynb"} <= few.keys()
     assert b'"quiz-3"' in few["quiz.ipynb"] and b'"quiz-5"' not in few["quiz.ipynb"]
+
+
+def test_an_nbgrader_course_holds_what_the_course_has(tmp_path: Path):
+    course = COURSES["engine"]
+    files = make_course(tmp_path, taken=course)
+    assert "engine.ipynb" in files and "integrators.ipynb" not in files
+    shares = load_marking(tmp_path / "marks.toml", course).shares
+    assert {f"{name}.ipynb" for name in shares} == {n for n in files if n.endswith(".ipynb")}
+    text = (tmp_path / "source" / "physics-engine" / "pymunk_scene.py").read_text(encoding="utf-8")
+    assert "what TODO 7a asks for elsewhere is done here" in text
+
+
+def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
+    path = tmp_path / "course.zip"
+    write_autograder(path, Settings(course=COURSES["without-pymunk"]))
+    with zipfile.ZipFile(path) as archive:
+        settings = msgspec.json.decode(archive.read("settings.json"), type=Settings)
+    assert settings.course == COURSES["without-pymunk"]
 
 
 def test_code_that_is_given_is_no_secret_and_the_rest_is():

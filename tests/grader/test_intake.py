@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.classroom.intake import zips
+from grader.classroom.intake import archives
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import opened_submission, pack
@@ -207,7 +207,8 @@ def test_folders_checkouts_and_system_files(classroom):
     with opened_class(classroom) as taken:
         assert [each.name for each in taken.found] == ["ann", "ben", "cem", "empty"]
         assert all(names_in(each) == sorted(PROGRAM) for each in taken.found[:3])
-        assert names_in(taken.found[3]) == []
+        with pytest.raises(CannotTake, match=r"nothing of the lab .* it holds no file"):
+            pack(taken.found[3])
         assert not taken.troubles and not taken.notes
 
 
@@ -215,7 +216,10 @@ def test_nothing_is_dropped_in_silence(classroom):
     write(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x", "read me.txt": ""})
     (classroom / "link").symlink_to(classroom / "ann")
     with opened_class(classroom) as taken:
-        assert taken.troubles.keys() == {"ben", "cem"}
+        assert taken.troubles.keys() == {"cem"}
+        assert [each.name for each in taken.found] == ["ann", "ben"]
+        with pytest.raises(CannotTake, match="broken"):
+            pack(taken.found[1])
         linked, loose = taken.notes
         assert "link is a link" in linked and loose == "read me.txt is no submission: left out"
 
@@ -269,8 +273,8 @@ def test_a_zip_in_a_zip_and_a_zip_in_a_folder(classroom):
 
 
 def test_two_programs_beside_each_other_are_for_a_person_to_choose(classroom):
-    write(classroom, under("ann/old") | under("ann/new"))
-    with pytest.raises(CannotTake, match="in new, old: leave one"):
+    write(classroom, under("ann/old") | under("ann/new") | {"ann/old/integrators.py": "x = 2"})
+    with pytest.raises(CannotTake, match="program integrators, in new, old: leave one"):
         pack(Found("ann", (classroom / "ann",)))
 
 
@@ -389,12 +393,12 @@ def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
 
 
 def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch):
-    monkeypatch.setattr(zips, "MAX_DIRECTORY", 1000)
+    monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
     assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
 
 
 def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
-    monkeypatch.setattr(zips, "MAX_ZIP", 10)
+    monkeypatch.setattr(archives, "MAX_ZIP", 10)
     assert "MB" in refused(classroom, zipped(PROGRAM))
 
 
@@ -408,7 +412,7 @@ def test_a_bomb_gives_the_program_and_no_more_than_the_bounds(classroom):
 
 def test_bombs_inside_bombs_share_the_bounds(classroom):
     inner = zipped({f"{n}.bin": bytes(MAX_BYTES // 2) for n in range(4)})
-    package = pack(handed_in(classroom, zipped({f"{n}.zip": inner for n in range(50)})))
+    package = pack(handed_in(classroom, zipped({f"{n}.zip": inner for n in range(50)} | PROGRAM)))
     assert sum(len(content) for _, content in package.files) <= MAX_BYTES
 
 

@@ -284,3 +284,10 @@ def test_a_file_is_written_in_the_place_of_a_link_and_not_through_it(tmp_path: P
     assert (tmp_path / "precious").read_text() == "as it was"
     assert not (tmp_path / "marks.json").is_symlink()
     assert {path.name for path in tmp_path.iterdir()} == {"precious", "marks.json"}
+
+
+def test_a_folder_is_many_results_and_only_tables_take_many(tmp_path: Path):
+    done = export("junit", tmp_path)
+    assert done.returncode == 2 and done.stdout == ""
+    said = " ".join(done.stderr.split())
+    assert f"{tmp_path} is a folder, and junit takes one result; csv and jsonl take many" in said

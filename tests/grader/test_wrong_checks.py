@@ -29,13 +29,20 @@ WRONG = {
 RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
 
 
-def graded(body: str, tree: Path, folder: Path, patched: pytest.MonkeyPatch) -> str:
+def graded(
+    body: str,
+    tree: Path,
+    folder: Path,
+    patched: pytest.MonkeyPatch,
+    function: str = "integrators:rk4",
+) -> str:
     """The state of the check; the sentence where it is refused."""
     shutil.copyfile(CHECKS / "pytest.ini", folder / "pytest.ini")
     name = f"todo_{abs(hash(body))}"  # pytest imports a file of a name once
     (folder / f"{name}.py").write_text(HEAD + body + "\n", encoding="utf-8")
     patched.setattr(plugin, "CHECKS", folder)
-    todo = Todo("8c", "RK4", "integrators", "integrators:rk4", name, [Check("mine", 1, "unit")])
+    id, module = "8c" if "rk4" in function else "2", function.partition(":")[0]
+    todo = Todo(id, "Mine", module, function, name, [Check("mine", 1, "unit")])
     options = Options(shipped_reference(), trusted=True)
     try:
         with grading(tree, options, shared_worker(), Rubric([todo])) as run:
@@ -62,6 +69,15 @@ def test_a_submission_that_fails_what_the_right_code_passes_is_to_blame(
     (tmp_path / "integrators.py").write_text(wrong, encoding="utf-8")
     state = graded(RIGHT, tmp_path / "integrators.py", tmp_path / "checks", monkeypatch)
     assert state in ("not yet", "error")
+
+
+def test_the_first_check_of_the_reference_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    page = (KIT / "handouts" / "instructor" / "lab-reference.md").read_text(encoding="utf-8")
+    text = page.partition("```python\n")[2].partition("```")[0]
+    body = text.partition('"""\n')[2].strip()
+    assert "apply_impulse" in body
+    state = graded(body, KIT / "solution", tmp_path, monkeypatch, "mini_engine:effective_mass")
+    assert state == "passed"
 
 
 def test_what_the_right_code_passes_is_no_wrong_check(

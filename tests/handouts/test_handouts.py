@@ -133,6 +133,14 @@ def test_a_broken_link_is_noticed(link: str) -> None:
     assert trouble_with(HANDOUTS / "index.md", link)
 
 
+def test_the_reference_of_lab_is_made_from_its_docstrings() -> None:
+    made = script("make_lab_reference").page()
+    assert text_of("instructor/lab-reference.md") == made, (
+        "run: python handouts/make_lab_reference.py"
+    )
+    assert "None\n" not in re.sub(r"```.*?```", "", made, flags=re.S), "a docstring is missing"
+
+
 @pytest.mark.parametrize("page", STUDENTS, ids=name_of)
 def test_students_are_not_sent_to_the_instructors_pages(page: Path) -> None:
     assert not [link for link in links(page.read_text(encoding="utf-8")) if "instructor" in link]

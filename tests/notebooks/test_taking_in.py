@@ -1,11 +1,19 @@
 """A course folder, and submissions taken into it. nbgrader itself is not needed here."""
 
+import zipfile
 from pathlib import Path
 
 import pytest
 from handed_in import NAMES, RELEASED, hand_in, read
 
-from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, collect, make_course
+from grader.classroom.nbgrader.course import (
+    ASSIGNMENT,
+    NoCourse,
+    collect,
+    make_course,
+    newest_release,
+)
+from grader.judge.course import Course
 from grader.judge.grade import KIT
 from grader.maintain.sync import students_files
 from grader.todo_regions import python_files, regions_in
@@ -149,3 +157,27 @@ def test_what_is_missing_is_said(tmp_path, classroom, course):
         list(collect(classroom, course))
     with pytest.raises(NoCourse, match="there is no folder"):
         list(collect(Path(tmp_path / "nowhere"), course))
+
+
+# ---------------------------------------------------------------- the checks
+
+
+def test_students_get_the_checks_of_a_release(tmp_path):
+    archive = tmp_path / "physics-engine-1.0-0.zip"
+    with zipfile.ZipFile(archive, "w") as out:
+        for name in ("grader.whl", "requirements.txt", "notebooks/quiz.ipynb"):
+            out.writestr(f"physics-engine/{name}", "released")
+        released = (KIT / "starter" / "integrators.py").read_bytes() + b"# released\n"
+        out.writestr("physics-engine/integrators.py", released)
+    assert newest_release(tmp_path) == archive and newest_release(tmp_path / "none") is None
+    taken = Course(todos=("8a", "8b", "8c"))
+    files = make_course(tmp_path / "course", release=archive, taken=taken)
+    source = tmp_path / "course" / "source" / ASSIGNMENT
+    assert {"grader.whl", "requirements.txt"} < set(files)
+    assert (source / "integrators.py").read_bytes() == released
+    assert (source / "quiz.ipynb").read_text() != "released"  # with the answers
+    with pytest.raises(NoCourse, match="no archive of a release"):
+        make_course(tmp_path / "course", renew=True, release=tmp_path / "none.zip")
+    with pytest.raises(NoCourse, match="not of this course, they differ in TODO 1, 2, 3"):
+        make_course(tmp_path / "course", renew=True, release=archive)
+    assert (source / "integrators.py").read_bytes() == released  # what stands is not lost

@@ -58,7 +58,7 @@ def graded(submission: Path) -> bytes:
         result = grade(package.unpack(work), options)
     console = Console(highlight=False, markup=False, width=100)
     for note in package.notes:
-        console.print(f"left out {clean(note)}")
+        console.print(clean(note))
     show(result, console)
     show_isolation(result, console)
     return gradescope(told(result, course), course)

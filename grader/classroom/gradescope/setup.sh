@@ -13,6 +13,7 @@ for version in $(cat "$source/pythons"); do
     fi
 done
 if [ -z "$python" ]; then
+    apt-get update || true  # an image may have none of the lists, or old ones
     for version in $(cat "$source/pythons"); do
         if apt-get install -y "python$version" "python$version-venv"; then
             python=python$version

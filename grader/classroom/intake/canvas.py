@@ -17,13 +17,14 @@ def upload(path: Path, people: ClassList) -> Upload | None:
     match, empty = matched(path), NO_FILE.fullmatch(path.name)
     if match:
         name = people.name_of(["ID"], match["user"]) or f"{match['name']}_{match['user']}"
-        late = bool(match["late"])
+        late, user = bool(match["late"]), match["user"]
     elif empty:
-        known = people.name_of(["ID"], empty["name"].rpartition("_")[2])
+        user = empty["name"].rpartition("_")[2]
+        known = people.name_of(["ID"], user)
         name, late = known or empty["name"].replace("_LATE_", "_"), False
     else:
         return None
-    return Upload(path, portable(name), late, from_lms=True, empty=bool(empty))
+    return Upload(path, portable(name), late, from_lms=True, empty=bool(empty), owner=user)
 
 
 def own_name(path: Path) -> str | None:

@@ -20,7 +20,7 @@ class Found:
     name: str  # of its result; a file name on every platform
     sources: tuple[Path, ...]  # a folder, or what was handed in
     late: bool = False  # so marked by the LMS
-    handed_in: datetime | None = None
+    handed_in: datetime | None = None  # without a zone where the LMS tells the school's own time
 
 
 @dataclass
@@ -41,6 +41,9 @@ class Upload:
     late: bool = False
     from_lms: bool = False  # an LMS names each file by its student: those of one belong together
     empty: bool = False  # a text or a link was handed in, and no file
+    handed_in: datetime | None = None
+    attempt: str = ""  # of several the last in order counts
+    owner: str = ""  # what the LMS itself calls the student; two of one name are two all the same
 
 
 class Package(Struct, frozen=True):

@@ -3,35 +3,50 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-from grader.classroom.intake import canvas, folders, gradescope, loose, moodle
+from grader.classroom.intake import (
+    blackboard,
+    brightspace,
+    canvas,
+    folders,
+    gradescope,
+    loose,
+    moodle,
+)
+from grader.classroom.intake.archives import unzip_class
 from grader.classroom.intake.found import CannotTake, Found, Intake, Upload
 from grader.classroom.intake.packing import laid_out, pack
+from grader.classroom.intake.pieces import ManyPrograms
 from grader.classroom.intake.places import (
-    ManyPrograms,
     entries_of,
     holds_program,
-    is_zip,
+    is_archive,
     modules,
     programs_in,
 )
-from grader.classroom.intake.zips import unzip_class
-from grader.classroom.names import folded
-from grader.classroom.roster import ClassList
+from grader.classroom.names import folded, portable
+from grader.classroom.roster import CALLED, ClassList
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 
-FORMS = (moodle.upload, canvas.upload, folders.upload)  # the first that knows a name decides
+FORMS = (  # the first that knows a name decides
+    blackboard.upload,
+    brightspace.upload,
+    moodle.upload,
+    canvas.upload,
+    folders.upload,
+)
 
 
 @contextmanager
 def opened_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
-    """List the submissions in a folder or a zip of them; unpacked ones are there until the end."""
+    """List the submissions in a folder or an archive of them; unpacked ones stay till the end."""
     if path.is_dir():
         yield listed(path, people or ClassList())
-    elif is_zip(path) and path.is_file():
+    elif is_archive(path) and path.is_file():
         with work_folder() as temporary:
             try:
                 unzip_class(path, temporary)
@@ -39,7 +54,7 @@ def opened_class(path: Path, people: ClassList | None = None) -> Iterator[Intake
                 raise CannotGrade(f"{path}: {error}") from error
             yield listed(without_wrapper(temporary), people or ClassList())
     else:
-        raise CannotGrade(f"there is no folder of submissions at {path}, nor a zip of them")
+        raise CannotGrade(f"there is no folder of submissions at {path}, nor an archive of them")
 
 
 def listed(folder: Path, people: ClassList) -> Intake:
@@ -57,7 +72,7 @@ def listed(folder: Path, people: ClassList) -> Intake:
     found += by_name(left, people, intake)
     intake.found = sorted(without_doubles(found, intake), key=lambda each: each.name)
     if not intake.found and not intake.troubles:
-        raise CannotGrade(f"{folder} holds no submission: each must be a folder or a zip")
+        raise CannotGrade(f"{folder} holds no submission: each must be a folder or an archive")
     return intake
 
 
@@ -71,8 +86,8 @@ def without_wrapper(folder: Path) -> Path:
 
 
 def by_name(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Found]:
-    """Folders and zips of any name, and what Canvas and Moodle make of names."""
-    groups: dict[str, list[Upload]] = {}
+    """Folders and archives of any name, and what learning systems make of names."""
+    groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
     for path in paths:
         if path.is_symlink():
@@ -82,21 +97,30 @@ def by_name(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Fo
         elif upload.empty:
             empty[upload.name] = path
         else:
-            groups.setdefault(upload.name, []).append(upload)
-    for name, group in groups.items():
+            groups.setdefault((upload.name, upload.owner), []).append(upload)
+    for (name, _), group in groups.items():
+        last = max(each.attempt for each in group)
+        if before := sorted({each.attempt for each in group if each.attempt != last}):
+            intake.notes.append(f"{name}: of {len(before) + 1} attempts the last counts, of {last}")
+        group = [each for each in group if each.attempt == last]
         handed_in = tuple(each.path for each in group)
         late = any(each.late for each in group)
+        when = group[0].handed_in
         if all(each.from_lms for each in group):
-            yield Found(name, handed_in, late)
+            yield Found(name, handed_in, late, when)
         else:
-            yield from (Found(name, (path,), late) for path in handed_in)
+            yield from (Found(name, (path,), late, when) for path in handed_in)
+    names = {name for name, _ in groups}
     for name, path in empty.items():
-        if name not in groups:
+        if name not in names:
             intake.troubles[name] = f"{path.name}: a text or a link was handed in, and no file"
 
 
 def upload_at(path: Path, people: ClassList) -> Upload | None:
-    return next(filter(None, (form(path, people) for form in FORMS)), None)
+    """Whose a file or folder is, by the first form that knows such a name."""
+    upload = next(filter(None, (form(path, people) for form in FORMS)), None)
+    called = people.name_of([CALLED], upload.name) if upload else None
+    return replace(upload, name=portable(called)) if upload and called else upload
 
 
 def without_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:

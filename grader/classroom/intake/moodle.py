@@ -15,8 +15,24 @@ def upload(path: Path, people: ClassList) -> Upload | None:
     match = NAME.fullmatch(path.name)
     if match is None:
         return None
-    name = people.name_of(["name"], match["name"]) or f"{match['name']}_{match['id']}"
-    return Upload(path, portable(name), from_lms=True, empty=match["kind"] != "file")
+    known = people.name_of(["Identifier"], f"Participant {match['id']}", match["id"])
+    if known is None and not people.knows("Identifier"):
+        known = people.name_of(["name"], match["name"], *without_group(match["name"]))
+    name = known or f"{match['name']}_{match['id']}"
+    return Upload(
+        path,
+        portable(name),
+        from_lms=True,
+        empty=match["kind"] != "file",
+        handed_in=people.handed_in(name),
+        owner=match["id"],
+    )
+
+
+def without_group(name: str) -> list[str]:
+    """What may be the student's name where the group's stands before it: `Group 3-Ann Lee`."""
+    parts = name.split("-")
+    return ["-".join(parts[at:]) for at in range(1, len(parts))]
 
 
 def own_name(path: Path) -> str | None:

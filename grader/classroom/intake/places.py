@@ -3,16 +3,12 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from grader.classroom.intake.found import CannotTake
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import IGNORED
 
-DEEPEST = 3  # folders around a program, and zips inside zips
+DEEPEST = 3  # folders around a program, and archives inside archives
 SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
-
-
-class ManyPrograms(CannotTake):
-    """More than one program in a submission: it is for a person to choose."""
+ARCHIVES = (".zip", ".7z", ".rar", ".tar", ".tgz", ".tbz2", ".txz", ".gz", ".bz2", ".xz")
 
 
 def entries_of(folder: Path) -> list[Path]:
@@ -24,26 +20,18 @@ def is_system_file(name: str) -> bool:
     return name.startswith(".") or name.lower() in SYSTEM_FILES
 
 
-def is_zip(path: Path) -> bool:
-    return path.suffix.lower() == ".zip"
+def is_archive(path: Path) -> bool:
+    return path.suffix.lower() in ARCHIVES
+
+
+def stem_of(path: Path) -> str:
+    """A file's name without its suffix, of which `work.tar.gz` has two."""
+    stem = path.stem if is_archive(path) else path.name
+    return stem[:-4] if is_archive(path) and stem.lower().endswith(".tar") else stem
 
 
 def python_first(paths: Iterable[Path]) -> list[Path]:
     return sorted(paths, key=lambda each: (each.suffix != ".py", each))
-
-
-def root_of(folder: Path) -> Path:
-    """The folder that holds the work: zips and people often put more folders around it."""
-    level = [folder]
-    for _ in range(DEEPEST + 1):
-        holding = [path for path in level if holds_program(path)]
-        if len(holding) > 1:
-            places = ", ".join(path.relative_to(folder).as_posix() for path in holding[:5])
-            raise ManyPrograms(f"there is more than one program, in {places}: leave one")
-        if holding:
-            return holding[0]
-        level = [inner for path in level for inner in folders_in(path)]
-    return unwrapped(folder)
 
 
 def unwrapped(folder: Path) -> Path:

@@ -4,6 +4,7 @@ import filecmp
 import re
 import shutil
 import tempfile
+import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,10 +22,12 @@ from grader.judge.grade import KIT, Options
 from grader.judge.submission import CannotGrade, plain_files
 from grader.maintain.handed_out import students_tree, write_tree
 from grader.maintain.notebooks import notebooks_of
+from grader.todo_regions import regions_in
 
 ASSIGNMENT = "physics-engine"
 NOTEBOOKS = "notebooks"  # the folder of both trees
 INSTRUCTOR = KIT / "handouts" / "instructor"
+SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # of a notebook, in marks.toml
 SETTINGS = ("nbgrader_config.py", "marks.toml")
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
 
@@ -36,11 +39,14 @@ class NoCourse(Exception):
 # ---------------------------------------------------------------- making a course
 
 
-def make_course(course: Path, renew: bool = False, taken: Course = FULL) -> list[str]:
+def make_course(
+    course: Path, renew: bool = False, release: Path | None = None, taken: Course = FULL
+) -> list[str]:
     """Make the folder in which nbgrader's commands run; returns the assignment's files.
 
     The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
-    lies beside the notebooks.
+    lies beside the notebooks. From the archive of a `release` come the checks as well, so that
+    `make check` works in what students get.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
         raise NoCourse(
@@ -53,13 +59,49 @@ def make_course(course: Path, renew: bool = False, taken: Course = FULL) -> list
             f"there is an assignment in {source} already. --renew replaces it; "
             "settings, submissions and gradebook stay."
         )
-    shutil.rmtree(source, ignore_errors=True)
     files = dict(assignment_files(taken))
+    if release is not None:
+        notebooks = {name: text for name, text in files.items() if name.endswith(".ipynb")}
+        files = released_files(release, taken) | notebooks
+    shutil.rmtree(source, ignore_errors=True)
     write_tree(files, source)
     for name in SETTINGS:
         if not (course / name).exists():
-            shutil.copyfile(INSTRUCTOR / name, course / name)
+            text = (INSTRUCTOR / name).read_text(encoding="utf-8")
+            text = SHARE.sub(lambda share: share[0] if f"{share[1]}.ipynb" in files else "", text)
+            (course / name).write_text(text, encoding="utf-8", newline="\n")
     return sorted(files)
+
+
+def released_files(release: Path, taken: Course) -> dict[str, bytes]:
+    """What students get in an archive of `release`, but for its notebooks.
+
+    Raises NoCourse where it is none, or one that asks for other TODOs.
+    """
+    files = {}
+    try:
+        with zipfile.ZipFile(release) as archive:
+            for member in archive.infolist():
+                _, _, name = member.filename.partition("/")
+                if name and not name.startswith((".", f"{NOTEBOOKS}/")):
+                    files[name] = archive.read(member)
+    except (OSError, zipfile.BadZipFile) as error:
+        raise NoCourse(f"{release} is no archive of a release ({error}): make one") from error
+    asked = {todo.id for todo in taken.rubric.todos if todo.function}
+    sources = [text.decode() for name, text in files.items() if name.endswith(".py")]
+    there = {region.id for text in sources for region in regions_in(text)}
+    if other := sorted(there ^ asked):
+        raise NoCourse(
+            f"{release} is not of this course, they differ in TODO {', '.join(other)}: "
+            "run make release for it first"
+        )
+    return files
+
+
+def newest_release(folder: Path) -> Path | None:
+    """The archive that students get, as `release` left it in a folder."""
+    found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
+    return found[-1] if found else None
 
 
 def assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:

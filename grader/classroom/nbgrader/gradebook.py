@@ -1,6 +1,8 @@
 """The gradebook: the engine's marks go in, what everybody has in every notebook comes out."""
 
+import warnings
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -68,7 +70,11 @@ def fill(course: Path, results: Iterable[tuple[str, Result | str]]) -> Iterator[
             if submission.student.id not in done and ungraded(book, cells, submission.student.id):
                 for cell in cells:
                     write_mark(book, cell, submission.student.id, None)
-                yield f"{submission.student.id}: no result, so 0 points for the engine until then"
+                    book.find_grade(
+                        cell.name, ENGINE, ASSIGNMENT, submission.student.id
+                    ).needs_manual_grade = True
+                book.db.commit()
+                yield f"{submission.student.id}: no result, so the engine waits for a person"
 
 
 def fill_one(book: Any, api: ModuleType, cells: list[Any], student: str, result: Result) -> Filled:
@@ -190,15 +196,23 @@ def engine_cells(book: Any, api: ModuleType) -> list[Any]:
     return sorted(cells, key=lambda cell: str(cell.name))
 
 
-def opened(course: Path, api: ModuleType) -> Any:
-    """The course's gradebook; nbgrader would make an empty one where there is none."""
+@contextmanager
+def opened(course: Path, api: ModuleType) -> Iterator[Any]:
+    """The course's gradebook; nbgrader would make an empty one where there is none.
+
+    Its libraries warn of what nbgrader does inside them: nothing that a person could mend here.
+    """
     path = course.resolve() / "gradebook.db"
     if not path.exists():
         raise NoCourse(
             f"there is no gradebook at {path}: in the course folder, run "
             f"nbgrader generate_assignment {ASSIGNMENT}"
         )
-    return api.Gradebook(f"sqlite:///{path}")
+    with (
+        warnings.catch_warnings(action="ignore"),
+        api.Gradebook(f"sqlite:///{path}") as book,
+    ):
+        yield book
 
 
 def nbgrader_api() -> ModuleType:

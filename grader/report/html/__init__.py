@@ -1,6 +1,7 @@
 """The result of one submission as a page that needs nothing else: no network, no second file."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from markupsafe import Markup
@@ -15,13 +16,42 @@ TEMPLATES = Path(__file__).with_name("templates")
 MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are linked to
 
 
-def write_report(result: Result, path: Path, folder: Path | None = None) -> None:
+@dataclass(frozen=True)
+class Standing:
+    """What counts for a student in the end, and why, in named lines."""
+
+    name: str
+    mark: int | None  # None: a person must look first
+    max_points: int
+    bonus: int = 0
+    lines: list[tuple[str, str]] = field(default_factory=list)
+
+
+def write_report(
+    result: Result, path: Path, folder: Path | None = None, standing: Standing | None = None
+) -> None:
     """Write the page; replays are looked for in `folder`, or else beside the page."""
     replays = found_replays(result, folder or path.parent)
-    write_whole(report(result, replays).encode("utf-8"), path)
+    write_whole(report(result, replays, standing).encode("utf-8"), path)
 
 
-def report(result: Result, replays: Mapping[str, str]) -> str:
+def write_standing(standing: Standing, path: Path) -> None:
+    """Write the page of a student of whom there is no result."""
+    style = theme() + (TEMPLATES / "report.css").read_text(encoding="utf-8")
+    page = (
+        environment(TEMPLATES)
+        .get_template("standing.html")
+        .render(
+            standing=standing,
+            clean=one_line,
+            style=Markup(style),
+            style_hashes=f"'{allowed(style)}'",
+        )
+    )
+    write_whole(page.encode("utf-8"), path)
+
+
+def report(result: Result, replays: Mapping[str, str], standing: Standing | None = None) -> str:
     """The page; `replays` are the pages to embed, by their paths in the result."""
     style = theme() + (TEMPLATES / "report.css").read_text(encoding="utf-8")
     player_style, player_script = hashes()
@@ -31,6 +61,7 @@ def report(result: Result, replays: Mapping[str, str]) -> str:
         .render(
             result=result,
             replays=replays,
+            standing=standing,
             unconfined=unconfined(result.isolation),
             clean=one_line,
             reasons=named_reasons,

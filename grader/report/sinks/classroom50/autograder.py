@@ -47,8 +47,10 @@ def grade(python: Path, checkout: Path, report: Path) -> int:
     ).returncode
     if graded not in (0, 1):  # full marks, or less
         return graded
-    hand_in(report / "report.html", checkout / "report.html")
-    hand_in(report / "summary.md", checkout / "release-body.md")
+    for name in ("report.html", "release-body.md", "result.json"):
+        make_room(checkout / name)
+    shutil.copyfile(report / "report.html", checkout / "report.html")
+    shutil.copyfile(report / "summary.md", checkout / "release-body.md")
     marks = report / "result.json"
     tell_status(json.loads(marks.read_bytes()))
     return subprocess.run(
@@ -56,9 +58,12 @@ def grade(python: Path, checkout: Path, report: Path) -> int:
     ).returncode
 
 
-def hand_in(made: Path, place: Path) -> None:
-    place.unlink(missing_ok=True)  # a link that the submission brought is not followed
-    shutil.copyfile(made, place)
+def make_room(place: Path) -> None:
+    """Remove what the submission brought under this name; a link is not followed."""
+    if place.is_dir() and not place.is_symlink():
+        shutil.rmtree(place)
+    else:
+        place.unlink(missing_ok=True)
 
 
 def tell_status(result: dict[str, int]) -> None:

@@ -1,7 +1,12 @@
-"""Zips as strangers make them: bounded, nothing outside its folder, every trouble a sentence."""
+"""Archives as strangers make them: bounded, nothing outside, every trouble a sentence.
+
+What is no zip is first made one by `repack`, in a process of its own.
+"""
 
 import shutil
 import stat
+import subprocess
+import sys
 import unicodedata
 import zipfile
 from collections.abc import Iterator
@@ -9,15 +14,19 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
+from grader.classroom.intake import repack
 from grader.classroom.intake.found import CannotTake
 from grader.classroom.intake.places import is_system_file
 from grader.classroom.names import folded, portable
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES
+from grader.judge.workplace import work_folder
 
 MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
 MENTIONED = 5  # of the files that are left out
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
+PATIENCE = 4 * repack.SECONDS  # s on the clock: the last resort where nothing else ends it
+SIGNS = (b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ")  # whatever the name says
 
 
 @dataclass
@@ -40,8 +49,10 @@ class Bounds:
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     """Unpack what may be part of a submission, Python's files first, within the bounds."""
     check_size(path)
-    with checked_zip(path) as archive:
+    with checked_archive(path) as archive:
         members = sorted(members_of(archive), key=lambda each: (each[0].suffix != ".py", each[0]))
+        if not members:
+            raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
         for name, member in members:
@@ -54,11 +65,39 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
 
 def unzip_class(path: Path, folder: Path) -> None:
     """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
-    with checked_zip(path) as archive:
+    with checked_archive(path) as archive:
         for member in plain_members(archive):
             parts = [part for part in text_of(member).split("/") if part]
             if not any(is_system_file(part) for part in parts):
                 write_member(archive, member, folder.joinpath(*map(portable, parts)))
+
+
+@contextmanager
+def checked_archive(path: Path) -> Iterator[zipfile.ZipFile]:
+    """Open an archive of any known kind, by what it is and not by its name."""
+    with open(path, "rb") as file:
+        sign = file.read(8)
+    if path.suffix.lower() == ".zip" and not sign.startswith(SIGNS):
+        with checked_zip(path) as archive:
+            yield archive
+        return
+    with work_folder() as work:
+        make_plain(path, work / "plain.zip")
+        with checked_zip(work / "plain.zip") as archive:
+            yield archive
+
+
+def make_plain(path: Path, target: Path) -> None:
+    """Have the same files packed as a zip, by a process that may take only so much."""
+    script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
+    try:
+        done = subprocess.run(script, capture_output=True, text=True, timeout=PATIENCE)
+    except subprocess.TimeoutExpired as error:
+        raise CannotTake("the archive takes too long to unpack") from error
+    if done.returncode == repack.REFUSED:
+        raise CannotTake(done.stdout.strip())
+    if done.returncode:
+        raise CannotTake("the archive takes too much memory or time to unpack")
 
 
 @contextmanager
@@ -81,7 +120,7 @@ def check_size(path: Path) -> None:
     """Refuse a zip that would take all memory before a single file of it is unpacked."""
     size = path.stat().st_size
     if size > MAX_ZIP:
-        raise CannotTake(f"the zip has {size >> 20} MB, more than {MAX_ZIP >> 20}")
+        raise CannotTake(f"the archive has {size >> 20} MB, more than {MAX_ZIP >> 20}")
     with open(path, "rb") as file:
         file.seek(max(0, size - (1 << 16) - 64))
         end = file.read()
@@ -123,10 +162,10 @@ def checked_name(name: str) -> str:
     """The name, if it stays inside its folder and every system can have it."""
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if name.startswith("/") or ".." in parts or ":" in parts[0]:
-        raise CannotTake(f"the zip reaches outside its folder, with {name[:100]!r}")
+        raise CannotTake(f"the archive reaches outside its folder, with {name[:100]!r}")
     for part in parts:
         if portable(part) != part.strip(" .") and not is_system_file(part):
-            raise CannotTake(f"the zip holds {part[:100]!r}, a name not for every system")
+            raise CannotTake(f"the archive holds {part[:100]!r}, a name not for every system")
     return "/".join(part if is_system_file(part) else portable(part) for part in parts)
 
 

@@ -1,0 +1,164 @@
+"""Pages of a whole class on their way back: as each learning system takes them, or by mail.
+
+Nobody gets another's page: a student whom the export or the class list does not name for sure is
+left out, and said.
+"""
+
+import csv
+import io
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Literal
+
+from grader import words
+from grader.classroom.book import NOTHING
+from grader.classroom.dashboard import Entry, standing_of
+from grader.classroom.intake import brightspace, canvas, moodle
+from grader.classroom.intake.found import Found, Intake
+from grader.classroom.names import portable
+from grader.classroom.owners import match
+from grader.classroom.roster import CannotRead, Roster
+from grader.judge.course import FULL, Course, told
+from grader.report.sinks.tables import harmless
+
+System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
+DAY_ONE = (1980, 1, 1, 0, 0, 0)  # so that the same pages are the same zip
+PAGE = "feedback.html"
+ASSIGNMENT = "physics-engine"
+ADDRESSES = ("Email address", "Email", "SIS Login ID", "Username")
+
+
+@dataclass
+class Feedback:
+    """What to hand back: files by their names, and who is left out."""
+
+    files: dict[str, bytes] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+    def zipped(self) -> bytes:
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in sorted(self.files.items()):
+                member = zipfile.ZipInfo(name, DAY_ONE)
+                member.compress_type = zipfile.ZIP_DEFLATED
+                member.external_attr = 0o100644 << 16
+                archive.writestr(member, content)
+        return out.getvalue()
+
+
+def by_export(
+    system: System, intake: Intake, entries: list[Entry], pages: Path, course: Course = FULL
+) -> Feedback:
+    """The pages under the names that the LMS gave to what was handed in."""
+    made = Feedback()
+    graded = {each.outcome.name: each for each in entries}
+    made.notes += [f"{name}: left out, {why}" for name, why in intake.troubles.items()]
+    for found in intake.found:
+        entry = graded.get(found.name)
+        page = pages / f"{found.name}.html"
+        if entry is None or not page.is_file():
+            made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
+            continue
+        if entry.result is not None:
+            entry = replace(entry, result=told(entry.result, course))
+        names = dict(NAMED[system](found, entry, page.read_bytes()))
+        if not names:
+            made.notes.append(f"{found.name}: left out, {system} does not name files so")
+        made.files |= names
+    return made
+
+
+def for_moodle(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+    """Moodle takes a participant's number and the kind of upload from a file's name."""
+    for source in found.sources[:1]:
+        known = moodle.NAME.fullmatch(source.name)
+        if known:
+            yield f"{known['name']}_{known['id']}_assignsubmission_file_{PAGE}", page
+
+
+def for_canvas(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+    """Canvas takes the very names that it gave, so a zip stays one and a text a text."""
+    for source in found.sources[:1]:
+        if canvas.matched(source) is None:
+            continue
+        if source.suffix.lower() != ".zip":
+            yield source.name, as_text(entry).encode("utf-8")
+            continue
+        inner = Feedback({PAGE: page})
+        yield source.name, inner.zipped()
+
+
+def for_brightspace(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+    """Brightspace takes the folders of its download, with other files in them."""
+    for source in found.sources[:1]:
+        if known := brightspace.NAME.fullmatch(source.name):
+            folder = f"{known['ids']} - {known['name']} - {known['when']}"
+            yield f"{folder}/{PAGE}", page
+
+
+NAMED = {"moodle": for_moodle, "canvas": for_canvas, "brightspace": for_brightspace}
+
+
+def as_text(entry: Entry) -> str:
+    """The page in plain words, for where no page can be."""
+    standing = standing_of(entry.outcome)
+    mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
+    lines = [f"Mark: {mark}", *(f"{name}: {words.clean(text)}" for name, text in standing.lines)]
+    for todo in entry.result.shown if entry.result else []:
+        lines += [
+            "",
+            f"TODO {todo.id} {todo.title}: {todo.state}, {todo.points} / {todo.max_points}",
+        ]
+        for check in todo.failed:
+            why = (f"    {line}" for line in words.reasons(check))
+            lines += [f"  {check.title} ({check.points} / {check.max_points})", *why]
+    return "\n".join(lines) + "\n"
+
+
+# ---------------------------------------------------------------- by the class list
+
+
+def by_address(roster: Roster, key: str, entries: list[Entry], pages: Path) -> Feedback:
+    """The pages by addresses, for mailing, and a list of them; a group's go to all of it."""
+    column = next((name for name in ADDRESSES if has_addresses(roster, name)), None)
+    if column is None:
+        raise CannotRead(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
+    made = Feedback()
+    absent = [each.outcome.name for each in entries if each.outcome.trouble == NOTHING]
+    owners = match(roster, key, [each.outcome.name for each in entries], absent)
+    listed = [["address", "name", "file"]]
+    for row in roster.rows:
+        address, names = row[column].strip(), owners.of(row)
+        if len(names) != 1 or not address:
+            why = f"{' and '.join(names)} could be theirs" if names else "no page is theirs"
+            made.notes.append(f"{row[key] or address}: left out, {why}")
+            continue
+        page = pages / f"{names[0]}.html"
+        if page.is_file():
+            file = f"{portable(address)}.html"
+            made.files[file] = page.read_bytes()
+            listed.append([address, names[0], file])
+    made.files["addresses.csv"] = as_table(listed)
+    return made
+
+
+def has_addresses(roster: Roster, column: str) -> bool:
+    return column in roster.columns and any("@" in row[column] for row in roster.rows)
+
+
+def as_table(rows: list[list[str]]) -> bytes:
+    out = io.StringIO(newline="")
+    csv.writer(out, lineterminator="\r\n").writerows([map(harmless, row) for row in rows])
+    return out.getvalue().encode("utf-8")
+
+
+def for_nbgrader(entries: list[Entry], pages: Path) -> Feedback:
+    """The pages beside nbgrader's own feedback, also of students who handed in no notebook."""
+    made = Feedback()
+    for entry in entries:
+        page = pages / f"{entry.outcome.name}.html"
+        if page.is_file():
+            made.files[f"{entry.outcome.name}/{ASSIGNMENT}/engine-{PAGE}"] = page.read_bytes()
+    return made

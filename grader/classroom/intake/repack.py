@@ -1,0 +1,142 @@
+"""Makes a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
+
+It is run as a script, in a process that may take only so much memory, time and disk: the libraries
+that read these formats meet a stranger's bytes here, and nothing else of the grader does.
+"""
+
+import importlib
+import sys
+import tarfile
+import zipfile
+from collections.abc import Iterator
+from typing import Any
+
+try:
+    import resource
+except ImportError:  # Windows: the time that the parent waits is the only limit
+    resource = None  # type: ignore[assignment]
+
+MAX_FILE = 20 * 1024**2  # bytes: no submission may have more in all
+MAX_BYTES = 200 * 1024**2  # of one archive, unpacked
+MAX_FILES = 200_000
+MEMORY = 2 * 1024**3  # bytes
+SECONDS = 60  # of the processor
+PEEK = 8  # bytes that tell a format
+REFUSED = 3  # exit status: what is printed is a sentence for people
+
+Files = Iterator[tuple[str, bytes]]
+
+
+class Refused(Exception):
+    """This archive is not unpacked; the message says why."""
+
+
+def main(source: str, target: str) -> int:
+    limit()
+    try:
+        with zipfile.ZipFile(target, "w") as out:
+            size = 0
+            for count, (name, content) in enumerate(files_of(source)):
+                size += len(content)
+                if count >= MAX_FILES or size > MAX_BYTES:
+                    raise Refused("the archive holds too much: ask for the program alone")
+                out.writestr(zipfile.ZipInfo(name), content)
+    except Refused as refusal:
+        print(refusal)
+        return REFUSED
+    except MemoryError:
+        print("the archive takes too much memory to unpack")
+        return REFUSED
+    except Exception as error:  # each library has many; the bytes are a stranger's
+        print(f"the archive is broken ({type(error).__name__}: {error!s:.100})")
+        return REFUSED
+    return 0
+
+
+def limit() -> None:
+    if resource is not None:
+        wanted = (
+            (resource.RLIMIT_AS, MEMORY),
+            (resource.RLIMIT_CPU, SECONDS),
+            (resource.RLIMIT_FSIZE, 2 * MAX_BYTES),
+        )
+        for kind, most in wanted:
+            hard = resource.getrlimit(kind)[1]
+            most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+            try:
+                resource.setrlimit(kind, (most, hard))
+            except (ValueError, OSError):  # macOS has no limit of this kind on memory
+                continue
+
+
+def files_of(source: str) -> Files:
+    """The plain files in an archive, those of more than a submission may have left out."""
+    with open(source, "rb") as file:
+        head = file.read(PEEK)
+    if head.startswith(b"7z\xbc\xaf\x27\x1c"):
+        return in_7z(source)
+    if head.startswith(b"Rar!\x1a\x07"):
+        return in_rar(source)
+    return in_tar(source)
+
+
+def in_tar(source: str) -> Files:
+    with tarfile.open(source) as archive:
+        for member in archive:
+            content = archive.extractfile(member) if member.isreg() else None
+            if content is not None and member.size <= MAX_FILE:
+                yield member.name, content.read()
+
+
+def in_7z(source: str) -> Files:
+    py7zr = library("py7zr", ".7z")
+    try:
+        with py7zr.SevenZipFile(source) as archive:
+            wanted = {
+                each.filename: each.uncompressed
+                for each in archive.list()
+                if each.is_file and not each.is_symlink and each.uncompressed <= MAX_FILE
+            }
+            if sum(wanted.values()) > MAX_BYTES or len(wanted) > MAX_FILES:
+                raise Refused("the archive holds too much: ask for the program alone")
+            factory = py7zr.io.BytesIOFactory(MAX_FILE + 1)
+            archive.extract(targets=list(wanted), factory=factory)
+    except py7zr.exceptions.PasswordRequired as error:
+        raise Refused("the archive is encrypted: ask for one without a password") from error
+    except py7zr.exceptions.AbsolutePathError as error:
+        raise Refused(f"the archive reaches outside its folder ({error!s:.100})") from error
+    for name, content in factory.products.items():
+        content.seek(0)
+        yield name, content.read()
+
+
+def in_rar(source: str) -> Files:
+    rarfile = library("rarfile", ".rar")
+    try:
+        with rarfile.RarFile(source, errors="strict") as archive:
+            if archive.needs_password():
+                raise Refused("the archive is encrypted: ask for one without a password")
+            for member in archive.infolist():
+                if member.is_file() and not member.file_redir and member.file_size <= MAX_FILE:
+                    yield member.filename, archive.read(member)
+    except rarfile.RarCannotExec as error:
+        raise Refused(
+            "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
+            "bsdtar, or ask for a zip"
+        ) from error
+    except rarfile.NeedFirstVolume as error:
+        raise Refused("this .rar is one part of several: ask for one zip") from error
+
+
+def library(name: str, format: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise Refused(
+            f"a {format} needs {name}, which is not installed: {sys.executable} -m pip install "
+            f"{name}, or ask for a zip"
+        ) from error
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2]))

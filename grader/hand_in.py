@@ -1,0 +1,58 @@
+"""What a student hands in: one zip of their own work, without what was given to read and run."""
+
+import zipfile
+from pathlib import Path
+
+from grader.judge.course import FULL, Course
+from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade, plain_files
+
+PACKED = "hand-in.zip"
+DAY_ONE = (1980, 1, 1, 0, 0, 0)  # so that the same files are the same zip
+PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
+GIVEN = {  # what the folder handed out holds besides, and nobody works on
+    *("Makefile", "README.md", "requirements.txt", "MANIFEST.txt"),
+    *("accuracy.py", "experiments", "stable_engine", "handouts", "report"),
+}
+SUFFIXES = (".whl", ".zip")  # the grader, and what was packed before
+
+
+def hand_in(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple[Path, list[str]]:
+    """Pack the tree; returns the zip, `out` or else in the tree, and the names in it.
+
+    Raises CannotGrade where there is more than will be taken in.
+    """
+    files = packed_files(tree, course)
+    size = sum(path.stat().st_size for path in files.values())
+    if len(files) > MAX_FILES or size > MAX_BYTES:
+        raise CannotGrade(
+            f"{len(files)} files of {size >> 20} MB are more than will be read, {MAX_FILES} files "
+            f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}"
+        )
+    target = out or tree / PACKED
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, path in files.items():
+            member = zipfile.ZipInfo(name, DAY_ONE)
+            member.compress_type = zipfile.ZIP_DEFLATED
+            member.external_attr = 0o100644 << 16
+            archive.writestr(member, path.read_bytes())
+    return target, list(files)
+
+
+def packed_files(tree: Path, course: Course) -> dict[str, Path]:
+    """Programs, notebooks and all that was added, by name, in a fixed order; nothing hidden."""
+    given = {program for program in PROGRAMS if program not in course.modules}
+    given |= GIVEN | {f"{program}.py" for program in given}
+    found = {path.relative_to(tree).as_posix(): path for path in plain_files(tree)}
+    return {
+        name: found[name]
+        for name in sorted(found)
+        if name.partition("/")[0] not in given
+        and not name.endswith(SUFFIXES)
+        and not found[name].name.startswith(".")
+    }
+
+
+def missing_programs(names: list[str], course: Course) -> list[str]:
+    """The programs with a TODO of the course that these files lack."""
+    here = {name.partition("/")[0].removesuffix(".py") for name in names}
+    return [program for program in course.modules if program not in here]
