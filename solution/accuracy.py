@@ -5,6 +5,7 @@ answer is off and what the run costs. It prints tables and writes them with figu
 
     python accuracy.py            takes some minutes
     python accuracy.py --quick    takes half a minute: the same runs, with fewer values of each dial
+    python accuracy.py --again    writes tables and figures of the last run anew
 
 Figures need matplotlib; everything else works without it.
 """
