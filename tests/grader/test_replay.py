@@ -403,6 +403,7 @@ class Liar:
     """Stands in for a child: answers every film with the same thing."""
 
     cpu = rested = 0.0
+    heard = 0
 
     def __init__(self, answer: Filmed) -> None:
         self.answer = answer
