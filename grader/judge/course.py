@@ -7,7 +7,7 @@ one sentence, before anything is graded.
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
-from datetime import datetime
+from datetime import date, datetime, time, timedelta, timezone
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
@@ -21,6 +21,7 @@ from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
 EXAMPLE = "2027-05-04T23:59:00+02:00"
+ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last of all
 
 
 class WrongCourse(Exception):
@@ -208,10 +209,22 @@ def read_course(path: Path | None = None) -> Course:
     complaint = next(complaints(document), "")
     if complaint:
         raise WrongCourse(f"{path}: {complaint}")
+    for name, at in (("due", time(23, 59, 59)), ("visible", time())):
+        if name in document:
+            document[name] = moment(document[name], at)
     try:
         return msgspec.convert(document, Course)
     except msgspec.ValidationError as error:
         raise WrongCourse(f"{path}: {error}") from error
+
+
+def moment(when: date, at: time) -> datetime:
+    """A date of a course: without a time it is `at`, and without a zone anywhere on Earth.
+
+    So it does not depend on the machine's zone, and nobody is late whose own clock is before it.
+    """
+    exact = when if isinstance(when, datetime) else datetime.combine(when, at)
+    return exact if exact.tzinfo else exact.replace(tzinfo=ANYWHERE)
 
 
 def complaints(document: dict[str, Any]) -> Iterator[str]:
@@ -305,14 +318,9 @@ def wrong_late(late: dict[str, Any]) -> Iterator[str]:
 def wrong_dates(document: dict[str, Any]) -> Iterator[str]:
     for name in ("due", "visible"):
         when = document.get(name)
-        if when is None:
-            continue
-        if not isinstance(when, datetime):
-            yield f"{name} = {when} must be a date with its time and zone, as in {name} = {EXAMPLE}"
-            return
-        if when.tzinfo is None:
-            yield f"{name} = {when} needs its time zone, as in {name} = {when.isoformat()}+02:00"
+        if when is not None and not isinstance(when, date):
+            yield f"{name} = {when!r} must be a date without quotes, as in {name} = {EXAMPLE}"
             return
     due, visible = document.get("due"), document.get("visible")
-    if due is not None and visible is not None and visible < due:
+    if due is not None and visible is not None and moment(visible, time()) < moment(due, time()):
         yield f"visible = {visible} is before due = {due}: students could still hand in"

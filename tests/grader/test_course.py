@@ -81,6 +81,21 @@ def test_an_empty_file_is_all_there_is(tmp_path: Path):
     assert read_course(tmp_path / "course.toml").rubric == load_rubric()
 
 
+@pytest.mark.parametrize(
+    ("written", "due"),
+    [
+        ("2027-05-04", "2027-05-04T23:59:59-12:00"),
+        ("2027-05-04T18:00:00", "2027-05-04T18:00:00-12:00"),
+        ("2027-05-04T18:00:00+02:00", "2027-05-04T18:00:00+02:00"),
+    ],
+)
+def test_a_date_without_a_zone_is_over_where_it_is_over_last(
+    tmp_path: Path, written: str, due: str
+):
+    (tmp_path / "course.toml").write_text(f"due = {written}\n")
+    assert read_course(tmp_path / "course.toml").due == datetime.fromisoformat(due)
+
+
 @given(st.lists(st.integers(1, 9), min_size=1, max_size=12), st.integers(1, 60))
 def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
     shares = spread(points, weights)
@@ -145,9 +160,8 @@ WRONG = {
     "out_of = nan": "out_of = nan must be a number above 0",
     'bonus = "some"': "bonus = 'some' must be",
     "bonus = true": "bonus = True must be",
-    "due = 2027-05-04": "must be a date with its time and zone",
-    'due = "tomorrow"': "must be a date with its time and zone",
-    "due = 2027-05-04T23:59:00": "needs its time zone",
+    'due = "tomorrow"': "must be a date without quotes",
+    "due = 12:30:00": "must be a date without quotes",
     "due = 2027-05-04T12:00:00Z\nvisible = 2027-05-03T12:00:00Z": "is before due",
     "late = 5": "must be a table",
     "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
