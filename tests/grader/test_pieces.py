@@ -118,7 +118,15 @@ def test_links_in_a_tar_are_left_out(tmp_path):
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
     bomb = bytes(repack.MAX_FILE + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
-    assert names(pack(found)) == ALL
+    package = pack(found)
+    assert names(package) == ALL and package.notes == ["left out big.bin: too much"]
+
+
+def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
+    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(repack.MAX_FILE + 1)}
+    (tmp_path / "class.tgz").write_bytes(packed.as_tar(large))
+    with pytest.raises(CannotGrade, match=r"ben\.zip is too large: unpack it"):
+        opened_class(tmp_path / "class.tgz").__enter__()
 
 
 @pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])

@@ -39,17 +39,22 @@ class Bounds:
 
     def take(self, name: str, length: int) -> bool:
         if not self.files or length > self.bytes:
-            if len(self.left_out) < MENTIONED:
-                self.left_out.append(f"{name}: too much")
+            self.mention(name)
             return False
         self.files, self.bytes = self.files - 1, self.bytes - length
         return True
+
+    def mention(self, name: str) -> None:
+        if len(self.left_out) < MENTIONED:
+            self.left_out.append(f"{name}: too much")
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     """Unpack what may be part of a submission, Python's files first, within the bounds."""
     check_size(path)
-    with checked_archive(path) as archive:
+    with checked_archive(path) as (archive, too_large):
+        for large in too_large:
+            bounds.mention(large)
         members = sorted(members_of(archive), key=lambda each: (each[0].suffix != ".py", each[0]))
         if not members:
             raise CannotTake("the archive holds no file, or is cut off")
@@ -65,7 +70,9 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
 
 def unzip_class(path: Path, folder: Path) -> None:
     """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
-    with checked_archive(path) as archive:
+    with checked_archive(path) as (archive, too_large):
+        if too_large:
+            raise CannotTake(f"{too_large[0]} is too large: unpack it, and name the folder instead")
         for member in plain_members(archive):
             parts = [part for part in text_of(member).split("/") if part]
             if not any(is_system_file(part) for part in parts):
@@ -73,31 +80,37 @@ def unzip_class(path: Path, folder: Path) -> None:
 
 
 @contextmanager
-def checked_archive(path: Path) -> Iterator[zipfile.ZipFile]:
-    """Open an archive of any known kind, by what it is and not by its name."""
+def checked_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
+    """Open an archive of any known kind, by what it is; and the files that are too large for it."""
     with open(path, "rb") as file:
         sign = file.read(8)
     if path.suffix.lower() == ".zip" and not sign.startswith(SIGNS):
         with checked_zip(path) as archive:
-            yield archive
+            yield archive, []
         return
     with work_folder() as work:
-        make_plain(path, work / "plain.zip")
+        too_large = make_plain(path, work / "plain.zip")
         with checked_zip(work / "plain.zip") as archive:
-            yield archive
+            yield archive, too_large
 
 
-def make_plain(path: Path, target: Path) -> None:
-    """Have the same files packed as a zip, by a process that may take only so much."""
+def make_plain(path: Path, target: Path) -> list[str]:
+    """Have the same files packed as a zip, by a process that may take only so much.
+
+    Returns the names of those that are too large.
+    """
     script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
     try:
-        done = subprocess.run(script, capture_output=True, text=True, timeout=PATIENCE)
+        done = subprocess.run(
+            script, capture_output=True, encoding="utf-8", errors="replace", timeout=PATIENCE
+        )
     except subprocess.TimeoutExpired as error:
         raise CannotTake("the archive takes too long to unpack") from error
     if done.returncode == repack.REFUSED:
-        raise CannotTake(done.stdout.strip())
+        raise CannotTake(done.stdout.strip().splitlines()[-1])
     if done.returncode:
         raise CannotTake("the archive takes too much memory or time to unpack")
+    return done.stdout.splitlines()
 
 
 @contextmanager

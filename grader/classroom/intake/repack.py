@@ -1,10 +1,12 @@
 """Makes a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
 
 It is run as a script, in a process that may take only so much memory, time and disk: the libraries
-that read these formats meet a stranger's bytes here, and nothing else of the grader does.
+that read these formats meet a stranger's bytes here, and nothing else of the grader does. It prints
+the names of files that are too large, a line each, or why there is no zip.
 """
 
 import importlib
+import io
 import sys
 import tarfile
 import zipfile
@@ -24,7 +26,7 @@ SECONDS = 60  # of the processor
 PEEK = 8  # bytes that tell a format
 REFUSED = 3  # exit status: what is printed is a sentence for people
 
-Files = Iterator[tuple[str, bytes]]
+Files = Iterator[tuple[str, bytes | None]]  # None: too large
 
 
 class Refused(Exception):
@@ -33,24 +35,34 @@ class Refused(Exception):
 
 def main(source: str, target: str) -> int:
     limit()
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(encoding="utf-8", errors="replace")
     try:
         with zipfile.ZipFile(target, "w") as out:
             size = 0
             for count, (name, content) in enumerate(files_of(source)):
+                if content is None:
+                    say(name)
+                    continue
                 size += len(content)
                 if count >= MAX_FILES or size > MAX_BYTES:
                     raise Refused("the archive holds too much: ask for the program alone")
                 out.writestr(zipfile.ZipInfo(name), content)
     except Refused as refusal:
-        print(refusal)
+        say(str(refusal))
         return REFUSED
     except MemoryError:
-        print("the archive takes too much memory to unpack")
+        say("the archive takes too much memory to unpack")
         return REFUSED
     except Exception as error:  # each library has many; the bytes are a stranger's
-        print(f"the archive is broken ({type(error).__name__}: {error!s:.100})")
+        say(f"the archive is broken ({type(error).__name__}: {error!s:.100})")
         return REFUSED
     return 0
+
+
+def say(words: str) -> None:
+    """On one line, whatever is in it: it is read line by line."""
+    print(" ".join(words.split())[:300])
 
 
 def limit() -> None:
@@ -70,7 +82,7 @@ def limit() -> None:
 
 
 def files_of(source: str) -> Files:
-    """The plain files in an archive, those of more than a submission may have left out."""
+    """The plain files in an archive; of those larger than a submission may be only the names."""
     with open(source, "rb") as file:
         head = file.read(PEEK)
     if head.startswith(b"7z\xbc\xaf\x27\x1c"):
@@ -83,8 +95,9 @@ def files_of(source: str) -> Files:
 def in_tar(source: str) -> Files:
     with tarfile.open(source) as archive:
         for member in archive:
-            content = archive.extractfile(member) if member.isreg() else None
-            if content is not None and member.size <= MAX_FILE:
+            if member.isreg() and member.size > MAX_FILE:
+                yield member.name, None
+            elif member.isreg() and (content := archive.extractfile(member)) is not None:
                 yield member.name, content.read()
 
 
@@ -92,11 +105,11 @@ def in_7z(source: str) -> Files:
     py7zr = library("py7zr", ".7z")
     try:
         with py7zr.SevenZipFile(source) as archive:
-            wanted = {
-                each.filename: each.uncompressed
-                for each in archive.list()
-                if each.is_file and not each.is_symlink and each.uncompressed <= MAX_FILE
-            }
+            plain = [each for each in archive.list() if each.is_file and not each.is_symlink]
+            for each in plain:
+                if each.uncompressed > MAX_FILE:
+                    yield each.filename, None
+            wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_FILE}
             if sum(wanted.values()) > MAX_BYTES or len(wanted) > MAX_FILES:
                 raise Refused("the archive holds too much: ask for the program alone")
             factory = py7zr.io.BytesIOFactory(MAX_FILE + 1)
@@ -117,8 +130,9 @@ def in_rar(source: str) -> Files:
             if archive.needs_password():
                 raise Refused("the archive is encrypted: ask for one without a password")
             for member in archive.infolist():
-                if member.is_file() and not member.file_redir and member.file_size <= MAX_FILE:
-                    yield member.filename, archive.read(member)
+                if member.is_file() and not member.file_redir:
+                    large = member.file_size > MAX_FILE
+                    yield member.filename, None if large else archive.read(member)
     except rarfile.RarCannotExec as error:
         raise Refused(
             "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
