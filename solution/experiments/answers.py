@@ -130,15 +130,15 @@ def verdict(name, runs, helps=HELPS):
     known = [pair for pair in known if not isinstance(pair[0], str) and pair[1]]
     if len(known) < 2:
         return {"says": "gives up", "digit": None}
-    errors = [max(error, 1e-16) for error, _ in known]
-    if max(errors) < EXACT:
+    (first, (least, most)), *_, (last, (cheapest, dearest)) = known
+    first, last = max(first, 1e-16), max(last, 1e-16)
+    if max(first, last) < EXACT:
         return {"says": "exact already", "digit": None}
-    if (max(errors) - min(errors)) / max(errors) < helps:
+    if abs(first - last) / max(first, last) < helps:
         return {"says": "cannot help", "digit": None}
-    if errors[-1] > errors[0] * (1 - helps):
+    if last > first:
         return {"says": "no steady gain", "digit": None}
-    digits = math.log10(errors[0] / errors[-1])
-    (_, (least, most)), *_, (_, (cheapest, dearest)) = known
+    digits = math.log10(first / last)
     dearer = [cheapest / most, dearest / least]
     return {"says": "helps", "digit": [max(one, 1.0) ** (1 / digits) for one in dearer]}
 
