@@ -90,3 +90,78 @@ def test_what_cannot_be_meant_is_refused(tmp_path, text, words):
 def test_a_missing_file_is_said(tmp_path):
     with pytest.raises(CannotGrade, match="no adjustments at"):
         load_adjustments(tmp_path / "none.toml")
+
+
+# ---------------------------------------------------------------- all that a person decides
+
+
+def final(tmp_path: Path, text: str, points: int | None = 80, **found: object):
+    return loaded(tmp_path, text).final(Found("ann", (), **found), points)
+
+
+def late_by(**time: float) -> dict[str, datetime]:
+    return {"handed_in": DUE + timedelta(**time)}
+
+
+@pytest.mark.parametrize(
+    "line, after, points",
+    [
+        ("grace = 15", {"minutes": 15}, 80),
+        ("grace = 15", {"minutes": 16}, 70),
+        ("free_days = 2", {"days": 2}, 80),
+        ("free_days = 2", {"days": 3}, 70),
+        ("cap = 60", {"hours": 1}, 60),
+        ("cap = 60", {"hours": -1}, 80),
+        ("closed_after = 3", {"days": 3}, 55),  # at_most
+        ("closed_after = 3", {"days": 3, "seconds": 1}, 0),
+    ],
+)
+def test_rules_of_lateness(tmp_path, line, after, points):
+    assert final(tmp_path, LATE + line + "\n", **late_by(**after)).points == points
+
+
+def test_a_share_of_what_was_earned_is_rounded_for_the_student(tmp_path):
+    share = LATE.replace("per_day = 10", 'per_day = "10%"').replace("at_most = 25\n", "")
+    assert final(tmp_path, share, 87, **late_by(hours=1)).points == 87 - 8
+    assert final(tmp_path, share, 87, **late_by(days=20)).points == 0
+
+
+def test_an_extension_is_the_students_own_date(tmp_path):
+    text = LATE + adjust(due="2026-05-06T22:00:00Z")
+    on_time = final(tmp_path, text, **late_by(days=2))
+    assert on_time.points == 80 and on_time.due == DUE + timedelta(days=2)
+    assert on_time.reasons == ("due 2026-05-06 22:00 +00:00: ill",)
+    assert final(tmp_path, text, **late_by(days=2, seconds=1)).points == 70
+    assert final(tmp_path, text, late=True).points == 80  # late, and nobody knows by how much
+
+
+def test_points_by_hand_are_the_mark_of_what_could_not_be_graded(tmp_path):
+    by_hand = final(tmp_path, LATE + adjust(points=70), None)
+    assert (by_hand.points, by_hand.by_hand) == (70, True)
+    added = final(tmp_path, LATE + adjust(add=5), None)
+    assert added.points is None and "set points" in added.reasons[0]
+
+
+def test_a_cap_and_a_bonus(tmp_path):
+    assert final(tmp_path, LATE + adjust(cap=50)).points == 50
+    given = final(tmp_path, LATE + adjust(bonus=3))
+    assert (given.points, given.bonus, given.reasons) == (80, 3, ("ill: +3 bonus",))
+
+
+def test_times_without_a_zone_are_the_schools(tmp_path):
+    naive = {"handed_in": datetime(2026, 5, 5, 0, 30)}
+    berlin = 'zone = "Europe/Berlin"\n[late]\ndue = 2026-05-04T23:59:00\nper_day = 10\n'
+    assert final(tmp_path, berlin, **naive).points == 70
+    assert final(tmp_path, LATE, **naive).points == 70  # as the due date's, UTC here
+    west = LATE.replace("22:00:00Z", "22:00:00-05:00")
+    assert final(tmp_path, west, handed_in=datetime(2026, 5, 4, 21, 59)).points == 80
+
+
+def test_one_decision_for_several_and_an_address_by_its_first_half(tmp_path):
+    text = "[[adjust]]\nstudent = ['ann', 'ben@x']\nreason = 'pair'\nadd = 1\n"
+    decided = loaded(tmp_path, text)
+    assert decided.final(Found("ben@x", ()), 5).points == 6
+    assert decided.final(Found("ann@y", ()), 5).points == 6
+    decided.refuse_doubts(["ann@y", "ben@x"])
+    with pytest.raises(CannotGrade, match="could be ann@x or ann@y"):
+        decided.refuse_doubts(["ann@x", "ann@y"])
