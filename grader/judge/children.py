@@ -78,6 +78,7 @@ class Child:
         self.cpu = 0.0  # s, of processor time that it used; known when it has ended
         self.rested = 0.0  # s, in which it owed an answer and did nothing
         self.waited = self.looked = 0.0  # s, for its answers: in all, and when somebody last looked
+        self.began = seconds_in_queue(os.getpid())  # s, that we had queued when it began
         self.asked = 0
         self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
@@ -157,7 +158,9 @@ class Child:
         busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
-        self.rested, self.looked = max(self.rested, self.waited - busy), self.waited
+        # Where we wait for a processor ourselves, an answer waits for us.
+        ours = seconds_in_queue(os.getpid()) - self.began
+        self.rested, self.looked = max(self.rested, self.waited - busy - ours), self.waited
 
     def _give_up(self, why: str, gone: bool) -> None:
         status = self.worker.end(self, gone)
@@ -181,18 +184,32 @@ IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 def busy_seconds(pid: int) -> float | None:
     """For how long a process has worked or waited for a processor, s; None where it is gone.
 
-    The time in the queue is Linux's to tell (proc(5), schedstat). Elsewhere a process that is not
-    asleep counts as one that has worked ever since.
+    Where nobody tells of the queue, a process that is not asleep counts as one that has worked ever
+    since.
     """
     try:
         process = psutil.Process(pid)
         times = process.cpu_times()
-        queues = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
-        if not queues and process.status() not in IDLE:
+        queue = seconds_in_queue(pid)
+        if not TELLS_OF_QUEUES and process.status() not in IDLE:
             return math.inf
     except (psutil.Error, OSError):
         return None
-    return times.user + times.system + sum(int(each.split()[1]) for each in queues) / 1e9
+    return times.user + times.system + queue
+
+
+TELLS_OF_QUEUES = Path("/proc/self/schedstat").exists()
+
+
+def seconds_in_queue(pid: int) -> float:
+    """For how long the threads of a process have waited for a processor, s; as Linux tells it.
+
+    See proc(5), schedstat; 0 elsewhere. Raises OSError where the process is gone.
+    """
+    if not TELLS_OF_QUEUES:
+        return 0.0
+    queues = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
+    return sum(int(each.split()[1]) for each in queues) / 1e9
 
 
 class Worker(Protocol):

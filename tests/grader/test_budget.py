@@ -6,9 +6,11 @@ import signal
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from grader.judge import children
 from grader.judge.budget import (
     END_CPU,
     END_REST,
@@ -113,3 +115,18 @@ def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Pa
     result = grade(tree, Options(shipped_reference(), only=only))
     assert [todo.points for todo in result.todos] == [0, 2]
     assert all("processor time" in check.got for check in result.todos[0].checks)
+
+
+def test_time_in_which_the_judge_itself_waits_for_a_processor_is_nobodys_rest(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    """On a busy machine an answer lies there until the judge's turn comes."""
+    queued = {os.getpid(): 2.0}
+    monkeypatch.setattr(children, "seconds_in_queue", lambda pid: queued[pid])
+    monkeypatch.setattr(children, "busy_seconds", lambda pid: 1.0)
+    child = object.__new__(children.Child)
+    child.worker = SimpleNamespace(pid_of=lambda child: 1)
+    child.began, child.waited, child.rested, child.looked = 2.0, 10.0, 0.0, 0.0
+    queued[os.getpid()] = 9.5
+    child._look()
+    assert child.rested == pytest.approx(1.5)
