@@ -14,6 +14,7 @@ from rich.console import Console
 from grader.classroom.book import outcome_of
 from grader.classroom.dashboard import Entry, rates_of
 from grader.classroom.grading import rates, table_of
+from grader.judge.course import FULL
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -161,7 +162,9 @@ def test_a_bonus_task_is_a_warning_and_no_error(with_bonus: Result):
 def test_the_class_book_counts_no_bonus(without_bonus: Result, with_bonus: Result):
     outcomes = [outcome_of("ann", as_json(each), 1.0, "") for each in (without_bonus, with_bonus)]
     assert [(each.points, each.left) for each in outcomes] == [(100, [])] * 2
-    assert not [cell for cell in rates(outcomes).columns[0].cells if str(cell).startswith("B")]
+    assert not [
+        cell for cell in rates(outcomes, FULL).columns[0].cells if str(cell).startswith("B")
+    ]
     starter = msgspec.structs.replace(
         outcomes[0], left=[todo for todo in outcomes[0].todos if todo not in BONUS]
     )
