@@ -133,7 +133,13 @@ def test_every_kind_and_every_todo_is_drawn():
     assert {member.form for member in drawn} == {member.form for member in MEMBERS}
 
 
-@pytest.mark.parametrize("name", ["tells-the-reference", "harvests-the-reference"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "tells-the-reference",
+        pytest.param("harvests-the-reference", marks=pytest.mark.soak),
+    ],
+)
 def test_no_line_of_the_reference_gets_into_the_result(name: str):
     (member,) = [each for each in MEMBERS if each.name == name]
     result = grade_member(member).result

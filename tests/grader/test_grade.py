@@ -103,16 +103,11 @@ def test_the_hash_seed_and_the_locale_change_nothing(
     assert msgspec.json.decode(target.read_bytes(), type=Result).todos == wanted
 
 
-@pytest.mark.parametrize("todos", ["134", pytest.param("", marks=SOAK)])
-def test_a_secret_seed_gives_the_solution_its_points_as_well(todos: str):
-    secret = Options(shipped_reference(), only=frozenset(todos), seed=20261121)
-    assert graded(KIT / "solution", secret).complete
-
-
 @pytest.mark.parametrize(
     "chosen",
     [
-        ("3-only-pulls", "8b-half-is-missing-in-x", "8-helpers-inside"),
+        ("8b-half-is-missing-in-x", "8-helpers-inside"),
+        pytest.param(("3-only-pulls", "8b-half-is-missing-in-x", "8-helpers-inside"), marks=SOAK),
         pytest.param(("1-inside-normalises-zero", "3-only-pulls"), marks=SOAK),
     ],
 )
@@ -198,7 +193,7 @@ def earned_in_the_whole(todo: str) -> set[str]:
     return set() if all(check.guard for check in free) else {check.id for check in free}
 
 
-@pytest.mark.parametrize("todos", ["36", pytest.param("1245", marks=SOAK)])
+@pytest.mark.parametrize("todos", ["3", pytest.param("12456", marks=SOAK)])
 def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(tmp_path: Path, todos: str):
     engine = Options(shipped_reference(), only=frozenset("123456"))
     unfinished = tmp_path / "unfinished.py"
