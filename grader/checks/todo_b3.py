@@ -21,7 +21,7 @@ BALLS = 200
 STATES = 8  # balls of a scene that may be of any weight, and move
 PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
 WHOLE_CELLS = 4800.0  # px: many cells of each size that AT_THE_RIM asks about
-MANY = 3000  # to compare these pair by pair takes seconds, and to look at cells a fifth of one
+MANY = 4500  # to compare these pair by pair takes many seconds, and to look at cells a part of one
 MOST_TOLD = 1000  # contacts come with an answer
 GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
 
