@@ -6,9 +6,7 @@
 - `DIR.class.csv`: the table, for people.
 """
 
-import csv
 import hashlib
-import io
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from datetime import UTC, datetime
@@ -22,7 +20,7 @@ from grader.classroom.adjustments import timestamp
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, is_bonus
 from grader.report.files import write_whole
-from grader.report.sinks.tables import harmless
+from grader.report.sinks.tables import as_csv
 
 NOTHING = "nothing was handed in"
 
@@ -146,10 +144,8 @@ def read_book(path: Path) -> Iterator[Outcome]:
 def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """The class for a spreadsheet: nothing in it depends on when or how fast it was graded."""
     todos = [todo.id for todo in course.rubric.todos]
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n")
     titles = ["name", "points", "found", "of", "bonus", "handed in", "due", "late", "adjusted"]
-    writer.writerow([*titles, "trouble", "notes", *todos])
+    table: list[list[str | float]] = [[*titles, "trouble", "notes", *todos]]
     for each in outcomes:
         mark = "" if each.mark is None else each.mark
         found = ["", each.max_points or ""] if each.trouble else [each.points, each.max_points]
@@ -158,6 +154,5 @@ def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
         late = "late" if each.late else ""
         words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
-        numbers = [mark, *found, bonus, *times]
-        writer.writerow([harmless(each.name), *numbers, *map(harmless, words), *points])
-    return out.getvalue()
+        table.append([each.name, mark, *found, bonus, *times, *words, *points])
+    return as_csv(table)

@@ -26,7 +26,7 @@ from grader.judge.grade import Options, grade
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
-from grader.player.page import allowed, environment, one_line, theme
+from grader.player.page import filled, one_line
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
 
@@ -252,35 +252,30 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
     graded = [each for each in entries if each.result]
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
-    style = theme() + (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
-    return (
-        environment(TEMPLATES)
-        .get_template("dashboard.html")
-        .render(
-            title=folder.name,
-            folder=f"./{quote(folder.name)}/",
-            entries=entries,
-            graded=graded,
-            troubled=[each for each in entries if each.outcome.mark is None],
-            mean=f"{statistics.fmean(points):.1f}" if points else "none",
-            median=f"{statistics.median(points):g}" if points else "none",
-            full=sum(each.outcome.final >= each.outcome.max_points for each in marked),
-            bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
-            rates=rates_of(graded),
-            mistakes=mistakes_of(graded, folder),
-            alike=read_alike(folder),
-            slowest=slowest(graded),
-            bonus=any(each.outcome.bonus for each in marked),
-            marks=MARKS,
-            notes=notes_of,
-            clean=one_line,
-            quote=quote,
-            style=Markup(style),
-            script=Markup(script),
-            style_hash=f"'{allowed(style)}'",
-            script_hash=f"'{allowed(script)}'",
-        )
+    return filled(
+        TEMPLATES / "dashboard.html",
+        (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
+        script,
+        title=folder.name,
+        folder=f"./{quote(folder.name)}/",
+        entries=entries,
+        graded=graded,
+        troubled=[each for each in entries if each.outcome.mark is None],
+        mean=f"{statistics.fmean(points):.1f}" if points else "none",
+        median=f"{statistics.median(points):g}" if points else "none",
+        full=sum(each.outcome.final >= each.outcome.max_points for each in marked),
+        bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
+        rates=rates_of(graded),
+        mistakes=mistakes_of(graded, folder),
+        alike=read_alike(folder),
+        slowest=slowest(graded),
+        bonus=any(each.outcome.bonus for each in marked),
+        marks=MARKS,
+        notes=notes_of,
+        clean=one_line,
+        quote=quote,
+        script=Markup(script),
     )
 
 

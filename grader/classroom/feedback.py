@@ -4,7 +4,6 @@ Nobody gets another's page: a student whom the export or the class list does not
 left out, and said.
 """
 
-import csv
 import io
 import zipfile
 from collections.abc import Iterator
@@ -21,10 +20,10 @@ from grader.classroom.names import portable
 from grader.classroom.owners import match
 from grader.classroom.roster import CannotRead, Roster
 from grader.judge.course import FULL, Course, told
-from grader.report.sinks.tables import harmless
+from grader.report.files import put_in
+from grader.report.sinks.tables import as_csv
 
 System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
-DAY_ONE = (1980, 1, 1, 0, 0, 0)  # so that the same pages are the same zip
 PAGE = "feedback.html"
 ASSIGNMENT = "physics-engine"
 ADDRESSES = ("Email address", "Email", "SIS Login ID", "Username")
@@ -41,10 +40,7 @@ class Feedback:
         out = io.BytesIO()
         with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
             for name, content in sorted(self.files.items()):
-                member = zipfile.ZipInfo(name, DAY_ONE)
-                member.compress_type = zipfile.ZIP_DEFLATED
-                member.external_attr = 0o100644 << 16
-                archive.writestr(member, content)
+                put_in(archive, name, content)
         return out.getvalue()
 
 
@@ -140,18 +136,12 @@ def by_address(roster: Roster, key: str, entries: list[Entry], pages: Path) -> F
             file = f"{portable(address)}.html"
             made.files[file] = page.read_bytes()
             listed.append([address, names[0], file])
-    made.files["addresses.csv"] = as_table(listed)
+    made.files["addresses.csv"] = as_csv(listed).encode("utf-8")
     return made
 
 
 def has_addresses(roster: Roster, column: str) -> bool:
     return column in roster.columns and any("@" in row[column] for row in roster.rows)
-
-
-def as_table(rows: list[list[str]]) -> bytes:
-    out = io.StringIO(newline="")
-    csv.writer(out, lineterminator="\r\n").writerows([map(harmless, row) for row in rows])
-    return out.getvalue().encode("utf-8")
 
 
 def for_nbgrader(entries: list[Entry], pages: Path) -> Feedback:

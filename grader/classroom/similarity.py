@@ -9,7 +9,6 @@ Right answers to short tasks are alike by nature. `EXPECTED` is above what indep
 of the bank share; a test holds it there.
 """
 
-import csv
 import io
 import keyword
 import token
@@ -24,7 +23,6 @@ from itertools import combinations
 from pathlib import Path
 
 import msgspec
-from markupsafe import Markup
 from msgspec import Struct
 
 from grader.classroom.intake.found import CannotTake, Found, Package
@@ -32,9 +30,9 @@ from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import pack
 from grader.classroom.roster import ClassList
 from grader.judge.grade import KIT
-from grader.player.page import allowed, environment, theme
+from grader.player.page import filled
 from grader.report.files import write_whole
-from grader.report.sinks.tables import harmless
+from grader.report.sinks.tables import as_csv
 from grader.todo_regions import python_files
 from grader.words import printable
 
@@ -249,19 +247,14 @@ def write_alike(
 ) -> Path:
     """Write the pairs as a page, a table and for the class page; `found` has them all by name."""
     places = Places(results.resolve())
-    style = theme() + (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
-    page = (
-        environment(TEMPLATES)
-        .get_template("alike.html")
-        .render(
-            title=results.name,
-            pairs=[(pair, *sides(pair, found)) for pair in pairs],
-            least=least,
-            run=RUN,
-            clean=printable,
-            style=Markup(style),
-            style_hash=f"'{allowed(style)}'",
-        )
+    page = filled(
+        TEMPLATES / "alike.html",
+        (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
+        title=results.name,
+        pairs=[(pair, *sides(pair, found)) for pair in pairs],
+        least=least,
+        run=RUN,
+        clean=printable,
     )
     write_whole(page.encode("utf-8"), places.beside("html"))
     write_whole(as_table(pairs), places.beside("csv"))
@@ -286,9 +279,5 @@ def read_alike(results: Path) -> list[Pair]:
 
 def as_table(pairs: list[Pair]) -> bytes:
     """The pairs for a spreadsheet."""
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(["first", "second", "alike", "runs"])
-    for each in pairs:
-        writer.writerow([*map(harmless, each.names), each.share, each.runs])
-    return out.getvalue().encode("utf-8-sig")
+    rows = ((*each.names, each.share, each.runs) for each in pairs)
+    return as_csv([("first", "second", "alike", "runs"), *rows]).encode("utf-8-sig")

@@ -31,10 +31,10 @@ from grader.maintain.notebooks import notebooks_of
 from grader.maintain.pages import write_pages
 from grader.maintain.students_copy import Tree, visible, write_copy
 from grader.maintain.verify import verify
+from grader.report.files import put_in
 from grader.report.sinks.classroom50 import write_bundle
 
 NAME = "physics-engine"
-DAY_ONE = (1980, 1, 1, 0, 0, 0)  # of every file: an archive knows no earlier one
 SECOND_ONE = "315532800"  # the same, in s
 
 
@@ -153,10 +153,7 @@ def write_manifest(tree: Path, version: str, content: str) -> None:
 def write_zip(tree: Path, target: Path) -> None:
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, path in files_in(tree):
-            entry = zipfile.ZipInfo(f"{NAME}/{name}", DAY_ONE)
-            entry.external_attr = 0o644 << 16
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, path.read_bytes())
+            put_in(archive, f"{NAME}/{name}", path.read_bytes())
 
 
 def files_in(folder: Path) -> list[tuple[str, Path]]:

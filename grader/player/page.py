@@ -19,27 +19,53 @@ MAX_WORDS = 1000  # characters of a submission in one line: a page has more room
 
 def page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
     """The page of one failed check; `words` say why it failed, `script` asks the same again."""
-    style, player = theme() + read("player.css"), read("player.js")
+    player = read("player.js")
+    return filled(
+        TEMPLATES / "player.html",
+        read("player.css"),
+        player,
+        title=one_line(title),
+        words=[(name, one_line(text)) for name, text in words],
+        code=script,
+        film=as_data(replay),
+        player=Markup(player),
+    )
+
+
+def filled(
+    template: Path,
+    style: str,
+    *scripts: str,
+    around: tuple[str, str] | None = None,
+    **values: object,
+) -> str:
+    """A page of this style and the theme's, in which these scripts may run and nothing else.
+
+    Where it is put `around` others, by the hashes of their style and script, it lets them be, too.
+    """
+    style = theme() + style
+    inner_style, inner_script = ([each] for each in around) if around else ([], [])
     return (
-        environment(TEMPLATES)
-        .get_template("player.html")
+        environment(template.parent)
+        .get_template(template.name)
         .render(
-            title=one_line(title),
-            words=[(name, one_line(text)) for name, text in words],
-            code=script,
-            film=as_data(replay),
             style=Markup(style),
-            player=Markup(player),
-            style_hash=hashes()[0],
-            script_hash=hashes()[1],
+            styles=sources([allowed(style), *inner_style]),
+            scripts=sources([*map(allowed, scripts), *inner_script]),
+            **values,
         )
     )
 
 
+def sources(hashes: Sequence[str]) -> Markup:
+    """What a page's policy says of these hashes."""
+    return Markup(" ").join(Markup("'{}'").format(each) for each in hashes)
+
+
 @cache
 def environment(templates: Path) -> jinja2.Environment:
-    """Whatever is put into a page is text, unless it says otherwise."""
-    loader = jinja2.FileSystemLoader(templates)
+    """Whatever is put into a page is text, unless it says otherwise; all extend `page.html`."""
+    loader = jinja2.FileSystemLoader([templates, TEMPLATES])
     return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
 
 

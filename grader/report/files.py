@@ -1,11 +1,15 @@
-"""The result as a file."""
+"""Results and archives as files."""
 
 import os
+import zipfile
 from pathlib import Path
 
 import msgspec
 
 from grader.judge.result import Result
+
+DAY_ONE = (1980, 1, 1, 0, 0, 0)  # an archive knows no earlier one
+PLAIN, SCRIPT = 0o100644, 0o100755  # modes of a file
 
 
 def as_json(result: Result) -> bytes:
@@ -24,3 +28,11 @@ def write_whole(content: bytes, path: Path) -> None:
     with open(part, "xb") as file:
         file.write(content)
     os.replace(part, path)
+
+
+def put_in(archive: zipfile.ZipFile, name: str, content: bytes, mode: int = PLAIN) -> None:
+    """Put a file into an archive, so that the same files make the same archive on any day."""
+    member = zipfile.ZipInfo(name, DAY_ONE)
+    member.compress_type = zipfile.ZIP_DEFLATED
+    member.external_attr = mode << 16
+    archive.writestr(member, content)

@@ -14,13 +14,12 @@ import msgspec
 
 from grader.classroom.gradescope.autograder import Settings
 from grader.judge.grade import KIT
-from grader.report.files import write_whole
+from grader.report.files import PLAIN, SCRIPT, put_in, write_whole
 from grader.todo_regions import python_files
 
 HERE = Path(__file__).parent
 SCRIPTS = ("setup.sh", "run_autograder")
 NEWEST_FIRST = ("3.13", "3.12", "3.11")  # the Pythons that the kit is tested on
-DAY_ONE = (1980, 1, 1, 0, 0, 0)  # of every file: the same kit makes the same zip
 MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64")
 
 
@@ -39,10 +38,7 @@ def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
             download(wheels, work / "wheels")
         with zipfile.ZipFile(work / "autograder.zip", "w", zipfile.ZIP_DEFLATED) as archive:
             for name, content in sorted(contents(settings, work / "wheels", wheels)):
-                entry = zipfile.ZipInfo(name, DAY_ONE)
-                entry.compress_type = zipfile.ZIP_DEFLATED
-                entry.external_attr = (0o100755 if name in SCRIPTS else 0o100644) << 16
-                archive.writestr(entry, content)
+                put_in(archive, name, content, SCRIPT if name in SCRIPTS else PLAIN)
         write_whole((work / "autograder.zip").read_bytes(), path)
 
 

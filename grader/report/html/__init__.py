@@ -4,11 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from markupsafe import Markup
-
 from grader.judge.isolation import unconfined
 from grader.judge.result import Result
-from grader.player.page import allowed, environment, hashes, one_line, theme
+from grader.player.page import filled, hashes, one_line
 from grader.report.files import write_whole
 from grader.words import named_reasons
 
@@ -37,39 +35,27 @@ def write_report(
 
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
-    style = theme() + (TEMPLATES / "report.css").read_text(encoding="utf-8")
-    page = (
-        environment(TEMPLATES)
-        .get_template("standing.html")
-        .render(
-            standing=standing,
-            clean=one_line,
-            style=Markup(style),
-            style_hashes=f"'{allowed(style)}'",
-        )
-    )
+    page = filled(TEMPLATES / "standing.html", style(), standing=standing, clean=one_line)
     write_whole(page.encode("utf-8"), path)
 
 
 def report(result: Result, replays: Mapping[str, str], standing: Standing | None = None) -> str:
     """The page; `replays` are the pages to embed, by their paths in the result."""
-    style = theme() + (TEMPLATES / "report.css").read_text(encoding="utf-8")
-    player_style, player_script = hashes()
-    return (
-        environment(TEMPLATES)
-        .get_template("report.html")
-        .render(
-            result=result,
-            replays=replays,
-            standing=standing,
-            unconfined=unconfined(result.isolation),
-            clean=one_line,
-            reasons=named_reasons,
-            style=Markup(style),
-            style_hashes=f"'{allowed(style)}' '{player_style}'",
-            script_hash=f"'{player_script}'",
-        )
+    return filled(
+        TEMPLATES / "report.html",
+        style(),
+        around=hashes(),
+        result=result,
+        replays=replays,
+        standing=standing,
+        unconfined=unconfined(result.isolation),
+        clean=one_line,
+        reasons=named_reasons,
     )
+
+
+def style() -> str:
+    return (TEMPLATES / "report.css").read_text(encoding="utf-8")
 
 
 def found_replays(result: Result, folder: Path) -> dict[str, str]:

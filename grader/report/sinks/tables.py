@@ -28,12 +28,8 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 def csv_table(results: Iterable[Result]) -> bytes:
     """A line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(COLUMNS)
-    for row in rows(results):
-        writer.writerow([harmless(v) if isinstance(v, str) else v for v in row.values()])
-    return out.getvalue().encode("utf-8-sig")
+    table = [COLUMNS, *(row.values() for row in rows(results))]
+    return as_csv(table).encode("utf-8-sig")
 
 
 def json_lines(results: Iterable[Result]) -> bytes:
@@ -60,6 +56,15 @@ def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
                     clean(place_of(check)),
                 )
                 yield dict(zip(COLUMNS, values, strict=True))
+
+
+def as_csv(table: Iterable[Iterable[str | float]]) -> str:
+    """The rows of a table for a spreadsheet, with CRLF behind each; no text is a formula."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, lineterminator="\r\n")
+    for row in table:
+        writer.writerow([harmless(each) if isinstance(each, str) else each for each in row])
+    return out.getvalue()
 
 
 def harmless(cell: str) -> str:
