@@ -37,10 +37,8 @@ ENVIRONMENT = {
 # kept, written and shown, so its length would be multiplied. A child of ours cuts its texts before.
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
 MAX_PRINTED = 65 * 1024  # of one answer
-MAX_LINES, MAX_FRAMES = (
-    200,
-    12,
-)  # printed lines of a program, and functions that an error went through
+MAX_LINES = 200  # that a program printed
+MAX_FRAMES = 12  # functions that an error went through
 
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
@@ -326,9 +324,8 @@ class CodeLine(Struct, frozen=True):
 class Raised(Struct, frozen=True, tag="raised"):
     error: Name
     message: Text
-    frames: Annotated[
-        list[CodeLine], Meta(max_length=MAX_FRAMES)
-    ]  # the student's own frames, outermost first
+    # The student's own frames, outermost first.
+    frames: Annotated[list[CodeLine], Meta(max_length=MAX_FRAMES)]
 
 
 class Missing(Struct, frozen=True, tag="missing"):

@@ -10,12 +10,11 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from grader.checks.lab_scene import BALLS, FIXED, Part
+from grader.checks.lab_scene import BALLS, FIXED, HOOK, ROD, Part
 from grader.judge.decode import Pair
 from grader.judge.lab import STEP, Lab, Moment
 
 GRAVITY = 980.0  # px/s²
-HOOK, ROD = (700.0, 90.0), 140.0  # px; the bob is never clear, nor is what comes near it
 BALL, LARGEST = 22.0, 32.0  # px: how far a ball, and anything that moves, reaches from its middle
 CLEAR = 3.0  # px
 LOST = 0.1  # share of a speed: no damping takes more in a step
@@ -77,7 +76,10 @@ def flew(before: Moment, after: Moment) -> bool:
 
 
 def is_clear(each: Moment, row: Sequence[Moment]) -> bool:
-    """Whether a body is a ball that can meet nothing in this step or the next."""
+    """Whether a body is a ball that can meet nothing in this step or the next.
+
+    The bob never is, nor is what comes near it.
+    """
     place = each.x, each.y
     way = 2 * STEP * (each.speed + GRAVITY * STEP) + CLEAR
     return (

@@ -34,13 +34,14 @@ class Part(NamedTuple):
         return f"a {'moving' if self.mass else 'static'} {what} at ({x:g}, {y:g})"
 
 
+HOOK, ROD = (700.0, 90.0), 140.0  # px; where the pendulum hangs, and how long it is
 FIXED = [
     Part((450, 580), (450, 20)),  # the floor
     Part((-20, 300), (20, 300)),
     Part((920, 300), (20, 300)),
     Part((200, 260), (150, 10)),  # the ledge
     *(Part((375 + 60 * number, 400), (8,)) for number in range(5)),  # pegs
-    Part((700, 90), (6,)),  # the pendulum's hook
+    Part(HOOK, (6,)),
 ]
 BOB = Part((840, 90), (24,), 6, 0.2)
 STACK = [

@@ -11,6 +11,8 @@ from grader.checks.flights import moments, want_free_flights
 from grader.checks.lab_scene import (
     BOB,
     FIXED,
+    HOOK,
+    ROD,
     SEED,
     STACK,
     moving_parts,
@@ -42,9 +44,7 @@ WIDTH = 900.0  # px
 LEDGE_TOP, FLOOR_TOP = 250.0, 560.0  # px
 LEDGE_LEFT, LEDGE_RIGHT = 50.0, 350.0  # px
 BOB_RADIUS = 24.0  # px; the balls are smaller
-ROD = 140.0  # px
 MAX_BALLS = 40
-HOOK = (700.0, 90.0)  # px
 RESTING = 3.0  # px, for what lies on something
 LANDING = 9.0  # px: how deep a ball at 1000 px/s gets within one step
 WITHIN_A_ROUNDING = 0.0051  # px, of a number printed with two digits

@@ -17,6 +17,7 @@ from msgspec import Struct, structs
 
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
+from grader.words import moment
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
@@ -111,7 +112,7 @@ def told(result: Result, course: Course, now: datetime | None = None) -> Result:
     when = course.visible
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result
-    later = f"shown from {when:%d %B %Y %H:%M} ({when.tzname()}) on".replace("from 0", "from ")
+    later = f"shown from {moment(when)} on"
     hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
     todos = [
         structs.replace(
@@ -206,19 +207,19 @@ def read_course(path: Path | None = None) -> Course:
         raise WrongCourse(f"there is no course at {path}: name a file such as {PLACE}") from error
     except ValueError as error:  # no TOML, or no text
         raise WrongCourse(f"{path} is no TOML: {error}") from error
+    for name, at in (("due", time(23, 59, 59)), ("visible", time())):
+        if isinstance(document.get(name), date):
+            document[name] = instant(document[name], at)
     complaint = next(complaints(document), "")
     if complaint:
         raise WrongCourse(f"{path}: {complaint}")
-    for name, at in (("due", time(23, 59, 59)), ("visible", time())):
-        if name in document:
-            document[name] = moment(document[name], at)
     try:
         return msgspec.convert(document, Course)
     except msgspec.ValidationError as error:
         raise WrongCourse(f"{path}: {error}") from error
 
 
-def moment(when: date, at: time) -> datetime:
+def instant(when: date, at: time) -> datetime:
     """A date of a course: without a time it is `at`, and without a zone anywhere on Earth.
 
     So it does not depend on the machine's zone, and nobody is late whose own clock is before it.
@@ -318,9 +319,9 @@ def wrong_late(late: dict[str, Any]) -> Iterator[str]:
 def wrong_dates(document: dict[str, Any]) -> Iterator[str]:
     for name in ("due", "visible"):
         when = document.get(name)
-        if when is not None and not isinstance(when, date):
+        if when is not None and not isinstance(when, datetime):
             yield f"{name} = {when!r} must be a date without quotes, as in {name} = {EXAMPLE}"
             return
     due, visible = document.get("due"), document.get("visible")
-    if due is not None and visible is not None and moment(visible, time()) < moment(due, time()):
+    if due is not None and visible is not None and visible < due:
         yield f"visible = {visible} is before due = {due}: students could still hand in"

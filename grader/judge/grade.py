@@ -4,7 +4,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 import msgspec
@@ -153,7 +153,7 @@ class Grading:
             self.options.seed,
             self.options.progress,
             observations=self.observations,
-            open_right=self.open_right(),
+            open_right=self.open_right if self.options.reference else None,
         )
         run_pytest(plugin, self.rubric)
         result = self.result(plugin.results)
@@ -164,29 +164,20 @@ class Grading:
         from grader.judge.replay import Replays
 
         known = frozenset(self.submission.functions)
-        replays = Replays(folder, self.sandbox.open_child, self.expected_children(), known)
+        replays = Replays(folder, self.sandbox.open_child, plugin.open_right, known)
         return replays.of(result, plugin.failing)
 
-    def open_right(self) -> Callable[[int], Child] | None:
-        """The same as below, but that the reference is taken in only where it is asked."""
-        if self.options.reference is None:
-            return None
-        children = cache(self.expected_children)
+    def open_right(self, cpu_seconds: int) -> Child:
+        """A child of the reference itself, to see what should happen."""
+        return self.right_sandbox.open_child(cpu_seconds)
 
-        def opened(cpu_seconds: int) -> Child:
-            right = children()
-            assert right is not None
-            return right(cpu_seconds)
-
-        return opened
-
-    def expected_children(self) -> Callable[[int], Child] | None:
-        """A way to open children of the reference itself, to see what should happen."""
-        if self.options.reference is None:
-            return None
+    @cached_property
+    def right_sandbox(self) -> Sandbox:
+        """That of the reference, taken in when it is first needed."""
+        assert self.options.reference is not None
         work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
         taken_in = take_in(self.options.reference, work / "tree", self.rubric, {})
-        return sandbox_for(taken_in, work, self.sandbox.worker, self.options).open_child
+        return sandbox_for(taken_in, work, self.sandbox.worker, self.options)
 
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""

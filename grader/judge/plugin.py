@@ -32,11 +32,7 @@ class Failing:
     check: Check
     again: Example
     pieces: list[Piece]
-    seed: int | None = None
-
-    @property
-    def secret(self) -> str | None:
-        return secret_of(self.seed, self.todo, self.check)
+    secret: str | None = None  # see secret_of
 
 
 def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
@@ -59,9 +55,8 @@ class GradingPlugin:
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
-    functions: dict[tuple[str, str], Any] = field(default_factory=dict)  # of the checks that ran
     budget: Budget = field(default_factory=Budget)
-    open_right: Callable[[int], Child] | None = None  # the same for the reference, as it is
+    open_right: Callable[[int], Child] | None = None  # a child of the reference itself
     trouble: str = ""  # why a file of checks could not be read
     wrong: str = ""  # which check fails the right code, and how
     interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
@@ -110,7 +105,6 @@ class GradingPlugin:
         title = (pyfuncitem.obj.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
         result = self._blocked(todo, check, title)
         if result is None:
-            self.functions[todo.id, check.id] = pyfuncitem.obj
             result = self._run(todo, check, title, pyfuncitem.obj)
         self.results[todo.id, check.id] = result
         if self.progress is not None:
@@ -152,14 +146,15 @@ class GradingPlugin:
             lab = told
         self.observations.setdefault(todo.id, []).extend(lab.observations)
         if told.failure is not None:
-            self._blame(todo, check, told)
+            self._blame(todo, check, function, told)
             if not told.ended:
-                failing = Failing(todo, check, again, told.connection.pieces, self.seed)
+                secret = secret_of(self.seed, todo, check)
+                failing = Failing(todo, check, again, told.connection.pieces, secret)
                 self.failing[todo.id, check.id] = failing
             return self._failure(todo, check, title, told.failure)
         return self._result(todo, check, title, "passed")
 
-    def _blame(self, todo: Todo, check: Check, lab: Lab) -> None:
+    def _blame(self, todo: Todo, check: Check, function: Any, lab: Lab) -> None:
         """Note a check that the right code fails as well: that is not the submission's fault.
 
         Asked only where it may be so: of an error that nobody foresaw, and of a submission that
@@ -169,7 +164,6 @@ class GradingPlugin:
         cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
         if self.open_right is None or self.wrong or cut or not likely:
             return
-        function = self.functions[todo.id, check.id]
         with kept_examples(function), seeded(function, self.seed):
             right = self._asked(todo, check, function, isolated=False, right=True)
         failure = right.failure

@@ -47,9 +47,7 @@ class CheckResult(Struct, frozen=True):
 
 def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
     """A check with so many characters in each of its texts at most: some quote a submission."""
-    texts = {
-        name: cut(getattr(check, name), most) for name in ("ran", "expected", "got", "meaning")
-    }
+    texts = {name: cut(getattr(check, name), most) for name in TEXTS}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
 

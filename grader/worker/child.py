@@ -70,9 +70,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     left out, to see what the others hold.
     """
     submission, name = setup.submission, Path(setup.submission).name
-    folders_of(
-        submission
-    )  # read now, if they are not: in a root of its own it goes by another name
+    folders_of(submission)  # now, if not yet: in a root of its own it goes by another name
     layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
     folder = Path(setup.scratch, name)

@@ -163,6 +163,7 @@ WRONG = {
     'due = "tomorrow"': "must be a date without quotes",
     "due = 12:30:00": "must be a date without quotes",
     "due = 2027-05-04T12:00:00Z\nvisible = 2027-05-03T12:00:00Z": "is before due",
+    "due = 2027-05-04\nvisible = 2027-05-04": "is before due",  # its end, and its beginning
     "late = 5": "must be a table",
     "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
     "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
