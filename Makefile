@@ -65,9 +65,9 @@ contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podma
 	@$(ENGINE) build --tag physics-grader --file Containerfile .
 	@mkdir -p "$(RESULTS)"
 	@$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
-		--volume "$(abspath $(SUBMISSIONS)):/root/submissions:ro" \
-		--volume "$(abspath $(RESULTS)):/root/results" \
-		$(if $(COURSE_FILE),--volume "$(abspath $(COURSE_FILE)):/root/kit/course.toml:ro") \
+		--volume "$(abspath $(SUBMISSIONS)):/instructor/submissions:ro" \
+		--volume "$(abspath $(RESULTS)):/instructor/results" \
+		$(if $(COURSE_FILE),--volume "$(abspath $(COURSE_FILE)):/instructor/kit/course.toml:ro") \
 		physics-grader $(if $(SEED),--seed $(SEED))
 
 dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("Box2D")
+pytest.importorskip("Box2D", reason="needs the extra `box2d`, a fourth engine to compare with")
 
 from experiments.engines import ENGINES
 from experiments.measures import energy, finite, run

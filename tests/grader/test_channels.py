@@ -218,7 +218,7 @@ def ask(child: Child, function: str, *arguments: str) -> bool:
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_carried_to_the_next_child(name: str, sandbox: Sandbox, world: str):
     if (name, world) in OPEN:
-        pytest.skip("open without the other layers")
+        pytest.skip(f"where there is {world}, {name} is open, as OPEN says: another layer shuts it")
     work = str(sandbox.work)
     first = sandbox.open_child(10)
     holding = {"no filter": "own-root"}.get(world, "system-calls")

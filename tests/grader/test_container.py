@@ -84,8 +84,9 @@ def test_one_command_grades_a_folder_in_it(tmp_path: Path):
     subprocess.run(command, cwd=KIT, check=True, stdout=subprocess.DEVNULL)
     build, run = (tmp_path / "asked").read_text().splitlines()
     assert build == "build --tag physics-grader --file Containerfile ."
-    assert "--network none" in run and f"{folder}:/root/submissions:ro" in run
-    assert f"{folder}-results:/root/results" in run and run.endswith("physics-grader --seed 7")
+    assert "--network none" in run and f"{folder}:/instructor/submissions:ro" in run
+    assert f"{folder}-results:/instructor/results" in run
+    assert run.endswith("physics-grader --seed 7")
     assert (tmp_path / "class-results").is_dir()
 
 
@@ -101,7 +102,7 @@ def test_what_is_copied_grades_a_class(tmp_path: Path):
     ann.mkdir(parents=True)
     shutil.copy(KIT / "solution" / "integrators.py", ann)
     (line,) = re.findall(r"^ENTRYPOINT (.+)$", INSTRUCTIONS, re.MULTILINE)
-    entry = [each.replace("/root", str(tmp_path)) for each in json.loads(line)]
+    entry = [each.replace("/instructor", str(tmp_path)) for each in json.loads(line)]
     subprocess.run(
         [sys.executable, *entry[1:], "--jobs", "1"], cwd=kit, check=True, stdout=subprocess.DEVNULL
     )
