@@ -8,6 +8,9 @@ import os
 import sys
 from datetime import datetime
 
+from msgspec import structs
+
+from grader.judge.course import Course
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
 
@@ -143,3 +146,30 @@ def command(name: str, todo: str = "", level: int = 1) -> str:
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
     return f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)
+
+
+# ---------------------------------------------------------------- what students are told
+
+
+def told(result: Result, course: Course, now: datetime | None = None) -> Result:
+    """What students are told of a result: until the course's day, not why a hidden check failed."""
+    when = course.visible
+    if when is None or (now or datetime.now(when.tzinfo)) >= when:
+        return result
+    later = f"shown from {moment(when)} on"
+    hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
+    todos = [
+        structs.replace(
+            todo,
+            checks=[
+                structs.replace(
+                    each, ran="", expected="", got=later, meaning="", where=None, replay=None
+                )
+                if each.failed and (todo.id, each.id) in hidden
+                else each
+                for each in todo.checks
+            ],
+        )
+        for todo in result.todos
+    ]
+    return structs.replace(result, todos=todos)

@@ -21,7 +21,7 @@ from grader.classroom.intake.found import CannotTake, Intake
 from grader.classroom.intake.packing import pack
 from grader.classroom.similarity import read_alike
 from grader.judge.children import start_worker
-from grader.judge.course import FULL, Course, told
+from grader.judge.course import FULL, Course
 from grader.judge.grade import Options, grade
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
@@ -29,6 +29,7 @@ from grader.judge.workplace import work_folder
 from grader.player.page import filled, one_line
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
+from grader.words import told
 
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution

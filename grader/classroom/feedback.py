@@ -19,9 +19,10 @@ from grader.classroom.intake.found import Found, Intake
 from grader.classroom.names import portable
 from grader.classroom.owners import match
 from grader.classroom.roster import CannotRead, Roster
-from grader.judge.course import FULL, Course, told
+from grader.judge.course import FULL, Course
 from grader.report.files import put_in
 from grader.report.sinks.tables import as_csv
+from grader.words import told
 
 System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
 PAGE = "feedback.html"

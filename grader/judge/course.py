@@ -15,9 +15,8 @@ from typing import Any, Literal
 import msgspec
 from msgspec import Struct, structs
 
-from grader.judge.result import Result, is_bonus
+from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
-from grader.words import moment
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
@@ -105,30 +104,6 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 FULL = Course()
-
-
-def told(result: Result, course: Course, now: datetime | None = None) -> Result:
-    """What students are told of a result: until the course's day, not why a hidden check failed."""
-    when = course.visible
-    if when is None or (now or datetime.now(when.tzinfo)) >= when:
-        return result
-    later = f"shown from {moment(when)} on"
-    hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
-    todos = [
-        structs.replace(
-            todo,
-            checks=[
-                structs.replace(
-                    each, ran="", expected="", got=later, meaning="", where=None, replay=None
-                )
-                if each.failed and (todo.id, each.id) in hidden
-                else each
-                for each in todo.checks
-            ],
-        )
-        for todo in result.todos
-    ]
-    return structs.replace(result, todos=todos)
 
 
 # ---------------------------------------------------------------- the rubric of a course

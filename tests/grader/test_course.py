@@ -31,7 +31,7 @@ from grader.classroom.marks import load_marking
 from grader.classroom.nbgrader.course import make_course
 from grader.cli import app
 from grader.hand_in import PROGRAMS
-from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread, told
+from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
@@ -45,6 +45,7 @@ from grader.maintain.release import build, wrong_submissions
 from grader.maintain.verify import grade_member, shared_worker, verify
 from grader.report.sinks.gradescope import gradescope
 from grader.todo_regions import regions_in
+from grader.words import told
 
 COURSES = {path.stem: read_course(path) for path in (KIT / "tests" / "courses").glob("*.toml")}
 EVERY = typer.Typer()

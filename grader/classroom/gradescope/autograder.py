@@ -14,7 +14,7 @@ from rich.console import Console
 
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.packing import pack
-from grader.judge.course import FULL, Course, told
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -22,7 +22,7 @@ from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import gradescope
 from grader.report.terminal import show, show_isolation
-from grader.words import clean
+from grader.words import clean, told
 
 
 class Settings(Struct, frozen=True):
