@@ -30,7 +30,16 @@ STATIC = pymunk.Body.STATIC
 State = namedtuple("State", "x y vx vy angle omega")
 
 
-class Lesson:
+class Undeclaring:
+    """A builder for an engine in which nothing is declared: it knows no effects by name."""
+
+    @property
+    def complaints(self):
+        """What the stable engine says of the same scene, in which it takes no step."""
+        return Stable(self.scene).complaints
+
+
+class Lesson(Undeclaring):
     """The lesson's engine: the one in this folder, yours. It has no springs."""
 
     name = "lesson"
@@ -128,7 +137,7 @@ class Stable:
         return sum(body.asleep for body in self.bodies)
 
 
-class Pymunk:
+class Pymunk(Undeclaring):
     """The same scene in pymunk.
 
     pymunk multiplies what two surfaces have; the other engines take the root of the product of
@@ -209,7 +218,7 @@ POSITION_SHARE = 3 / 8  # of Box2D's passes: it advises 8 for velocities and 3 f
 NO_COLLISIONS = -1  # a group of Box2D's in which nothing collides
 
 
-class Box2d:
+class Box2d(Undeclaring):
     """The same scene in Box2D, in metres.
 
     Its friction is that of the other engines. Of two restitutions it takes the larger one: the same

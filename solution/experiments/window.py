@@ -103,9 +103,9 @@ class Show:
         self.measure()
 
     def complaint(self):
-        """What the engine says of an effect that the scene calls for and that is switched off."""
+        """What is said of an effect that the scene calls for and that is switched off."""
         called_for = [f"calls for {name}()" for name in self.scene.effects]
-        for sentence in getattr(self.engine, "complaints", []):
+        for sentence in self.engine.complaints:
             if any(words in sentence for words in called_for):
                 return sentence.partition(":")[0] + "."
         return ""
