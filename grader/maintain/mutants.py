@@ -233,8 +233,11 @@ class Outcome:
         return "survived" if self.verdict == "survived" else ""
 
 
-def grade_mutant(mutant: Mutant) -> Outcome:
-    """Grade it on all TODOs of its program, and ask again where a mistake was named."""
+def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
+    """Grade it on all TODOs of its program, and ask again where a mistake was named.
+
+    `alone`, only its own TODO is graded: that shows survivors in a fraction of the time.
+    """
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
         patch = Path(folder) / "patch.py"
@@ -242,7 +245,8 @@ def grade_mutant(mutant: Mutant) -> Outcome:
         member = Member("wrong", mutant.name, "package", Entry(), patch)
         submission = Path(folder).resolve() / mutant.name
         member.build(KIT, submission)
-        result, _ = watched(submission, member.judged_by)
+        asked = frozenset({mutant.todo}) if alone else member.judged_by
+        result, _ = watched(submission, asked)
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
         outcome = Outcome(mutant, lost)
         outcome.mistake = next((t.misconception for t in result.todos if t.misconception), None)
@@ -334,13 +338,18 @@ def chosen_from(
 
 
 def campaign(
-    mutants: Sequence[Mutant], count: int, seed: int, jobs: int, console: Console
+    mutants: Sequence[Mutant],
+    count: int,
+    seed: int,
+    jobs: int,
+    console: Console,
+    alone: bool = False,
 ) -> Campaign:
     """Grade `count` of the mutants and print a table."""
     chosen = sample(mutants, count, seed)
     outcomes: list[Outcome] = []
     with Counter("grading mutants", len(chosen), console) as counter:
-        for outcome in grade_all(chosen, jobs):
+        for outcome in grade_all(chosen, jobs, alone):
             outcomes.append(outcome)
             counter.reached(len(outcomes))
             if outcome.complaint or outcome.naming == "wrong":
@@ -351,10 +360,10 @@ def campaign(
     return Campaign(outcomes)
 
 
-def grade_all(chosen: Iterable[Mutant], jobs: int) -> Iterator[Outcome]:
+def grade_all(chosen: Iterable[Mutant], jobs: int, alone: bool) -> Iterator[Outcome]:
     context = get_context("spawn")
     with ProcessPoolExecutor(jobs or cpu_count(), mp_context=context) as pool:
-        for future in as_completed([pool.submit(grade_mutant, mutant) for mutant in chosen]):
+        for future in as_completed([pool.submit(grade_mutant, mutant, alone) for mutant in chosen]):
             yield future.result()
 
 

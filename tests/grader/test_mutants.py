@@ -7,6 +7,7 @@ import random
 import sys
 import textwrap
 from collections import Counter
+from dataclasses import replace
 from operator import attrgetter
 from types import FunctionType
 
@@ -404,6 +405,12 @@ def test_a_mutant_is_killed_and_its_mistake_named(todo: str, now: str, mistake: 
     outcome = mutants.grade_mutant(the_one(todo, now))
     assert set(outcome.lost) == {todo} and outcome.complaint == ""
     assert (outcome.mistake, outcome.naming) == (mistake, "right" if mistake else "none")
+
+
+def test_a_mutant_may_be_graded_on_its_own_todo_alone():
+    mutant = the_one("8a", "return (v, x + v * dt)")
+    whole, alone = mutants.grade_mutant(mutant), mutants.grade_mutant(mutant, alone=True)
+    assert replace(whole, seconds=0.0) == replace(alone, seconds=0.0)
 
 
 def listed_ones() -> list[Mutant]:
