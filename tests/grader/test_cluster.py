@@ -60,6 +60,7 @@ def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
     return {**files, "table": run.book.table.read_bytes()}
 
 
+@pytest.mark.soak
 def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, classroom):
     here = graded(classroom, "here", jobs=1)
     with distributed.Client(workers, set_as_default=False) as client:

@@ -163,10 +163,12 @@ def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
 @pytest.mark.parametrize(
     ("reference", "todos"),
     [
-        (shipped_reference(), ["1", "6", "7c", "8b"]),
-        pytest.param(shipped_reference(), [*"2345", "7a", "7b", "7d", "8a", "8c"], marks=SOAK),
-        (None, ["5", "7a", "8a"]),
-        pytest.param(None, [*"12346", "7b", "7c", "7d", "8b", "8c"], marks=SOAK),
+        (shipped_reference(), ["6", "7c"]),
+        pytest.param(
+            shipped_reference(), [*"12345", "7a", "7b", "7d", "8a", "8b", "8c"], marks=SOAK
+        ),
+        (None, ["5", "8a"]),
+        pytest.param(None, [*"12346", "7a", "7b", "7c", "7d", "8b", "8c"], marks=SOAK),
     ],
     ids=["with the reference", "with it, the others", "without", "without, the others"],
 )
@@ -193,9 +195,13 @@ def earned_in_the_whole(todo: str) -> set[str]:
     return set() if all(check.guard for check in free) else {check.id for check in free}
 
 
-@pytest.mark.parametrize("todos", ["3", pytest.param("12456", marks=SOAK)])
-def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(tmp_path: Path, todos: str):
-    engine = Options(shipped_reference(), only=frozenset("123456"))
+@pytest.mark.parametrize(
+    ("todos", "asked"), [("5", "35"), pytest.param("123456", "123456", marks=SOAK)]
+)
+def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
+    tmp_path: Path, todos: str, asked: str
+):
+    engine = Options(shipped_reference(), only=frozenset(asked))
     unfinished = tmp_path / "unfinished.py"
     for todo in todos:
         text = f"# TODO {todo}: to be done\nraise NotImplementedError\n# END TODO {todo}\n"

@@ -223,6 +223,7 @@ def test_a_file_that_was_away_for_a_moment_is_no_reason_to_forget_the_rest(
     assert session.is_up_to_date()
 
 
+@pytest.mark.soak
 def test_files_that_come_go_and_move(open_session):
     session = open_session("solution")
     moved = session.folder / "methods.py"
