@@ -137,9 +137,13 @@ any_velocities = velocities | st.tuples(slow_speeds, slow_speeds) | very_fast
 slow_spins = st.integers(-64, 64).map(lambda n: n / 1024)  # rad/s
 any_spins = st.just(0.0) | spins | slow_spins | st.sampled_from([-300.0, 300.0])
 any_step_sizes = step_sizes | st.sampled_from([1 / 1000, 1 / 24, 1.0])  # s
-SURFACE = {"friction": frictions, "restitution": frictions}
+surfaces = st.sampled_from([0.0, 1.0]) | frictions
+SURFACE = {"friction": surfaces, "restitution": surfaces}
 MOTION = {"vel": any_velocities, "omega": any_spins, "angle": any_spins}
-motions = st.fixed_dictionaries(MOTION)
+# Where it does not matter where a body is: in the window, left of it, above it, and far away.
+anywhere = st.sampled_from([-1600.25, 40.5, 3200.75]) | places_around  # px
+PLACE = {"pos": st.tuples(anywhere, anywhere)}
+wherever = st.fixed_dictionaries({**PLACE, **MOTION, **SURFACE})
 belts = st.fixed_dictionaries({"vel": any_velocities, "omega": any_spins, **SURFACE})  # static
 circles = st.fixed_dictionaries({"mass": any_masses_or_static, **MOTION, **SURFACE})
 
@@ -154,9 +158,9 @@ def directions(draw: st.DrawFn) -> tuple[float, float]:
 
 @st.composite
 def levers(draw: st.DrawFn, masses: st.SearchStrategy[float] = any_masses) -> Lever:
-    """A disc of any size, and an arm that is as long as discs of this size have them."""
-    scale = draw(scales)
-    return Lever(draw(masses), *(scale * draw(each) for each in (radii, arms, arms)))
+    """A disc of any size, and an arm that is as long as discs of this size have them, or short."""
+    scale, part = draw(scales), draw(st.sampled_from([1.0, 1.0, 1 / 64]))
+    return Lever(draw(masses), scale * draw(radii), *(scale * part * draw(arms) for _ in "xy"))
 
 
 static_levers = levers(st.just(0.0))

@@ -15,6 +15,8 @@ from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
 
 BOX = Rect(0, 0, 40, 20)
+ROUND = range(0, 1000, 50)  # px
+MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not hang on them
 MOVING = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
 Fields = dict[str, Any]
 
@@ -38,9 +40,18 @@ def asked(disc: Disc, rect: Rect) -> str:
 
 
 def touch(
-    lab: Lab, circle: Thing, box: Thing, disc: Disc, rect: Rect, twice: bool = True
+    lab: Lab,
+    circle: Thing,
+    box: Thing,
+    disc: Disc,
+    rect: Rect,
+    twice: bool = True,
+    noted: bool = True,
 ) -> Touch | None:
-    """What the submission's circle_box says of these two, where disc and rect say they are."""
+    """What the submission's circle_box says of these two, where disc and rect say they are.
+
+    An answer that is not `noted` is not held against the known mistakes.
+    """
     if lab.running != asked(disc, rect):
         lab.ran(asked(disc, rect))  # the two are elsewhere now
     try:
@@ -48,14 +59,15 @@ def touch(
             lab.call("circle_box", circle, box, changes=NOTHING, twice=twice)
         )
     except Broke as failure:
-        if failure.raised is not None:
+        if failure.raised is not None and noted:
             lab.saw("circle_box", (disc, rect), failure.raised.error)
         raise
     answer = None
     if contact is not None:
         normal, point = contact.normal, contact.point
         answer = Touch(normal.x, normal.y, contact.depth, point.x, point.y)
-    lab.saw("circle_box", (disc, rect), answer)
+    if noted:
+        lab.saw("circle_box", (disc, rect), answer)
     if contact is not None:
         want_new(lab, contact, circle, box)
     return answer
@@ -127,6 +139,26 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
         Disc(-5, -29.9375, 10),  # hardly at all
     )
     want_exact(lab, discs)
+    for n, (disc, rect) in enumerate(near_round_numbers(lab.about(1 / 8))):
+        things = pair(lab, disc, rect, {"mass": MASSES[n % len(MASSES)]})
+        answer = touch(lab, *things, disc, rect, twice=False, noted=False)
+        want(lab, answer, exact.circle_box(disc, rect))
+
+
+def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
+    """Faces and centres that are nearly at each round place of the window, and distances alike.
+
+    Whoever takes such a number for the round one (or a small one for 0) gives another answer.
+    """
+    for n, x in enumerate(ROUND):
+        y, (hx, hy) = ROUND[-n], BOX[2:]
+        beside = ((x + off, y - 6), (x - off, y + hy)), ((x - off, y + 6), (x + off, y - hy))
+        for (cx, cy), (px, py) in beside:
+            yield Disc(cx, cy, 9), Rect(px, py + off, hx, hy)
+            yield Disc(cy, cx, 9), Rect(py + off, px, hy, hx)
+    for n in range(1, 21):
+        across, along = (off, n + off / 2) if n % 2 else (n + off / 2, off)
+        yield Disc(-BOX.hx - across, -BOX.hy - along, 23), BOX
 
 
 def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import Lever, cross
-from grader.checks.strategies import directions, levers, motions, static_levers
+from grader.checks.strategies import directions, levers, static_levers, wherever
 from grader.checks.telling import want_told
 from grader.judge.lab import NOTHING, Lab, Pair, Thing
 from grader.protocol import BodyValue
@@ -18,15 +18,15 @@ DOWN = (0.0, 1.0)
 ALONG_THE_FLOOR = (1.0, 0.0)
 DIAGONAL = (0.6, 0.8)
 PLACES = (-30.3125, 70.6875), (12.4375, -5.8125)  # px; the arms say where they are touched
-Motion = dict[str, Any]  # vel, omega and angle
+USUAL = Lever(1.0, 10.0625, 10.0625, 3.0)  # nearly the ball that students have in mind
+Fields = dict[str, Any]  # what a body has besides mass and radius, on which nothing here hangs
 
 
-def discs(lab: Lab, a: Lever, b: Lever, *fields: Motion) -> tuple[Thing, Thing]:
-    """Both discs; `fields` are how A and B move, or nothing where they rest."""
-    moving = fields or ({}, {})
+def discs(lab: Lab, a: Lever, b: Lever, *fields: Fields) -> tuple[Thing, Thing]:
+    """Both discs; `fields` are what else A and B have, or nothing where they rest."""
     first, second = (
-        lab.circle(place, lever.radius, lever.mass, **how)
-        for place, lever, how in zip(PLACES, (a, b), moving, strict=True)
+        lab.circle(radius=lever.radius, mass=lever.mass, **{"pos": place, **how})
+        for place, lever, how in zip(PLACES, (a, b), fields or ({}, {}), strict=True)
     )
     return first, second
 
@@ -91,6 +91,7 @@ def the_first_body_adds_its_spin_term(lab: Lab) -> None:
     want_about(lab, Lever(2.0, 10.0, 10.0, 0.0), FLOOR, DOWN)
     for rx in (-9.75, 9.75):
         want_about(lab, Lever(0.5, 20.0, rx, 17.0), FLOOR, DOWN)
+    want_about(lab, USUAL, FLOOR, DOWN)
     want_about(lab, Lever(4.0, 15.0, 8.0, 12.0), FLOOR, DIAGONAL)
 
 
@@ -99,6 +100,7 @@ def the_second_body_adds_its_spin_term(lab: Lab) -> None:
     want_about(lab, FLOOR, Lever(2.0, 10.0, 10.0, 0.0), DOWN)
     for rx in (-9.75, 9.75):
         want_about(lab, FLOOR, Lever(0.5, 20.0, rx, 17.0), DOWN)
+    want_about(lab, FLOOR, USUAL, DOWN)
     want_about(lab, FLOOR, Lever(4.0, 15.0, 8.0, 12.0), DIAGONAL)
 
 
@@ -115,14 +117,14 @@ def only_the_part_of_an_arm_across_the_axis_counts(lab: Lab) -> None:
     b=levers() | static_levers,
     axis=directions(),
     swap=st.booleans(),
-    moving=st.tuples(motions, motions),
+    others=st.tuples(wherever, wherever),
 )
 def any_two_bodies_agree_with_the_formula(
-    lab: Lab, a: Lever, b: Lever, axis: Pair, swap: bool, moving: tuple[Motion, Motion]
+    lab: Lab, a: Lever, b: Lever, axis: Pair, swap: bool, others: tuple[Fields, Fields]
 ) -> None:
     """Any two bodies: the four terms add up, whichever body is A"""
     a, b = (b, a) if swap else (a, b)
-    both = discs(lab, a, b, *moving)
+    both = discs(lab, a, b, *others)
     want_exact(lab, a, b, axis, both)
     lab.put(both[0], inv_mass=0.0, inv_inertia=0.0)
     want_exact(lab, a._replace(mass=0.0), b._replace(rx=b.ry, ry=b.rx), axis, both)
@@ -148,13 +150,13 @@ def energy(body: BodyValue, lever: Lever) -> float:
     a=levers(),
     b=levers() | static_levers,
     axis=directions(),
-    moving=st.tuples(motions, motions),
+    others=st.tuples(wherever, wherever),
 )
 def the_impulse_that_ends_a_speed_is_speed_over_k(
-    lab: Lab, a: Lever, b: Lever, axis: Pair, moving: tuple[Motion, Motion]
+    lab: Lab, a: Lever, b: Lever, axis: Pair, others: tuple[Fields, Fields]
 ) -> None:
     """An impulse of -speed / k ends the speed and creates no energy"""
-    first, second = discs(lab, a, b, moving[0], moving[1] if b.mass else {})
+    first, second = discs(lab, a, b, others[0], others[1] if b.mass else {})
     k = effective_mass(lab, a, b, axis, (first, second), framed=False)
     lab.want(k > 0, "more than 0 per kg", f"{k:.6g}")
     before = lab.state(first), lab.state(second)
