@@ -95,13 +95,13 @@ def mutants_command(
         list[str] | None, typer.Option(help="Only this kind of change; may be repeated.")
     ] = None,
     alone: Annotated[
-        bool, typer.Option("--alone", help="Grade a mutant's own TODO only: much faster.")
+        bool, typer.Option("--alone", help="A mutant's own TODO only, and no names: much faster.")
     ] = False,
 ) -> None:
     """Change the solution in small ways, and see whether the checks notice.
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
-    With --alone, what the others lose is not looked at.
+    With --alone, neither what the others lose nor names are looked at.
     """
     needs_checkout("mutants")
     from grader.maintain.mutants import all_mutants, campaign, chosen_from

@@ -11,8 +11,9 @@ import re
 import tempfile
 import textwrap
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from multiprocessing import get_context
@@ -31,7 +32,7 @@ from grader.judge.definitions import function_named, statements
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Entry, Member
 from grader.maintain.operators import changes, names_in, normal
@@ -233,10 +234,15 @@ class Outcome:
         return "survived" if self.verdict == "survived" else ""
 
 
+class Noticed(KeyboardInterrupt):
+    """A check failed, and the others need not run. pytest lets nothing else end a run."""
+
+
 def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
     """Grade it on all TODOs of its program, and ask again where a mistake was named.
 
-    `alone`, only its own TODO is graded: that shows survivors in a fraction of the time.
+    `alone`, its own TODO is graded up to the first check that fails, and nothing is named: that
+    shows survivors in a fraction of the time.
     """
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
@@ -245,26 +251,45 @@ def grade_mutant(mutant: Mutant, alone: bool = False) -> Outcome:
         member = Member("wrong", mutant.name, "package", Entry(), patch)
         submission = Path(folder).resolve() / mutant.name
         member.build(KIT, submission)
-        asked = frozenset({mutant.todo}) if alone else member.judged_by
-        result, _ = watched(submission, asked)
-        lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
-        outcome = Outcome(mutant, lost)
-        outcome.mistake = next((t.misconception for t in result.todos if t.misconception), None)
-        if outcome.mistake is not None:
-            holds = name_holds(submission, mutant.todo, outcome.mistake)
-            outcome.naming = "right" if holds else "wrong"
+        outcome = noticed(submission, mutant) if alone else graded(submission, mutant, member)
     outcome.seconds = time.monotonic() - start
     return outcome
 
 
+def noticed(submission: Path, mutant: Mutant) -> Outcome:
+    """Whether a check of its own TODO fails; what that one is worth is all that is counted."""
+    lost: dict[str, int] = {}
+
+    def stop_where_it_fails(check: CheckResult) -> None:
+        if check.failed:
+            lost[mutant.todo] = check.max_points
+            raise Noticed
+
+    with suppress(Noticed):
+        watched(submission, frozenset({mutant.todo}), progress=stop_where_it_fails)
+    return Outcome(mutant, lost)
+
+
+def graded(submission: Path, mutant: Mutant, member: Member) -> Outcome:
+    result, _ = watched(submission, member.judged_by)
+    lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
+    outcome = Outcome(mutant, lost)
+    outcome.mistake = next((t.misconception for t in result.todos if t.misconception), None)
+    if outcome.mistake is not None:
+        holds = name_holds(submission, mutant.todo, outcome.mistake)
+        outcome.naming = "right" if holds else "wrong"
+    return outcome
+
+
 def watched(
-    path: Path, only: frozenset[str], seed: int | None = None
+    path: Path,
+    only: frozenset[str],
+    seed: int | None = None,
+    progress: Callable[[CheckResult], None] | None = None,
 ) -> tuple[Result, dict[str, list[Observation]]]:
     """The result for a submission, and every answer it gave, by TODO."""
-    rubric, options = (
-        hurried(load_rubric()),
-        Options(shipped_reference(), only=only, seed=seed, trusted=True),
-    )
+    rubric = hurried(load_rubric())
+    options = Options(shipped_reference(), only=only, seed=seed, progress=progress, trusted=True)
     with grading(path, options, shared_worker(), rubric) as run:
         return run.run(), run.observations
 
