@@ -9,10 +9,13 @@ import math
 import sys
 from pathlib import Path
 
+from pygame import Vector2
+
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "solution"))
 
 import integrators  # noqa: E402  (found in the folder above)
+import mini_engine  # noqa: E402
 from mini_engine import MAX_STEPS, STEP, Body, Box, Circle, World, advance  # noqa: E402
 
 FIGURES = HERE / "figures"
@@ -297,6 +300,49 @@ def change_clamped(total, change):
     return total + max(change, 0)
 
 
+# ---------------------------------------------------------------- impulses
+
+
+def effective_mass():
+    """The same impulse at three places of a disc, and how the disc gives way."""
+    svg = Svg(860, 300, "How a disc gives way to an impulse, by where it is hit")
+    disc, fixed = Body(Circle(60), (0, 0), mass=2), Body(Box((1, 1)), (0, 0))
+    push = Vector2(0, 1)
+    for i, (name, share) in enumerate([("at the middle", 0), ("half-way", 0.5), ("at the rim", 1)]):
+        x, arm = 130 + 290 * i, Vector2(60 * share, 0)
+        k = mini_engine.effective_mass(disc, fixed, arm, Vector2(), push)
+        svg.circle(x, 150, 60, "#dbe8f7", BLUE)
+        svg.circle(x, 150, 3, INK)
+        if share:
+            svg.line((x, 150), (x + arm.x, 150), color=ORANGE, width=3)
+            svg.text(x + arm.x / 2, 172, "arm r", ORANGE, 15, "middle")
+        svg.arrow((x + arm.x, 60), (x + arm.x, 144), RED, 3)
+        svg.text(x, 30, f"hit {name}", INK, 16, "middle", "bold")
+        spin = k - disc.inv_mass
+        words = f"1/m + spin term = {disc.inv_mass:.2f} + {spin:.3g} = {k:.3g}"
+        svg.text(x, 245, words, INK, 14, "middle")
+    svg.text(430, 282, "A disc of 2 kg: per kg, how far it gives way there.", GREY, 14, "middle")
+    svg.save("effective-mass.svg")
+
+
+def rod():
+    """A rod that is too long, and one that is too short."""
+    svg = Svg(860, 190, "A rod that is too long, and one that is too short")
+    for i, (name, length) in enumerate([("too long", 190), ("too short", 80)]):
+        a, b, y = 120 + 430 * i, 120 + 430 * i + length, 80
+        way = 1 if length > 120 else -1
+        svg.text(a - 40, 30, name, INK, 16, weight="bold")
+        svg.line((a, y), (b, y), color=GREY, width=4)
+        for place, name in ((a, "A"), (b, "B")):
+            svg.circle(place, y, 20, "#dbe8f7", BLUE)
+            svg.text(place, y + 5, name, INK, 15, "middle")
+        svg.arrow((a, y + 36), (a + 40 * way, y + 36), RED, 3)
+        svg.arrow((b, y + 36), (b - 40 * way, y + 36), RED, 3)
+        svg.line((a, 150), (a + 120, 150), color=GREEN, width=3)
+        svg.text(a, 172, "as long as it is meant to be", GREEN)
+    svg.save("rod.svg")
+
+
 # ---------------------------------------------------------------- rolling
 
 
@@ -321,7 +367,7 @@ def rolling():
     svg.save("rolling.svg")
 
 
-ALL = [step_order, accumulator, damping, spirals, contact, totals, rolling]
+ALL = [step_order, accumulator, damping, spirals, contact, effective_mass, totals, rolling, rod]
 
 
 def main():

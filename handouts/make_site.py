@@ -38,6 +38,7 @@ def sources(folder, instructors, course):
     for name, text in texts.items():
         (pages / name).write_text(text, encoding="utf-8")
     shutil.copytree(HERE / "figures", pages / "figures")
+    shutil.copytree(HERE / "touch", pages / "touch")
     shutil.copytree(OURS, pages / "site", ignore=shutil.ignore_patterns("*.yml"))
     if instructors:
         only_pages = shutil.ignore_patterns("*.py", "*.toml", "__pycache__")

@@ -12,6 +12,7 @@ from grader.judge.course import FULL, Course
 from grader.maintain.handouts import handouts_of
 
 LEFT_OUT = {"hints.md"}  # the command gives them one at a time
+SHARED = ("touch", "laws")  # of all movable figures
 STYLE = """
 :root { color-scheme: light dark }
 body { font: 1.05rem/1.55 system-ui, sans-serif; margin: 2rem auto }
@@ -28,7 +29,7 @@ PAGE = """<!doctype html>
 <meta name="viewport" content="width=device-width">
 <title>{title}</title>
 <style>{style}</style>
-</head>
+{scripts}</head>
 <body>
 {body}</body>
 </html>
@@ -42,12 +43,28 @@ def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
     (folder / "figures").mkdir(parents=True)
     for name, text in texts.items():
         target = folder / name.replace(".md", ".html")
-        target.write_text(as_page(text, set(texts)), encoding="utf-8", newline="\n")
-        for figure in re.findall(r"\]\((figures/[^)]+)\)", text):
+        page = as_page(text, set(texts), scripts_of(text, handouts))
+        target.write_text(page, encoding="utf-8", newline="\n")
+        for figure in figures_in(text):
             shutil.copyfile(handouts / figure, folder / figure)
+    shutil.copytree(handouts / "touch", folder / "touch")
 
 
-def as_page(text: str, pages: set[str]) -> str:
+def figures_in(text: str) -> list[str]:
+    return re.findall(r"\]\((figures/[^)]+)\)", text)
+
+
+def scripts_of(text: str, handouts: Path) -> str:
+    """What a page loads to make those of its figures movable that have a script in touch/."""
+    names = [Path(figure).stem for figure in figures_in(text)]
+    movable = [name for name in names if (handouts / "touch" / f"{name}.js").is_file()]
+    if not movable:
+        return ""
+    tags = [f'<script defer src="touch/{name}.js"></script>' for name in [*SHARED, *movable]]
+    return "\n".join(['<link rel="stylesheet" href="touch/touch.css">', *tags, ""])
+
+
+def as_page(text: str, pages: set[str], scripts: str = "") -> str:
     """One page; a link to a handout that is none of `pages` becomes plain words."""
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(text.replace("- [ ] ", "- \N{BALLOT BOX} "))
@@ -57,7 +74,7 @@ def as_page(text: str, pages: set[str]) -> str:
         mend_links(token.children or [], pages)
     title = next(each.content for each in tokens if each.type == "inline")
     body = reader.renderer.render(tokens, reader.options, {})
-    return PAGE.format(title=html.escape(title), style=STYLE, body=body)
+    return PAGE.format(title=html.escape(title), style=STYLE, scripts=scripts, body=body)
 
 
 def mend_links(tokens: list[Token], pages: set[str]) -> None:

@@ -1,0 +1,333 @@
+"""The figures that can be moved: they compute what the grader has, and answer pointer and keys."""
+
+import json
+import math
+import random
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import integrators
+import mini_engine
+from grader.checks import exact
+from grader.checks.exact import Disc, Lever, Rect, Rod
+from grader.judge.course import FULL
+from grader.maintain.pages import figures_in, write_pages
+from tests.grader.page_readers import Screen, chromium
+
+KIT = Path(__file__).parents[2]
+TOUCH = KIT / "handouts" / "touch"
+NAMES = sorted(path.stem for path in TOUCH.glob("*.js") if path.stem not in ("touch", "laws"))
+POINTS = 1000
+METHODS = ["explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4"]
+
+
+def test_each_has_a_still_picture_that_the_lesson_shows() -> None:
+    shown = [
+        Path(each).stem for each in figures_in((KIT / "handouts/lesson.md").read_text("utf-8"))
+    ]
+    assert len(NAMES) >= 8 and set(NAMES) <= set(shown)
+
+
+def test_the_site_loads_every_one_of_them() -> None:
+    settings = (KIT / "handouts" / "site" / "mkdocs.yml").read_text("utf-8")
+    assert re.findall(r"touch/(\S+)\.js", settings) == ["touch", "laws", *NAMES]
+
+
+def test_pages_without_such_a_figure_load_nothing(pages: Path) -> None:
+    assert "<script" in (pages / "lesson.html").read_text("utf-8")
+    assert "<script" not in (pages / "quiz.html").read_text("utf-8")
+
+
+def test_none_of_them_asks_for_anything_from_elsewhere() -> None:
+    for path in TOUCH.iterdir():
+        found = re.findall(r"https?://\S+", path.read_text("utf-8"))
+        assert not [each for each in found if "www.w3.org" not in each], path.name
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The pages as the student's folder has them."""
+    folder = tmp_path_factory.mktemp("pages")
+    write_pages(KIT / "handouts", folder, FULL)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def screen(browser: Any, pages: Path) -> Iterator[Screen]:
+    screen = Screen(browser, pages / "lesson.html")
+    yield screen
+    assert screen.complaints == []
+    screen.page.close()
+
+
+# ---------------------------------------------------------------- what they compute
+
+
+def computed(screen: Screen, law: str, inputs: list[Any]) -> list[Any]:
+    """What a law of the page makes of each input, a list of its arguments."""
+    source = f"inputs => inputs.map(each => ({law})(...each))"
+    answers: list[Any] = json.loads(json.dumps(screen.page.evaluate(source, inputs)))
+    assert len(answers) == len(inputs)
+    return answers
+
+
+def test_contacts_are_those_of_the_grader(screen: Screen) -> None:
+    rng = random.Random(1)
+    box = Rect(3.0, -7.0, 60.0, 25.0)
+    discs = [
+        Disc(rng.uniform(-100, 100), rng.uniform(-70, 60), rng.uniform(2, 60))
+        for _ in range(POINTS)
+    ]
+    inputs = [[each._asdict(), box._asdict()] for each in discs]
+    kinds = set()
+    for disc, found in zip(discs, computed(screen, "laws.circleBox", inputs), strict=True):
+        (right,) = exact.circle_box(disc, box)
+        kinds.add((right is None, found["distance"] > 0))
+        assert (found["depth"] <= 0) == (right is None)
+        if right is not None:
+            normal, point = found["out"], found["point"]
+            numbers = -normal["x"], -normal["y"], found["depth"], point["x"], point["y"]
+            assert numbers == pytest.approx(right, abs=1e-9)
+    assert len(kinds) == 3  # no contact, outside, inside
+
+
+def test_damping_is_that_of_the_grader(screen: Screen) -> None:
+    inputs = [(rate, seconds) for rate in exact.RATES for seconds in exact.DAMPED_STEPS]
+    found = computed(screen, "laws.damped", [list(each) for each in inputs])
+    assert found == pytest.approx([exact.damped(*each) for each in inputs])
+
+
+class Counted:
+    """Stands in for a world, which is not looked at here."""
+
+    def step(self, dt: float) -> None:
+        pass
+
+
+def test_the_purse_is_that_of_the_reference(screen: Screen) -> None:
+    lengths = [4 + 0.25 * n for n in range(POINTS)]  # ms
+    for length, frames in zip(
+        lengths, computed(screen, "laws.purse", [[each, 10] for each in lengths]), strict=True
+    ):
+        rest, paid, seconds = 0.0, 0, 0.0
+        for frame in frames:
+            rest, steps = mini_engine.advance(Counted(), rest, length / 1000)
+            paid += frame["steps"] - steps
+            seconds += (frame["steps"] - steps) * mini_engine.STEP
+            # Where the sum is just a step, rounding decides in which frame that step runs.
+            assert abs(paid) <= 1
+            assert frame["waiting"] / 1000 + seconds == pytest.approx(rest, abs=1e-9)
+
+
+def test_a_disc_gives_way_as_the_grader_has_it(screen: Screen) -> None:
+    rng = random.Random(2)
+    floor = Lever(0.0, 1.0, 0.0, 0.0)
+    levers = [
+        Lever(rng.uniform(0.1, 9), rng.uniform(1, 90), rng.uniform(-90, 90), rng.uniform(-90, 90))
+        for _ in range(POINTS)
+    ]
+    angles = [rng.uniform(-math.pi, math.pi) for _ in levers]
+    inputs = [
+        [{"mass": each.mass, "radius": each.radius}, {"x": each.rx, "y": each.ry}, angle]
+        for each, angle in zip(levers, angles, strict=True)
+    ]
+    found = computed(screen, "laws.giving", inputs)
+    for lever, angle, answer in zip(levers, angles, found, strict=True):
+        axis = math.cos(angle), math.sin(angle)
+        right = exact.effective_mass(lever, floor, axis)
+        assert answer["moving"] + answer["turning"] == pytest.approx(right)
+
+
+def test_rods_are_those_of_the_grader(screen: Screen) -> None:
+    rng = random.Random(3)
+    inputs, rods = [], []
+    for _ in range(POINTS):
+        masses = [rng.uniform(0.1, 9), rng.uniform(0.1, 9)]
+        if rng.random() < 0.3:
+            masses[rng.randrange(2)] = 0.0
+        speeds = [rng.uniform(-400, 400) if mass else 0.0 for mass in masses]
+        length, now = rng.uniform(10, 200), rng.uniform(10, 200)
+        at_once = {"massA": masses[0], "massB": masses[1], "dt": 1 / 120, "error": now - length}
+        inputs.append([{**at_once, "speedA": speeds[0], "speedB": speeds[1]}])
+        ends = [(speed, 0.0) for speed in speeds]
+        rods.append(Rod(masses[0], masses[1], length, (now, 0.0), ends[0], ends[1], 1 / 120))
+    for rod, found in zip(rods, computed(screen, "laws.rodSolved", inputs), strict=True):
+        (a, _), (b, _) = exact.rod_solved(rod)
+        assert (found["speedA"], found["speedB"]) == pytest.approx((a, b), abs=1e-7)
+
+
+def test_a_sliding_ball_rolls_at_the_speed_of_the_grader(screen: Screen) -> None:
+    speeds = [float(number) for number in range(1, POINTS)]
+    answers = computed(screen, "laws.sliding", [[each, 0.4, 60.0] for each in speeds])
+    for speed, found in zip(speeds, answers, strict=True):
+        assert found["speed"] == pytest.approx(exact.rolling_speed(speed))
+        assert found["rim"] == pytest.approx(found["speed"]) and found["rolls"]
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_step_on_a_spring_is_that_of_the_grader(screen: Screen, name: str) -> None:
+    rng = random.Random(4)
+    method = getattr(exact, name, None) or getattr(integrators, name)
+    steps = [rng.uniform(0.01, 1.5) for _ in range(POINTS // 4)]  # rad of the swing
+    found = computed(screen, f"laws.integrators.{name}", [[each] for each in steps])
+    for h, (a, b, c, d) in zip(steps, found, strict=True):
+        x, s = rng.uniform(-9, 9), rng.uniform(-9, 9)
+        right = method(x, s, h, lambda place: -place)
+        assert (a * x + b * s, c * x + d * s) == pytest.approx(right, abs=1e-9)
+
+
+# ---------------------------------------------------------------- moved by keys and pointer
+
+
+def figure(screen: Screen, name: str) -> Any:
+    found = screen.page.locator(f'figure[data-figure="{name}"]')
+    assert found.count() == 1
+    return found
+
+
+def words(screen: Screen, name: str) -> str:
+    return str(figure(screen, name).locator("output").inner_text())
+
+
+def slide(screen: Screen, name: str, label: str, value: float) -> None:
+    figure(screen, name).get_by_label(label).fill(str(value))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_one_is_drawn_and_says_what_it_shows(screen: Screen, name: str) -> None:
+    found = figure(screen, name)
+    assert found.locator("svg g *").count() > 5
+    assert re.search(r"\d", words(screen, name))
+    assert not found.locator("img").is_visible()
+    named = found.locator("input, button, .handle").all()
+    assert named and all(each.evaluate("each => each.tabIndex >= 0") for each in named)
+
+
+def test_the_circle_is_moved_by_keys(screen: Screen) -> None:
+    assert "60 px - 43 px = 17 px" in words(screen, "contact")
+    circle = figure(screen, "contact").locator(".handle")
+    circle.focus()
+    for _ in range(12):
+        screen.page.keyboard.press("ArrowDown")
+    assert "The top face is nearest. Depth = radius + gap = 60 px + 17 px = 77 px" in words(
+        screen, "contact"
+    )
+    for _ in range(13):
+        screen.page.keyboard.press("Shift+ArrowUp")
+    assert "60 px + 4 px = 64 px" in words(screen, "contact")
+
+
+def test_the_circle_is_dragged(screen: Screen) -> None:
+    found = figure(screen, "contact")
+    found.scroll_into_view_if_needed()
+    place, paper = (
+        found.locator(".handle .grip").bounding_box(),
+        found.locator("svg").bounding_box(),
+    )
+    mouse = screen.page.mouse
+    mouse.move(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
+    mouse.down()
+    mouse.move(paper["x"] + 10, paper["y"] + 10, steps=4)
+    mouse.up()
+    assert words(screen, "contact").startswith("No contact")
+    mouse.move(paper["x"] + 200, paper["y"] + 200)  # let go: it stays
+    assert words(screen, "contact").startswith("No contact")
+
+
+def test_long_frames_are_cut_and_short_ones_lose_nothing(screen: Screen) -> None:
+    slide(screen, "accumulator", "a frame takes", 100)
+    assert "33 ms are given up (red), and the scene runs at 67 %" in words(screen, "accumulator")
+    slide(screen, "accumulator", "a frame takes", 20)
+    assert "2.40 steps" in words(screen, "accumulator")
+    assert "Nothing is lost" in words(screen, "accumulator")
+
+
+def test_a_rate_does_not_care_for_steps_and_a_share_does(screen: Screen) -> None:
+    for hertz, left in ((60, "54.7"), (120, "29.9"), (240, "9.0")):
+        slide(screen, "damping", "steps a second", hertz)
+        assert f"{left} % after a second. The rate leaves 54.9 %" in words(screen, "damping")
+
+
+def test_energy_grows_drifts_or_stays(screen: Screen) -> None:
+    figure(screen, "integrators").get_by_label("velocity verlet").check()
+    slide(screen, "integrators", "swings", 300)
+    text = words(screen, "integrators")
+    assert "explicit euler: the energy grows without bound." in text
+    assert re.search(r"semi implicit euler: stays between 7\d\.\d % and 13\d\.\d %", text)
+    assert re.search(r"velocity verlet: stays between 9\d\.\d % and 10\d\.\d %", text)
+    drift = re.search(r"rk4: drifts, to ([\d.]+) %", text)
+    assert drift is not None and float(drift[1]) < 50
+
+
+def test_an_impulse_through_the_centre_does_not_turn(screen: Screen) -> None:
+    handle = figure(screen, "effective-mass").locator(".handle")
+    handle.focus()
+    for _ in range(13):
+        screen.page.keyboard.press("ArrowDown")
+    screen.page.keyboard.press("Shift+ArrowDown")
+    assert " = 0 px (dashed)" in words(screen, "effective-mass")
+    assert "0.500 + 0.000 = 0.500 per kg" in words(screen, "effective-mass")
+    slide(screen, "effective-mass", "mass", 4)
+    assert "0.250 + 0.000" in words(screen, "effective-mass")
+
+
+def test_what_a_pass_gave_too_much_is_taken_back_by_the_total_alone(screen: Screen) -> None:
+    assert "ask for +4. Clamping each change gives 11: 7 too much" in words(screen, "accumulated")
+    for number in range(1, 5):
+        slide(screen, "accumulated", f"pass {number} asks for", number)
+    assert "Both rules give 10" in words(screen, "accumulated")
+
+
+def test_sliding_becomes_rolling(screen: Screen) -> None:
+    slide(screen, "rolling", "time", 0.5)
+    assert "It rolls at 200 px/s, two thirds of 300 px/s" in words(screen, "rolling")
+    slide(screen, "rolling", "friction", 0)
+    assert "On ice it keeps its 300 px/s" in words(screen, "rolling")
+
+
+def test_a_step_takes_a_fifth_of_a_rods_error(screen: Screen) -> None:
+    for error in ("60.0", "48.0", "38.4"):
+        assert f"The rod is {error} px too long" in words(screen, "rod")
+        figure(screen, "rod").get_by_role("button", name="One step").click()
+
+
+# ---------------------------------------------------------------- other pages than wide and light
+
+
+def test_they_fit_a_phone(browser: Any, pages: Path) -> None:
+    screen = Screen(browser, pages / "lesson.html")
+    screen.page.set_viewport_size({"width": 390, "height": 800})
+    screen.page.wait_for_function("document.querySelector('.touch svg').clientWidth < 390")
+    for name in NAMES:
+        paper = figure(screen, name).locator("svg").bounding_box()
+        for label in figure(screen, name).locator("svg text").all():
+            place = label.bounding_box()
+            where = f"{name}: {label.text_content()}"
+            assert place["x"] >= paper["x"] - 1, where
+            assert place["x"] + place["width"] <= paper["x"] + paper["width"] + 1, where
+    screen.page.close()
+
+
+def test_paper_and_browsers_without_scripts_have_the_still_picture(
+    browser: Any, pages: Path
+) -> None:
+    paper = Screen(browser, pages / "lesson.html")
+    paper.page.emulate_media(media="print")
+    plain = Screen(browser, pages / "lesson.html", java_script_enabled=False)
+    for name in NAMES:
+        for screen in (paper, plain):
+            picture = screen.page.locator(f'img[src$="figures/{name}.svg"]')
+            assert picture.is_visible()
+        assert not figure(paper, name).locator("input").first.is_visible()
+    paper.page.close()
+    plain.page.close()
