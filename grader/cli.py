@@ -235,14 +235,20 @@ def demonstrate(options: Options) -> None:
 def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
     """Let Ctrl-C count where it comes while a callback runs, as that of a garbage collection.
 
-    Python cannot raise it there and only tells of it. A moment later it can.
+    Python cannot raise it there and only tells of it. A moment later it can. On a busy machine that
+    moment may be over before this function is, which Python would only tell of as well.
     """
-    if issubclass(ignored.exc_type, KeyboardInterrupt):
-        later = threading.Timer(0.05, interrupt)
-        later.daemon = True
-        later.start()
-    else:
+    if not issubclass(ignored.exc_type, KeyboardInterrupt):
         sys.__unraisablehook__(ignored)
+        return
+    while True:
+        try:
+            later = threading.Timer(0.05, interrupt)
+            later.daemon = True
+            later.start()
+            return
+        except KeyboardInterrupt:
+            continue
 
 
 def interrupt() -> None:

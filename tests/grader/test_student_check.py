@@ -227,7 +227,8 @@ def test_control_c_ends_a_check_without_a_traceback(hand_in):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
-def test_control_c_counts_in_the_middle_of_a_garbage_collection_too():
+@pytest.mark.parametrize("busy", [False, True])
+def test_control_c_counts_in_the_middle_of_a_garbage_collection_too(busy: bool):
     """Python can raise nothing there, and hypothesis has a callback that looks on each time."""
     pressed_while_collecting = """
 import gc, signal, sys, time
@@ -235,13 +236,25 @@ from grader.cli import interrupt_again
 sys.unraisablehook = interrupt_again
 signal.signal(signal.SIGINT, signal.default_int_handler)
 gc.callbacks.append(lambda *_: gc.callbacks.clear() or signal.raise_signal(signal.SIGINT))
-gc.collect()
+{before}gc.collect()
 try:
     time.sleep(60)
 except KeyboardInterrupt:
     print("heard")
 """
-    command = [sys.executable, "-c", pressed_while_collecting]
+    # Once as it is, and once on a machine that is so busy that a thread takes long to start.
+    slow = """
+import threading
+start, slept = threading.Timer.start, []
+def slowly(self):
+    start(self)
+    if not slept:
+        slept.append(True)
+        time.sleep(1)
+threading.Timer.start = slowly
+"""
+    before = slow if busy else ""
+    command = [sys.executable, "-c", pressed_while_collecting.replace("{before}", before)]
     ended = subprocess.run(command, cwd=KIT, capture_output=True, encoding="utf-8", timeout=50)
     assert (ended.stdout, ended.stderr) == ("heard\n", "")
 
