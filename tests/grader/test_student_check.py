@@ -238,7 +238,8 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 gc.callbacks.append(lambda *_: gc.callbacks.clear() or signal.raise_signal(signal.SIGINT))
 {before}gc.collect()
 try:
-    time.sleep(60)
+    for _ in range(6000):  # short waits: a signal just before one would be heard after it only
+        time.sleep(0.01)
 except KeyboardInterrupt:
     print("heard")
 """
