@@ -104,6 +104,7 @@ class ShapeValue(Struct, frozen=True):
     box: tuple[float, float, float, float]  # left, bottom, right, top in px
     friction: float
     elasticity: float
+    solid: bool = True  # whether it pushes all others: no sensor, no filter
 
 
 class SpaceBody(Struct, frozen=True, tag="space_body"):

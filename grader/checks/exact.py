@@ -73,8 +73,8 @@ def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
 
 STEP_SIZES = [1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480]  # s
 # What properties ask about damping: rates per second, and steps in s.
-RATES = [0.001, 0.05, *(number / 8 for number in range(25)), *map(float, range(4, 21))]
-DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 100, 1 / 1000, 0.1, 0.25]
+RATES = [0.001, 0.05, 0.0625, *(number / 8 for number in range(25)), *map(float, range(4, 21))]
+DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 118, 1 / 100, 1 / 1000, 0.1, 0.25]
 
 
 @recorded.oracle(RATES, DAMPED_STEPS)
@@ -196,7 +196,7 @@ def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
     return pushed(rod, -force * rod.dt)
 
 
-DEPTH = 0.25  # px, the overlap of every contact that is rubbed
+DEPTH = 0.265625  # px, the overlap of every contact that is rubbed
 
 
 class Discs(NamedTuple):

@@ -37,7 +37,7 @@ damped_steps = st.sampled_from(DAMPED_STEPS)  # s
 near_and_far = st.one_of(
     st.integers(-32, 32).map(lambda n: n / 8),
     st.integers(-8000, 8000).map(lambda n: n / 8),
-    st.sampled_from([0.0, 1 / 64, -1 / 64]),
+    st.sampled_from([0.0, 1 / 64, -1 / 64, 100.03125, 2345.25, -1234.5]),
 )
 states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
 gentle_forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
@@ -45,7 +45,8 @@ falls = st.integers(3918, 3922).map(lambda n: (n / 4, 0.0, 0.0, 0.0))  # px/s²;
 forces = gentle_forces | falls
 seeds = st.integers(0, 999)  # of a random.Random
 # From long ones, by which integrators are told apart, to short ones that are no round numbers.
-time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
+long_steps = [2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16]  # s
+time_steps = st.sampled_from([*long_steps, 1 / 29.5, 1 / 30, 1 / 120, 1 / 480, 1 / 2000])  # s
 
 # For a property that plays a program: a play takes as long as hundreds of calls, so no shrinking.
 once = settings(
@@ -81,8 +82,9 @@ def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
     lengths = (0.001 * 1.1 ** (number + shift) for number in numbers)
     most = MAX_STEPS * STEP
     exact = [0.0, STEP, most, most + 0.0004, 0.1, 2.0]
+    nearly = [number * STEP + off for number in (1, 2, 4) for off in (-0.0003, 0.0003)]
     drawn = [(rests[n % len(rests)] / 2000, each) for n, each in enumerate(lengths)]
-    return [*drawn, *((0.0, each) for each in exact)]
+    return [*drawn, *((0.0, each) for each in exact), *((0.003, each) for each in nearly)]
 
 
 pairs = st.tuples(coordinates, coordinates)
@@ -101,6 +103,7 @@ wide_masses = masses | st.sampled_from([1e-3, 0.05, 1e3, 1e6])
 any_radii = radii | st.sampled_from([0.5, 1e4])
 any_frictions = frictions | st.sampled_from([1.5, 3.0])
 any_impulses = impulses | st.sampled_from([3e3, 5e4])
+wide_spins = spins | st.sampled_from([-60.0, 45.0])  # rad/s
 mass_pairs = (
     st.tuples(wide_masses, wide_masses)
     | st.tuples(st.just(0.0), wide_masses)
@@ -113,11 +116,11 @@ touching = st.builds(
     normal=units,
     radius=st.tuples(any_radii, any_radii),
     drift=velocities,
-    spin=st.tuples(spins, spins),
+    spin=st.tuples(wide_spins, wide_spins),
     turning=st.booleans(),
 )
 rubbings = st.lists(st.builds(Rubbing, any_impulses, any_speeds, speeds), min_size=1, max_size=3)
-pulls = st.sampled_from([(0.0, 0.0), (0.0, 980.0), (-120.0, 35.5)])  # px/s², gravity
+pulls = st.sampled_from([(0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -980.25)])  # px/s²
 
 
 # For a broad phase: bodies in and around the window, most of them small.
@@ -139,6 +142,7 @@ any_spins = st.just(0.0) | spins | slow_spins | st.sampled_from([-300.0, 300.0])
 any_step_sizes = step_sizes | st.sampled_from([1 / 1000, 1 / 24, 1.0])  # s
 surfaces = st.sampled_from([0.0, 1.0]) | frictions
 SURFACE = {"friction": surfaces, "restitution": surfaces}
+any_surface = st.fixed_dictionaries(SURFACE)
 MOTION = {"vel": any_velocities, "omega": any_spins, "angle": any_spins}
 # Where it does not matter where a body is: in the window, left of it, above it, and far away.
 anywhere = st.sampled_from([-1600.25, 40.5, 3200.75]) | places_around  # px

@@ -316,6 +316,7 @@ class Subject:
             (box.left, box.bottom, box.right, box.top),
             shape.friction,
             shape.elasticity,
+            not shape.sensor and shape.filter == pymunk.ShapeFilter(),
         )
 
     def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
