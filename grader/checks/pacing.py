@@ -113,11 +113,16 @@ def standing_still(lab: Lab) -> Thing:
         lab.circle((450, 300), 10, vel=(0.25, -2.0), omega=0.005),
         lab.circle((100, 9000), 20),
         lab.circle((460, 310), 10, vel=(30.0, 5.0), omega=-3.0),
+        lab.circle((440, 310), 10, vel=(-3.0, 5.0)),
+        *(lab.box((-900.0, 50.0 * number), (20, 20)) for number in range(16)),
         lab.box((450, 580), (450, 20)),
         hook,
         bob,
         more,
         joints=rods,
+        gravity=(3.265625, -700.25),
+        linear_damping=0.515625,
+        angular_damping=0.296875,
     )
     lab.tell(world, "step", STEP)  # so that there is a contact
     return world

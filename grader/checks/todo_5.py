@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from grader.checks import exact
 from grader.checks.strategies import any_speeds, damped_steps, pulls, rates, wide_velocities
 from grader.checks.telling import decimals_to_tell
-from grader.judge.lab import Frame, Lab, Moment, Pair
+from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
 
 SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
@@ -24,11 +24,13 @@ def damp(
     dt: float,
     steps: int,
     motion: tuple[float, float] = (SPEED, SPIN),
+    walls: int = 0,
 ) -> Shares:
-    """The shares of speed and spin that one ball has left after some steps."""
+    """The shares of speed and spin that one ball has left after some steps, far from `walls`."""
     speed, spin = motion
     ball = lab.circle((0.0, 0.0), vel=(speed, 0.0), omega=spin)
-    world = lab.world(ball, linear_damping=linear, angular_damping=angular)
+    boxes = [lab.box((1e4, 100.0 * number), (20.0, 20.0)) for number in range(walls)]
+    world = lab.world(ball, *boxes, linear_damping=linear, angular_damping=angular)
     last = lab.simulate(world, [ball], steps, dt, every=steps).body(0)[-1]
     shares = last.vx / speed, last.omega / spin
     lab.saw("damping", (linear, angular, dt, steps), shares)
@@ -65,11 +67,11 @@ def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
 
 def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
     """Speed and spin are damped by a rate of their own"""
-    for usual in ((1.0, 0.25), (0.0, 2.0), (2.0, 0.0), (0.25, 1.0)):
+    for usual, walls in (((1.0, 0.25), 0), ((0.0, 2.0), 0), ((2.0, 0.0), 24), ((0.25, 1.0), 0)):
         linear, angular = (lab.about(rate, min(rate / 4, 1 / 16)) for rate in usual)
         lab.ran(f"linear_damping = {linear:g}, angular_damping = {angular:g}, half a second")
         motion = lab.about(SPEED), lab.about(SPIN)
-        speed, spin = damp(lab, linear, angular, 1 / 120, 60, motion)
+        speed, spin = damp(lab, linear, angular, 1 / 120, 60, motion, walls)
         right = exact.damped(linear, 0.5), exact.damped(angular, 0.5)
         lab.want(
             alike((speed, spin), right, within=0.01),
@@ -135,14 +137,20 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
         lab.circle((m.x, m.y), mass=2.0, vel=(m.vx, m.vy), angle=m.angle, omega=m.omega)
         for m in meant
     ]
+    fleet, rods = a_fleet(lab)
     still = lab.box((0.0, 5e5), (20.0, 20.0))
     belt = lab.circle((0.0, -5e5), mass=0.0, vel=(50.0, -20.0), omega=2.0)
     world = lab.world(
-        *balls, still, belt, gravity=pull, linear_damping=linear, angular_damping=angular
+        *(*balls, *fleet, still, belt),
+        gravity=pull,
+        linear_damping=linear,
+        angular_damping=angular,
+        joints=rods,
     )
-    changes: Frame = {world: "contacts", belt: "pos angle"} | {  # a belt may move or stay
-        ball: "pos vel angle omega" for ball in balls
+    changes = {world: "contacts", belt: "pos angle"} | {  # a belt may move or stay
+        ball: "pos vel angle omega" for ball in (*balls, *fleet)
     }
+    changes |= {rod: "axis bias k" for rod in rods}
     for dt in steps:
         lab.tell(world, "step", dt, changes=changes)
         keep = exact.damped(linear, dt), exact.damped(angular, dt)
@@ -159,6 +167,17 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
         )
     box = lab.state(still)
     lab.want(tuple(box.pos) == (0.0, 5e5), "the static box exactly where it was", "it moved")
+
+
+def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
+    """Four balls on two rods that touch in pairs, far from all else, and the rods.
+
+    All have one velocity, so that no contact and no rod has anything to do.
+    """
+    places = (0.0, 0.0), (40.0, 0.0), (0.0, 19.75), (40.0, 19.75)  # px, the radii 10
+    balls = [lab.circle((x, 9e5 + y), vel=(30.0, -20.0)) for x, y in places]
+    ends = balls[:2], balls[2:]
+    return balls, [lab.thing(lab.call("DistanceJoint", *each), "a rod") for each in ends]
 
 
 def stepped(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:

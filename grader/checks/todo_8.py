@@ -105,6 +105,9 @@ def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> St
 def want_order(lab: Lab, method: Method) -> None:
     """Half the step must divide the error by 2^order, or by what is nearest to that."""
     x0 = lab.about(X0)
+    want_step(
+        lab, method, (x0, 50.0), 1 / 30, (*SPRING, 0.0, 0.0)
+    )  # the very first one counts, too
     lab.ran(
         f"{method.name} on the spring for 0.65 s from x = {x0:g} px, with dt = 1/40 s and with "
         "dt = 1/80 s"
