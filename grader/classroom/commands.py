@@ -299,8 +299,9 @@ def feedback_command(
         else:
             if submissions is None:
                 stop(f"{for_} knows files by the names it gave: name --submissions", "go on")
-            with opened_class(submissions, people_of(submissions, roster)) as intake:
-                made = feedback.by_export(for_, intake, entries, pages, taken)
+            people = people_of(submissions, roster)
+            with opened_class(submissions, people) as intake:
+                made = feedback.by_export(for_, intake, entries, pages, taken, people)
     except (CannotGrade, CannotRead, NoResults) as error:
         stop(str(error), "go on")
     name = results.resolve().name
