@@ -42,20 +42,22 @@ def course_command(
         Path | None,
         typer.Option(help="What students get, an archive; the newest in build/release."),
     ] = None,
+    without_checks: Annotated[
+        bool, typer.Option(help="Make it of the kit as it is: students get nothing to check with.")
+    ] = False,
     taken: TakenFile = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     needs_checkout("nbgrader course")
     from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course, newest_release
 
-    release = release or newest_release(KIT / "build" / "release")
+    release = None if without_checks else release or newest_release(KIT / "build" / "release")
+    if release is None and not without_checks:
+        stop("there is no release in build/release, which has the checks: make release", "go on")
     try:
         files = make_course(course, renew, release, course_in(taken))
     except NoCourse as error:
         stop(str(error), "go on")
-    if release is None:
-        console.print("There is no release in build/release, so that make check will not work in")
-        console.print("what students get. Run make release first, then this again with --renew.")
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 
