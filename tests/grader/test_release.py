@@ -16,6 +16,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from page_readers import barriers, chromium
 from rich.console import Console
 
 from grader.checks import exact
@@ -373,6 +374,13 @@ def test_what_students_read_names_nothing_that_they_do_not_have(released: Releas
             made_later = name.split("/")[0] in ("build", ".venv", "report")
             there = any((top / name).exists() for top in (tree, tree / "mini_engine"))
             assert made_later or there, f"{path.name} names {name}"
+
+
+@pytest.mark.soak
+def test_the_pages_are_for_all(released: Released):
+    with chromium() as browser:
+        names = ("index", "lab-sheet", "hints", "quiz", "lesson")
+        assert barriers(browser, *(released.tree / f"handouts/{each}.html" for each in names)) == []
 
 
 def test_a_page_keeps_words_of_links_that_lead_nowhere():
