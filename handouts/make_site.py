@@ -25,6 +25,7 @@ from grader.maintain.handouts import handouts_of
 HERE = Path(__file__).resolve().parent
 BUILD = HERE.parent / "build" / "handouts"
 OURS = HERE / "site"
+BOX = '<input type="checkbox" disabled'  # of a list to be ticked
 SHIM = "https://unpkg.com/iframe-worker/shim"  # what the theme would fetch
 INSTRUCTORS = "For instructors"  # the part of the menu that students do not get
 
@@ -72,6 +73,7 @@ def without_the_internet(site):
     for page in site.rglob("*.html"):
         up = "../" * (len(page.relative_to(site).parts) - 1)
         text = page.read_text(encoding="utf-8").replace(SHIM, f"{up}site/search-worker.js")
+        text = text.replace(BOX, f'{BOX} aria-label="to be ticked on paper"')
         page.write_text(text, encoding="utf-8", newline="\n")
 
 

@@ -67,8 +67,8 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     def final(self, found: Found, points: int | None) -> "Final":
         """What counts for a submission that earned `points`; None where it could not be graded."""
-        mine = self.about(found.name)
-        due = self.due(found.name)
+        mine = self.about(found)
+        due = self.due(found)
         reasons: list[str] = []
         by_hand = False
         if points is not None and self.late is not None:
@@ -93,9 +93,9 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         final = None if points is None else max(points, 0)
         return Final(final, tuple(reasons), due, by_hand)
 
-    def bonus(self, name: str) -> int:
+    def bonus(self, found: Found) -> int:
         """The bonus that a person gave this student."""
-        return sum(each.bonus or 0 for each in self.about(name))
+        return sum(each.bonus or 0 for each in self.about(found))
 
     def after_lateness(
         self, found: Found, points: int, mine: list[Adjust], reasons: list[str]
@@ -127,20 +127,24 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     def days_late(self, found: Found) -> int:
         """Days begun since the due date; one where the LMS says late and does not say when."""
-        due = self.due(found.name)
+        due = self.due(found)
         if self.late is not None and due and found.handed_in:
             after = self.aware(found.handed_in) - due
             grace = timedelta(minutes=self.late.grace)
             return math.ceil(after / DAY) if after > grace else 0
         return int(found.late)
 
-    def due(self, name: str) -> datetime | None:
+    def due(self, found: Found) -> datetime | None:
         """When this student's work is due: the last extension, or what holds for all."""
-        extended = [each.due for each in self.about(name) if each.due]
+        extended = [each.due for each in self.about(found) if each.due]
         due = max(extended) if extended else self.late.due if self.late else None
         return self.aware(due) if due else None
 
-    def about(self, name: str) -> list[Adjust]:
+    def about(self, found: Found) -> list[Adjust]:
+        """What was decided of a student; of who has no line, what was of who handed in for them."""
+        return self.named(found.name) or self.named(found.handed_in_by)
+
+    def named(self, name: str) -> list[Adjust]:
         return [each for each in self.adjust if any(means(who, name) for who in each.students)]
 
     def aware(self, when: datetime) -> datetime:

@@ -22,14 +22,16 @@ from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
 from grader.classroom.similarity import Prints, prints_of
 from grader.judge.course import FULL, Course
+from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.report.files import as_json
 
 
 @dataclass
 class Task:
-    """A submission that must be graded."""
+    """A piece of work that must be graded, and whose it is."""
 
-    found: Found
+    members: list[Found]
     package: Package
     key: str
 
@@ -46,40 +48,55 @@ class Run:
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
-    same: dict[str, dict[tuple[Path, ...], str]] = field(default_factory=dict)  # names, by files
+    same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
     prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
     said: dict[str, list[str]] = field(default_factory=dict)  # by name: what taking in had to say
 
     def tasks(self) -> Iterator[Task]:
-        """The submissions that must be graded; all others are recorded on the way."""
+        """The work that must be graded, each once; all else is recorded on the way."""
+        works: dict[tuple[Path, ...], list[Found]] = {}
         for found in self.intake.found:
+            works.setdefault(found.sources, []).append(found)
+        for members in works.values():
+            first = members[0]
             try:
-                package = pack(found)
+                package = pack(first)
             except CannotTake as error:
-                self.trouble(found, str(error))
+                for found in members:
+                    self.trouble(found, str(error))
                 continue
-            self.same.setdefault(package.digest, {})[found.sources] = found.name
-            self.notes += [f"{found.name}: {each}" for each in package.notes]
-            self.said[found.name] = package.notes
-            self.prints.append(prints_of(package, found.sources))
+            self.same.setdefault(package.digest, {})[first.whose] = first.name
+            self.notes += [f"{first.name}: {each}" for each in package.notes]
+            self.prints.append(prints_of(package, first.whose))
             key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
+            if new := list(self.not_kept(members, package, key)):
+                yield Task(new, msgspec.structs.replace(package, name=new[0].name), key)
+
+    def not_kept(self, members: list[Found], package: Package, key: str) -> Iterator[Found]:
+        """Those of one piece of work of whom no result is kept; the others are recorded."""
+        for found in members:
+            self.said[found.name] = package.notes
             kept = self.book.kept(found.name, key)
             if kept is None:
-                yield Task(found, package, key)
+                yield found
             else:
                 self.record("kept", found, kept)
 
     def graded(self, task: Task, graded: Graded) -> None:
-        outcome = outcome_of(task.found.name, *graded, task.key)
-        self.book.write(outcome, graded[0])
-        self.record("graded", task.found, outcome)
+        """Each of a group has a result, with a name of their own in it."""
+        result = msgspec.json.decode(graded[0], type=Result)
+        for found in task.members:
+            own = as_json(msgspec.structs.replace(result, submission=found.name))
+            outcome = outcome_of(found.name, own, graded[1], task.key)
+            self.book.write(outcome, own)
+            self.record("graded", found, outcome)
 
     def trouble(self, found: Found, words: str) -> None:
         self.book.forget(found.name)
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        outcome = msgspec.structs.replace(outcome, bonus_by_hand=self.adjustments.bonus(found.name))
+        outcome = msgspec.structs.replace(outcome, bonus_by_hand=self.adjustments.bonus(found))
         added = 0 if outcome.trouble else self.course.added(outcome.bonus)
         earned = None if outcome.trouble else outcome.points + added
         final = self.adjustments.final(found, earned)
@@ -93,6 +110,8 @@ class Run:
             late=bool(self.adjustments.days_late(found)),
             due=final.due,
             handed_in=self.adjustments.aware(found.handed_in) if found.handed_in else None,
+            group=list(found.group),
+            handed_in_by=found.handed_in_by,
         )
         self.counts[how] = self.counts.get(how, 0) + 1
         self.outcomes.append(outcome)
@@ -143,7 +162,8 @@ def grade_class(
             run.trouble(Found(name, ()), words)
         for task, graded in grade_all(run.tasks(), executor):
             if isinstance(graded, str):
-                run.trouble(task.found, graded)
+                for found in task.members:
+                    run.trouble(found, graded)
             else:
                 run.graded(task, graded)
             counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)

@@ -46,6 +46,14 @@ class Outcome(Struct, frozen=True):
     by_hand: bool = False  # the final points were set by a person, whatever was graded
     due: datetime | None = None  # for this student
     notes: list[str] = []  # what taking it in has to say
+    group: list[str] = []  # the others whose work this is too
+    handed_in_by: str = ""  # one of them, where it was not this student
+
+    @property
+    def group_in_words(self) -> str:
+        """Who did this together; empty for who worked alone."""
+        by = f", handed in by {self.handed_in_by}" if self.handed_in_by else ""
+        return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 
     @property
     def mark(self) -> int | None:
@@ -145,7 +153,7 @@ def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """The class for a spreadsheet: nothing in it depends on when or how fast it was graded."""
     todos = [todo.id for todo in course.rubric.todos]
     titles = ["name", "points", "found", "of", "bonus", "handed in", "due", "late", "adjusted"]
-    table: list[list[str | float]] = [[*titles, "trouble", "notes", *todos]]
+    table: list[list[str | float]] = [[*titles, "trouble", "notes", "group", *todos]]
     for each in outcomes:
         mark = "" if each.mark is None else each.mark
         found = ["", each.max_points or ""] if each.trouble else [each.points, each.max_points]
@@ -154,5 +162,5 @@ def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
         late = "late" if each.late else ""
         words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
-        table.append([each.name, mark, *found, bonus, *times, *words, *points])
+        table.append([each.name, mark, *found, bonus, *times, *words, each.group_in_words, *points])
     return as_csv(table)

@@ -42,20 +42,22 @@ def course_command(
         Path | None,
         typer.Option(help="What students get, an archive; the newest in build/release."),
     ] = None,
+    without_checks: Annotated[
+        bool, typer.Option(help="Make it of the kit as it is: students get nothing to check with.")
+    ] = False,
     taken: TakenFile = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     needs_checkout("nbgrader course")
     from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course, newest_release
 
-    release = release or newest_release(KIT / "build" / "release")
+    release = None if without_checks else release or newest_release(KIT / "build" / "release")
+    if release is None and not without_checks:
+        stop("there is no release in build/release, which has the checks: make release", "go on")
     try:
         files = make_course(course, renew, release, course_in(taken))
     except NoCourse as error:
         stop(str(error), "go on")
-    if release is None:
-        console.print("There is no release in build/release, so that make check will not work in")
-        console.print("what students get. Run make release first, then this again with --renew.")
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 
@@ -299,8 +301,9 @@ def feedback_command(
         else:
             if submissions is None:
                 stop(f"{for_} knows files by the names it gave: name --submissions", "go on")
-            with opened_class(submissions, people_of(submissions, roster)) as intake:
-                made = feedback.by_export(for_, intake, entries, pages, taken)
+            people = people_of(submissions, roster)
+            with opened_class(submissions, people) as intake:
+                made = feedback.by_export(for_, intake, entries, pages, taken, people)
     except (CannotGrade, CannotRead, NoResults) as error:
         stop(str(error), "go on")
     name = results.resolve().name

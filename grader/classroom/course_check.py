@@ -15,8 +15,7 @@ from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import pack
 from grader.classroom.marks import Marking, load_marking, total_of
 from grader.classroom.names import folded, in_short
-from grader.classroom.owners import GROUPS
-from grader.classroom.roster import CannotRead, ClassList, Roster, names_in, read_roster
+from grader.classroom.roster import GROUPS, CannotRead, ClassList, Roster, names_in, read_roster
 from grader.judge.course import FULL, WrongCourse, read_course
 from grader.judge.submission import CannotGrade
 

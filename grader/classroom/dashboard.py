@@ -233,6 +233,7 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
 def standing_of(outcome: Outcome) -> Standing:
     """What a page says beside the checks: the mark, the dates, and all that was decided."""
     lines = [
+        ("Group", outcome.group_in_words.removeprefix("group ")),
         ("Handed in", timestamp(outcome.handed_in) if outcome.handed_in else ""),
         ("Due", timestamp(outcome.due) if outcome.due else ""),
         ("Not graded", outcome.trouble),
@@ -285,7 +286,8 @@ def notes_of(outcome: Outcome) -> list[str]:
     decided = [] if outcome.trouble or not outcome.reasons else [f"found {outcome.points}"]
     decided = ["; ".join([*decided, *outcome.reasons])]
     late = ["late"] if outcome.late and not outcome.reasons else []
-    return [words for words in [outcome.trouble, *late, *decided, *outcome.notes] if words]
+    told = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
+    return [words for words in told if words]
 
 
 def slowest(graded: list[Entry]) -> list[Entry]:

@@ -18,7 +18,7 @@ from grader.classroom.intake import brightspace, canvas, moodle
 from grader.classroom.intake.found import Found, Intake
 from grader.classroom.names import portable
 from grader.classroom.owners import match
-from grader.classroom.roster import CannotRead, Roster
+from grader.classroom.roster import CannotRead, ClassList, Roster
 from grader.judge.course import FULL, Course
 from grader.report.files import put_in
 from grader.report.sinks.tables import as_csv
@@ -45,14 +45,35 @@ class Feedback:
         return out.getvalue()
 
 
+@dataclass(frozen=True)
+class Returned:
+    """What goes back to one student: to a group's others beside what its first one gets."""
+
+    found: Found
+    entry: Entry
+    page: bytes
+    participant: str = ""  # what Moodle calls somebody who has no file there
+
+    @property
+    def file(self) -> str:
+        mate = self.found.handed_in_by
+        return f"feedback-{portable(self.found.name)}.html" if mate else PAGE
+
+
 def by_export(
-    system: System, intake: Intake, entries: list[Entry], pages: Path, course: Course = FULL
+    system: System,
+    intake: Intake,
+    entries: list[Entry],
+    pages: Path,
+    course: Course = FULL,
+    people: ClassList | None = None,
 ) -> Feedback:
     """The pages under the names that the LMS gave to what was handed in."""
     made = Feedback()
     graded = {each.outcome.name: each for each in entries}
     made.notes += [f"{name}: left out, {why}" for name, why in intake.troubles.items()]
-    for found in intake.found:
+    works: dict[tuple[Path, ...], list[Returned]] = {}
+    for found in sorted(intake.found, key=lambda each: each.handed_in_by != ""):
         entry = graded.get(found.name)
         page = pages / f"{found.name}.html"
         if entry is None or not page.is_file():
@@ -60,39 +81,50 @@ def by_export(
             continue
         if entry.result is not None:
             entry = replace(entry, result=told(entry.result, course))
-        names = dict(NAMED[system](found, entry, page.read_bytes()))
+        participant = people.participant(found.name) if people else ""
+        theirs = Returned(found, entry, page.read_bytes(), participant)
+        works.setdefault(found.sources, []).append(theirs)
+    for sources, members in works.items():
+        names = dict(NAMED[system](sources[0], members))
         if not names:
-            made.notes.append(f"{found.name}: left out, {system} does not name files so")
+            who = " and ".join(each.found.name for each in members)
+            made.notes.append(f"{who}: left out, {system} does not name files so")
         made.files |= names
     return made
 
 
-def for_moodle(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+def for_moodle(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
     """Moodle takes a participant's number and the kind of upload from a file's name."""
-    for source in found.sources[:1]:
-        known = moodle.NAME.fullmatch(source.name)
-        if known:
-            yield f"{known['name']}_{known['id']}_assignsubmission_file_{PAGE}", page
+    known = moodle.NAME.fullmatch(source.name)
+    if known is None:
+        return
+    first = f"{known['name']}_{known['id']}"
+    for each in members:
+        own = each.participant if each.found.handed_in_by else ""
+        file = PAGE if own else each.file
+        yield f"{own or first}_assignsubmission_file_{file}", each.page
 
 
-def for_canvas(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+def for_canvas(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
     """Canvas takes the very names that it gave, so a zip stays one and a text a text."""
-    for source in found.sources[:1]:
-        if canvas.matched(source) is None:
-            continue
-        if source.suffix.lower() != ".zip":
-            yield source.name, as_text(entry).encode("utf-8")
-            continue
-        inner = Feedback({PAGE: page})
-        yield source.name, inner.zipped()
+    if canvas.matched(source) is None:
+        return
+    if source.suffix.lower() != ".zip":
+        first, *mates = members
+        texts = [as_text(first.entry)]
+        texts += [f"{each.found.name}\n{as_text(each.entry)}" for each in mates]
+        yield source.name, "\n".join(texts).encode("utf-8")
+        return
+    inner = Feedback({each.file: each.page for each in members})
+    yield source.name, inner.zipped()
 
 
-def for_brightspace(found: Found, entry: Entry, page: bytes) -> Iterator[tuple[str, bytes]]:
+def for_brightspace(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
     """Brightspace takes the folders of its download, with other files in them."""
-    for source in found.sources[:1]:
-        if known := brightspace.NAME.fullmatch(source.name):
-            folder = f"{known['ids']} - {known['name']} - {known['when']}"
-            yield f"{folder}/{PAGE}", page
+    if known := brightspace.NAME.fullmatch(source.name):
+        folder = f"{known['ids']} - {known['name']} - {known['when']}"
+        for each in members:
+            yield f"{folder}/{each.file}", each.page
 
 
 NAMED = {"moodle": for_moodle, "canvas": for_canvas, "brightspace": for_brightspace}

@@ -115,8 +115,8 @@ def parts_from_results(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
 
 
 def why(outcome: Outcome) -> str:
-    """Why these are its points, if they are not what the checks gave."""
-    return "; ".join(filter(None, [outcome.trouble, *outcome.reasons]))
+    """Why these are its points, if they are not what the checks gave; and with whom."""
+    return "; ".join(filter(None, [outcome.group_in_words, outcome.trouble, *outcome.reasons]))
 
 
 # ---------------------------------------------------------------- marks for the LMS

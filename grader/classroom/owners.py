@@ -9,11 +9,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from grader.classroom.names import folded, names_of
-from grader.classroom.roster import KEYS, Roster, names_in
+from grader.classroom.roster import KEYS, Roster, groups_of, names_in
 
 NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # as exports name their files
-GROUPS = ("Group", "Groups", "Group name", "Group Name")
-
 Row = dict[str, str]
 Labels = Callable[[Row], Iterable[str]]
 
@@ -72,14 +70,7 @@ def found(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
 
 def share(roster: Roster, owners: Owners, absent: set[str]) -> None:
     """Who handed in nothing has what the one of the group has who did."""
-    column = next((name for name in GROUPS if name in roster.columns), None)
-    if column is None:
-        return
-    groups: dict[str, list[Row]] = {}
-    for row in roster.rows:
-        if row[column].strip():
-            groups.setdefault(row[column].strip(), []).append(row)
-    for rows in groups.values():
+    for rows in groups_of(roster):
         handed_in = [name for row in rows for name in owners.of(row) if name not in absent]
         for row in rows:
             if handed_in and not owners.of(row):

@@ -30,6 +30,7 @@ KEYS = (
     "Email",
     "Identifier",
 )
+GROUPS = ("Group", "Groups", "Group name", "Group Name")
 Kind = Literal["canvas", "worksheet", "blackboard", "brightspace", "plain"]
 POINTS_POSSIBLE = "Points Possible"  # the first cell of Canvas's second row
 TEST_STUDENT = "Student, Test"  # Canvas's own, who never hands in
@@ -137,6 +138,8 @@ class ClassList:
         self._known: dict[tuple[str, str], set[str]] = {}
         self._columns: set[str] = set()
         self._handed_in: dict[str, datetime] = {}
+        self._participants: dict[str, str] = {}
+        self.groups: list[list[str]] = []
         if roster is None:
             return
         key = roster.key(key)
@@ -145,10 +148,15 @@ class ClassList:
             if not row[key].strip():
                 continue
             self.names.append(row[key].strip())
+            number = row.get("Identifier", "").removeprefix("Participant ").strip()
+            if row.get("Full name", "").strip() and number.isdecimal():
+                self._participants[row[key].strip()] = f"{row['Full name'].strip()}_{number}"
             if when := moment(row.get(SUBMITTED, "")):
                 self._handed_in[row[key].strip()] = when
             for column, label in [*row.items(), *(("name", name) for name in names_in(row))]:
                 self._known.setdefault((column, folded(label)), set()).add(row[key].strip())
+        for rows in groups_of(roster):
+            self.groups.append([row[key].strip() for row in rows if row[key].strip()])
 
     def name_of(self, columns: Iterable[str], *labels: object) -> str | None:
         """The one student whom one of the labels means."""
@@ -167,6 +175,10 @@ class ClassList:
         """When somebody handed in, where the list says so: the school's own time, no zone."""
         return self._handed_in.get(name)
 
+    def participant(self, name: str) -> str:
+        """What Moodle calls a student in the names of files; empty where the list does not say."""
+        return self._participants.get(name, "")
+
     def absent(self, handed_in: Iterable[str]) -> list[str]:
         """Those who handed in nothing, given the names of the others."""
         here = {folded(name) for name in handed_in}
@@ -176,6 +188,16 @@ class ClassList:
         """Those who handed in and are not in the class list."""
         known = {each for name in self.names for each in names_of(name)}
         return [name for name in handed_in if self.names and folded(name) not in known]
+
+
+def groups_of(roster: Roster) -> list[list[dict[str, str]]]:
+    """The rows of each group that the list names, in the order in which they come."""
+    column = next((name for name in GROUPS if name in roster.columns), None)
+    groups: dict[str, list[dict[str, str]]] = {}
+    for row in roster.rows if column else []:
+        if row[column or ""].strip():
+            groups.setdefault(row[column or ""].strip(), []).append(row)
+    return list(groups.values())
 
 
 def names_in(row: dict[str, str]) -> Iterator[str]:

@@ -62,7 +62,7 @@ class Prints:
 
     name: str
     runs: frozenset[int]
-    with_whom: tuple[Path, ...] = ()  # where it lies: those who handed in together share it
+    with_whom: tuple[str, ...] = ()  # the same of those who handed in together
 
 
 class Pair(Struct, frozen=True):
@@ -134,7 +134,7 @@ def runs_of(text: str) -> frozenset[int]:
     return frozenset(run for run, _, _ in runs_in(tokens_of(text)))
 
 
-def prints_of(package: Package, with_whom: tuple[Path, ...] = ()) -> Prints:
+def prints_of(package: Package, with_whom: tuple[str, ...] = ()) -> Prints:
     """What is a submission's own: neither given nor the solution's wording."""
     runs: frozenset[int] = frozenset().union(*map(runs_of, texts_of(package).values()))
     return Prints(package.name, runs - given_runs(), with_whom)
@@ -148,7 +148,7 @@ def prints_of_class(
     for each in stack.enter_context(opened_class(folder, people)).found:
         name = f"{label}/{each.name}" if label else each.name
         with suppress(CannotTake):
-            prints.append(replace(prints_of(pack(each), each.sources), name=name))
+            prints.append(replace(prints_of(pack(each), each.whose), name=name))
             found[name] = each
     return found, prints
 

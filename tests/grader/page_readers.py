@@ -56,6 +56,28 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
+def barriers(browser: Any, *paths: Path) -> list[str]:
+    """What axe calls serious or critical for those who cannot see, point or tell colours apart.
+
+    All that is folded is opened, in light and in dark.
+    """
+    axe = pytest.importorskip("axe_playwright_python", reason="needs axe, of the extra `dev`")
+    rules = Path(axe.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+    found = []
+    for scheme in ("light", "dark"):
+        page = browser.new_page(bypass_csp=True, color_scheme=scheme)
+        for path in paths:
+            page.goto(path.resolve().as_uri())
+            page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
+            page.evaluate(rules)
+            for each in page.evaluate("axe.run()")["violations"]:
+                if each["impact"] in ("serious", "critical"):
+                    place = each["nodes"][0]["html"]
+                    found.append(f"{path.name}, {scheme}: {each['help']}: {place}")
+        page.close()
+    return found
+
+
 class Screen:
     """A page in the browser; whatever it says to the console or asks of the network is kept."""
 

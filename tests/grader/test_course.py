@@ -252,7 +252,7 @@ def test_the_points_of_the_class_follow_from_the_course():
     run.record("graded", found, outcome)
     assert (run.outcomes[0].final, run.outcomes[0].reasons) == (33, ["bonus: +3", "1 day late: 0"])
     head = as_table(run.outcomes, course).splitlines()[0]
-    assert head.endswith("trouble,notes,8a,8b,8c,B1")
+    assert head.endswith("trouble,notes,group,8a,8b,8c,B1")
 
 
 def test_a_decision_goes_before_the_courses_rules_line_by_line(tmp_path: Path):

@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import msgspec
 import pytest
 from msgspec import structs
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 from typer.testing import CliRunner
 
 from grader.classroom import commands
@@ -261,3 +261,7 @@ def test_a_hostile_class_is_quiet_in_the_browser(browser: Any, tmp_path: Path):
     shown.page.locator("#table a").first.click()
     assert shown.page.locator("h1").count() == 1
     assert shown.complaints == []
+
+
+def test_the_page_of_a_class_is_for_all(browser: Any, tmp_path: Path):
+    assert barriers(browser, make_class(tmp_path, 3)) == []

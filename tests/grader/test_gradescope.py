@@ -205,18 +205,30 @@ def test_root_without_namespaces_and_landlock_keeps_marks_and_reference(open_top
 # ---------------------------------------------------------------- when something is wrong
 
 
-def test_what_cannot_be_graded_gets_the_reason(top: Path):
-    (top / "submission" / "work.zip").write_bytes(b"no zip")
-    results = run(top)
-    assert results["score"] == 0
-    assert results["output"].startswith("This could not be graded: ")
+def told_without_a_score(top: Path, results: dict[str, Any]) -> str:
+    """What the student reads where there is no score anywhere, so that none of 0 is counted."""
+    (told,) = results["tests"]
+    assert "score" not in results and not {"score", "max_score"} & set(told)
+    assert told["output"] == results["output"] and "no mark, and not 0 points" in told["output"]
+    return str(told["output"])
+
+
+@pytest.mark.parametrize(
+    ("name", "content"), [("work.zip", b"no zip"), ("essay.txt", b"words"), (".keep", b"")]
+)
+def test_what_cannot_be_graded_has_the_reason_and_no_score(top: Path, name: str, content: bytes):
+    (top / "submission" / name).write_bytes(content)
+    reason = told_without_a_score(top, run(top))
+    assert reason.startswith("This could not be graded: ") and "hand in again" in reason
+    log = (top / "log").read_text()
+    assert "cannot grade: " in log and "give its points there by hand" in log
 
 
 def test_a_fault_of_the_grader_is_no_mark_that_looks_like_one(top: Path):
     hand_in(top, "starter")
     (top / "source" / "settings.json").write_text("{")
     results = run(top, expected=1)
-    assert results["score"] == 0 and "tell your instructor" in results["output"]
+    assert "tell your instructor" in told_without_a_score(top, results)
     assert "Traceback" in (top / "log").read_text() and "Traceback" not in str(results)
 
 
@@ -224,7 +236,7 @@ def test_without_a_grader_there_are_results_all_the_same(top: Path):
     (top / "results" / "results.json").write_text('{"score": 100}')  # of another run
     shutil.rmtree(top / "python")
     results = run(top, expected=127)
-    assert results["score"] == 0 and "tell your instructor" in results["output"]
+    assert "tell your instructor" in told_without_a_score(top, results)
 
 
 def test_bonus_is_said_and_not_summed():

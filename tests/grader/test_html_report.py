@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 from grader.player.film import Line, Take
@@ -118,3 +118,18 @@ def test_a_browser_shows_the_replay_and_obeys_no_words(tmp_path: Path):
         inside.locator("#on").click()
         assert inside.locator("#picture").get_attribute("data-position") == "1"
         assert screen.complaints == []
+
+
+def test_a_report_is_for_all_with_the_replay_in_it(tmp_path: Path):
+    (tmp_path / "replays").mkdir()
+    (tmp_path / "replays" / "2-b.html").write_text(little_replay(), encoding="utf-8")
+    written(tmp_path, result(replay="replays/2-b.html"))
+    with chromium() as browser:
+        assert barriers(browser, tmp_path / "report.html") == []
+        screen = Screen(browser, tmp_path / "report.html")
+        for _ in range(20):  # by keys alone
+            screen.page.keyboard.press("Tab")
+            if screen.page.evaluate("document.activeElement.tagName") == "SUMMARY":
+                break
+        screen.page.keyboard.press("Enter")
+        assert screen.page.locator("details").get_attribute("open") is not None

@@ -147,6 +147,9 @@ def test_gradescope_names_times_and_people_who_work_together(classroom):
         found = {each.name: each for each in taken.found}
         assert list(found) == ["Cem", "ann@school.edu", "ben@school.edu"]
         assert found["Cem"].sources == found["ben@school.edu"].sources
+        assert found["Cem"].group == ("ben@school.edu",)
+        assert found["ben@school.edu"].group == ("Cem",)
+        assert found["Cem"].handed_in_by == "ben@school.edu"
         at = datetime(2026, 5, 4, 21, 59, 1, 500000, UTC)
         assert found["ann@school.edu"].handed_in == at
         assert found["Cem"].handed_in == datetime(2026, 5, 4, 23, tzinfo=UTC)

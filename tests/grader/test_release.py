@@ -16,6 +16,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from page_readers import barriers, chromium
 from rich.console import Console
 
 from grader.checks import exact
@@ -343,7 +344,8 @@ def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
 
 def test_every_link_of_the_pages_leads_somewhere(released: Released):
     pages = {page.name: page.read_text(encoding="utf-8") for page in released.tree.glob("*/*.html")}
-    assert {"lab-sheet.html", "lesson.html"} <= set(pages)
+    assert {f"{path.stem}.html" for path in (KIT / "handouts").glob("*.md")} == set(pages)
+    assert 'href="hints.html#todo-4' in pages["lab-sheet.html"]
     for name, text in pages.items():
         for link in re.findall(r'(?:href|src)="([^"]+)"', text):
             target, _, place = link.partition("#")
@@ -351,10 +353,39 @@ def test_every_link_of_the_pages_leads_somewhere(released: Released):
             assert not place or f'id="{place}"' in pages[target or name], f"{name}: {link}"
 
 
+def test_pages_follow_one_another_from_the_first_to_the_last(released: Released):
+    folder, way = released.tree / "handouts", ["index.html"]
+    while found := re.search(
+        r'<a class="next" href="([^"]+)"', (folder / way[-1]).read_text(encoding="utf-8")
+    ):
+        assert f'class="previous" href="{way[-1]}"' in (folder / found[1]).read_text("utf-8")
+        way.append(found[1])
+    assert sorted(way) == sorted(page.name for page in folder.glob("*.html"))
+    assert way[:3] == ["index.html", "lesson.html", "lab-sheet.html"]
+
+
+def test_what_students_read_names_nothing_that_they_do_not_have(released: Released):
+    tree = released.tree
+    texts = [*tree.glob("*.md"), *tree.glob("handouts/*.html"), *tree.glob("notebooks/*.ipynb")]
+    for path in texts:
+        text = path.read_text(encoding="utf-8")
+        assert "cd solution" not in text and "solution/" not in text, path.name
+        for name in re.findall(r"(?:`|<code>)([\w.-]+/[\w./-]*)(?:`|</code>)", text):
+            made_later = name.split("/")[0] in ("build", ".venv", "report")
+            there = any((top / name).exists() for top in (tree, tree / "mini_engine"))
+            assert made_later or there, f"{path.name} names {name}"
+
+
+@pytest.mark.soak
+def test_the_pages_are_for_all(released: Released):
+    with chromium() as browser:
+        names = ("index", "lab-sheet", "hints", "quiz", "lesson")
+        assert barriers(browser, *(released.tree / f"handouts/{each}.html" for each in names)) == []
+
+
 def test_a_page_keeps_words_of_links_that_lead_nowhere():
-    page = as_page(
-        "# A <title>\n\n[here](b.md#c), [there](hints.md)\n\n## C, d\n", {"a.md", "b.md"}
-    )
+    text = "# A <title>\n\n[here](b.md#c), [there](none.md)\n\n## C, d\n"
+    page = as_page("a.md", {"a.md": text, "b.md": "# B\n"})
     assert '<a href="b.html#c">here</a>, there' in page
     assert "<title>A &lt;title&gt;</title>" in page and 'id="c-d"' in page
 

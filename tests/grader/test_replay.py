@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 import pytest
 from conftest import only_some
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 import grader.judge.replay as replays
 from grader.checks import todo_3, todo_4, todo_7, todo_8, whole
@@ -578,6 +578,10 @@ def test_the_player_steps_scrubs_and_finds_the_parting(screen: Screen, pages: Pa
     assert screen.position == parting
     screen.page.locator("#lines li").first.click()
     assert screen.position == 0
+    keys.press("Tab")
+    keys.press("Enter")  # the second line, by keys alone
+    assert screen.position == film["scenes"][0]["lines"][1]["at"]
+    keys.press("Home")
     assert f"frame 1 of {count}" in screen.page.locator("#moment").inner_text()
 
 
@@ -640,6 +644,11 @@ def test_pages_of_all_todos_open_without_a_complaint(browser: Any, pages: Path, 
         shown.page.keyboard.press("End")
         assert shown.position == int(shown.page.locator("#frame").get_attribute("max"))
     assert shown.complaints == []
+
+
+def test_a_replay_is_for_all(browser: Any, pages: Path):
+    first, *_, last = sorted(pages.glob("*.html"))  # a scene, and an integrator's curve
+    assert barriers(browser, first, last) == []
 
 
 def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):

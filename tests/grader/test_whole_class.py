@@ -11,6 +11,7 @@ from pathlib import Path
 
 import classes
 import gradebooks
+import msgspec
 import packed
 import pytest
 from classes import TITLE, Student
@@ -314,3 +315,90 @@ def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, bank, s
         if student.files or student.by_hand is not None:
             mark = rows[name_in(system, student)]["points"]
             assert mark == ("" if student.mark is None else str(student.mark)), student.login
+
+
+# ---------------------------------------------------------------- groups
+
+
+def grouped(roster: Path, system: str, group: list[Student], students: list[Student]) -> None:
+    """The class list with a column of groups, in which these are one."""
+    mark = "\t" if system == "blackboard" else ","
+    first, *rows = roster.read_text(encoding="utf-8").splitlines()
+    own = {name_in(system, each) for each in group}
+    lines = [f"{first}{mark}Group"]
+    for row in rows:
+        theirs = own & {cell.strip('"') for cell in row.split(mark)}
+        lines.append(f"{row}{mark}{'one' if theirs else ''}")
+    roster.write_text("\n".join(lines), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "system",
+    ["canvas", "moodle", *(pytest.param(each, marks=pytest.mark.soak) for each in SYSTEMS[2:])],
+)
+def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_process, system):
+    """Kim was late and Hana handed in nothing; Ian has a decision of his own, and no files."""
+    folder, roster, students = exported(tmp_path, system)
+    by_login = {each.login: each for each in students}
+    kim, hana, ian = (by_login[login] for login in ("kim", "hana", "ian"))
+    grouped(roster, system, [kim, hana, ian], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    group = Class(system, folder, roster, students, run)
+    outcomes = {each.name: each for each in run.outcomes}
+    names = [name_in(system, each) for each in (kim, hana, ian)]
+    assert [outcomes[name].mark for name in names] == [8, 8, 9]
+    for name in names:
+        page = (group.results / f"{name}.html").read_text(encoding="utf-8")
+        others = [each for each in names if each != name]
+        assert all(each in page for each in others) and "<dt>Group</dt>" in page
+        result = msgspec.json.decode((group.results / f"{name}.json").read_bytes())
+        assert (result["submission"], result["points"]) == (name, 13)
+    assert f"handed in by {names[0]}" in page
+    everybody_gets_a_page(group, names)
+    again = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    assert again.counts["graded"] == 0
+    assert not [n for n in run.notes if "nothing was handed in" in n and names[1] in n]
+
+
+def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
+    out = graded.folder.parent / "back"
+    words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
+    if graded.system in ("canvas", "moodle", "brightspace"):
+        words += ["--submissions", str(graded.folder), "--for", graded.system]
+    else:
+        words += ["--for", "nbgrader"]
+    CliRunner().invoke(commands.app, [*words, "--out", str(out)])
+    if out.is_dir():
+        found = {path.parts[-3] for path in out.rglob("*.html")}
+    else:
+        found = set(zipfile.ZipFile(out).namelist())
+    if graded.system == "canvas":
+        (own,) = [name for name in found if name.startswith("beekim")]
+        text = zipfile.ZipFile(out).read(own).decode()
+        found = set(text.splitlines())
+    for name in names[1:]:
+        student = next(each for each in graded.students if name_in(graded.system, each) == name)
+        number = graded.students.index(student) + 1
+        moodles = f"{student.full}_{number}_assignsubmission_file_feedback.html"
+        assert {name, moodles} & found or any(f"/feedback-{name}.html" in each for each in found)
+
+
+def test_a_group_with_different_work_is_for_a_person_where_one_has_none(tmp_path, in_one_process):
+    folder, roster, students = exported(tmp_path, "moodle")
+    by_login = {each.login: each for each in students}
+    grouped(roster, "moodle", [by_login[each] for each in ("kim", "joy", "hana")], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    outcomes = {each.name: each for each in run.outcomes}
+    assert [outcomes[f"{each}@x.edu"].mark for each in ("kim", "joy", "hana")] == [8, 12, None]
+    assert "handed in different work" in outcomes["hana@x.edu"].trouble
+
+
+def test_what_cannot_be_read_is_for_a_person_with_all_of_the_group(tmp_path, in_one_process):
+    folder, roster, students = exported(tmp_path, "gradescope")
+    by_login = {each.login: each for each in students}
+    grouped(roster, "gradescope", [by_login["eve"], by_login["hana"]], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    outcomes = {each.name: each for each in run.outcomes}
+    for login in ("eve", "hana"):
+        assert outcomes[f"{login}@x.edu"].mark is None and outcomes[f"{login}@x.edu"].group
+        assert "broken" in outcomes[f"{login}@x.edu"].trouble

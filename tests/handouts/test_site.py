@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from page_readers import barriers, chromium
 
 KIT = Path(__file__).parents[2]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -172,6 +173,12 @@ def test_a_browsers_complaint_is_noticed(sites: Path, tmp_path: Path, broken: st
     complaints = opened(page, tmp_path)[1]
     page.unlink()
     assert complaints
+
+
+@SEEN
+def test_the_site_is_for_all(sites: Path) -> None:
+    with chromium() as browser:
+        assert barriers(browser, *pages(sites / "students")) == []
 
 
 @SEEN

@@ -5,7 +5,10 @@ from pathlib import Path
 
 import pytest
 from handed_in import NAMES, RELEASED, hand_in, read
+from typer.testing import CliRunner
 
+from grader.classroom import commands
+from grader.classroom.nbgrader import course as courses
 from grader.classroom.nbgrader.course import (
     ASSIGNMENT,
     NoCourse,
@@ -167,6 +170,8 @@ def test_students_get_the_checks_of_a_release(tmp_path):
     with zipfile.ZipFile(archive, "w") as out:
         for name in ("grader.whl", "requirements.txt", "notebooks/quiz.ipynb"):
             out.writestr(f"physics-engine/{name}", "released")
+        rows = ["# content 0", "00  grader.whl", "00  .gitignore", "00  notebooks/quiz.ipynb"]
+        out.writestr("physics-engine/MANIFEST.txt", "\n".join(rows) + "\n")
         released = (KIT / "starter" / "integrators.py").read_bytes() + b"# released\n"
         out.writestr("physics-engine/integrators.py", released)
     assert newest_release(tmp_path) == archive and newest_release(tmp_path / "none") is None
@@ -176,8 +181,19 @@ def test_students_get_the_checks_of_a_release(tmp_path):
     assert {"grader.whl", "requirements.txt"} < set(files)
     assert (source / "integrators.py").read_bytes() == released
     assert (source / "quiz.ipynb").read_text() != "released"  # with the answers
+    assert (source / "MANIFEST.txt").read_text() == "# content 0\n00  grader.whl\n"
     with pytest.raises(NoCourse, match="no archive of a release"):
         make_course(tmp_path / "course", renew=True, release=tmp_path / "none.zip")
     with pytest.raises(NoCourse, match="not of this course, they differ in TODO 1, 2, 3"):
         make_course(tmp_path / "course", renew=True, release=archive)
     assert (source / "integrators.py").read_bytes() == released  # what stands is not lost
+
+
+def test_a_course_without_checks_is_only_made_where_it_is_asked_for(tmp_path, monkeypatch):
+    monkeypatch.setattr(courses, "newest_release", lambda folder: None)
+    words = ["course", str(tmp_path / "course")]
+    done = CliRunner().invoke(commands.course_app, words)
+    assert done.exit_code == 2 and "make release" in " ".join(done.output.split())
+    assert not (tmp_path / "course").exists()
+    done = CliRunner().invoke(commands.course_app, [*words, "--without-checks"])
+    assert done.exit_code == 0, done.output

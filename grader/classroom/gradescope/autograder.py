@@ -1,7 +1,7 @@
 """Grades one submission where Gradescope has laid it, and writes the results it looks for.
 
-Whatever happens, the results are valid: where nothing could be graded they say why. What is printed
-is for the instructor alone.
+Whatever happens, the results are valid. Where nothing could be graded they have no score, not one
+of 0, and say why. What is printed is for the instructor alone.
 """
 
 import sys
@@ -24,6 +24,13 @@ from grader.report.sinks.gradescope import gradescope
 from grader.report.terminal import show, show_isolation
 from grader.words import clean, told
 
+NO_MARK = "This is no mark, and not 0 points."
+AGAIN = "Mend that and hand in again, or ask your instructor to look at it."
+BY_HAND = (
+    "No score was sent to Gradescope. Look at the submission, and give its points there by hand; "
+    "what Gradescope itself shows for it until then is nobody's mark."
+)
+
 
 class Settings(Struct, frozen=True):
     """How the instructor wants it, kept in the zip as settings.json."""
@@ -35,16 +42,18 @@ class Settings(Struct, frozen=True):
 
 def main(top: Path) -> int:
     """Grade `top`/submission into `top`/results; exit status 1 is a fault of the grader."""
-    status = 0
+    place, status = top / "results" / "results.json", 0
     try:
-        results = graded(top / "submission")
+        write_whole(graded(top / "submission"), place)
+        return status
     except (CannotGrade, CannotTake) as error:
         print(f"cannot grade: {clean(str(error))}")
-        results = ungraded(f"This could not be graded: {error}")
+        results = ungraded(f"This could not be graded: {error}.", AGAIN)
     except Exception:
         traceback.print_exc(file=sys.stdout)
-        results, status = ungraded("The grader itself failed. Please tell your instructor."), 1
-    write_whole(results, top / "results" / "results.json")
+        results, status = ungraded("The grader itself failed.", "Please tell your instructor."), 1
+    print(BY_HAND)
+    write_whole(results, place)
     return status
 
 
@@ -64,7 +73,16 @@ def graded(submission: Path) -> bytes:
     return gradescope(told(result, course), course)
 
 
-def ungraded(why: str) -> bytes:
-    """No points, and the reason, in the form of Gradescope."""
-    marks = {"score": 0, "output": clean(why), "output_format": "text"}
-    return msgspec.json.encode(marks | {"stdout_visibility": "hidden", "tests": []})
+def ungraded(why: str, next_step: str) -> bytes:
+    """The reason and no score: Gradescope has tests that tell something and are worth nothing."""
+    reason = f"{clean(why)} {NO_MARK} {next_step}"
+    told_in = {"name": "Not graded", "status": "failed", "output": reason, "output_format": "text"}
+    return msgspec.json.encode(
+        {
+            "output": reason,
+            "output_format": "text",
+            "visibility": "visible",
+            "stdout_visibility": "hidden",
+            "tests": [told_in | {"visibility": "visible"}],
+        }
+    )

@@ -21,6 +21,15 @@ class Found:
     sources: tuple[Path, ...]  # a folder, or what was handed in
     late: bool = False  # so marked by the LMS
     handed_in: datetime | None = None  # without a zone where the LMS tells the school's own time
+    group: tuple[str, ...] = ()  # the others whose work this is too
+    handed_in_by: str = ""  # one of them, where it was not this student
+
+    @property
+    def whose(self) -> tuple[str, ...]:
+        """What only those have in common who handed in together."""
+        if self.group:
+            return str(self.sources[0].parent), *sorted({self.name, *self.group})
+        return tuple(str(each) for each in self.sources)
 
 
 @dataclass

@@ -73,9 +73,16 @@ def submissions(folder: Path, people: ClassList, intake: Intake) -> Iterator[Fou
         raise CannotGrade(f"{words}: export the submissions again") from error
     for place, entry in export.items():
         path = folder / portable(place)
-        for name in [person.known_as(people) for person in entry.submitters]:
+        names = [person.known_as(people) for person in entry.submitters]
+        for name in names:
             if path.is_dir() and not path.is_symlink():
-                yield Found(name, (path,), handed_in=aware(entry.created_at))
+                yield Found(
+                    name,
+                    (path,),
+                    handed_in=aware(entry.created_at),
+                    group=tuple(each for each in names if each != name),
+                    handed_in_by=names[0] if name != names[0] else "",
+                )
             else:
                 intake.troubles[name] = f"{path.name} is in {METADATA}, and no such folder is here"
 

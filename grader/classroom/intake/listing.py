@@ -13,6 +13,7 @@ from grader.classroom.intake import (
     canvas,
     folders,
     gradescope,
+    groups,
     loose,
     moodle,
 )
@@ -70,7 +71,9 @@ def listed(folder: Path, people: ClassList) -> Intake:
     taken = {source for each in found for source in each.sources}
     left = [path for path in entries_of(folder) if path not in taken]
     found += by_name(left, people, intake)
-    intake.found = sorted(without_doubles(found, intake), key=lambda each: each.name)
+    intake.found = list(without_doubles(found, intake))
+    groups.share(intake, people, digest_or_trouble)
+    intake.found.sort(key=lambda each: each.name)
     if not intake.found and not intake.troubles:
         raise CannotGrade(f"{folder} holds no submission: each must be a folder or an archive")
     return intake

@@ -29,6 +29,7 @@ NOTEBOOKS = "notebooks"  # the folder of both trees
 INSTRUCTOR = KIT / "handouts" / "instructor"
 SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # of a notebook, in marks.toml
 SETTINGS = ("nbgrader_config.py", "marks.toml")
+MANIFEST = "MANIFEST.txt"  # of a release: a hash and a name on each line
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
 
 
@@ -87,6 +88,8 @@ def released_files(release: Path, taken: Course) -> dict[str, bytes]:
                     files[name] = archive.read(member)
     except (OSError, zipfile.BadZipFile) as error:
         raise NoCourse(f"{release} is no archive of a release ({error}): make one") from error
+    if MANIFEST in files:
+        files[MANIFEST] = of_these(files[MANIFEST], files)
     asked = {todo.id for todo in taken.rubric.todos if todo.function}
     sources = [text.decode() for name, text in files.items() if name.endswith(".py")]
     there = {region.id for text in sources for region in regions_in(text)}
@@ -96,6 +99,13 @@ def released_files(release: Path, taken: Course) -> dict[str, bytes]:
             "run make release for it first"
         )
     return files
+
+
+def of_these(manifest: bytes, files: dict[str, bytes]) -> bytes:
+    """The lines of a manifest that are about these files, so that comparing finds them all."""
+    rows = manifest.decode().splitlines(keepends=True)
+    kept = (row for row in rows if row.startswith("#") or row.rstrip().split("  ", 1)[-1] in files)
+    return "".join(kept).encode()
 
 
 def newest_release(folder: Path) -> Path | None:

@@ -549,9 +549,11 @@
   const items = new Map();
   film.scenes.forEach((scene, number) => {
     for (const line of scene.lines.filter((each) => each.code)) {
-      const item = document.createElement("li");
-      item.textContent = line.code;
-      item.addEventListener("click", () => step(starts[number] + line.at - position));
+      const item = document.createElement("li"), way = document.createElement("button");
+      way.type = "button";
+      way.textContent = line.code;
+      way.addEventListener("click", () => step(starts[number] + line.at - position));
+      item.append(way);
       items.set(line, item);
       byId("lines").append(item);
     }
