@@ -14,6 +14,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
 from grader.report.terminal import Teller, say, show_standing
+from grader.restore import CannotRestore, restore
 from grader.words import clean, command, moment, plural
 
 app = typer.Typer()
@@ -24,11 +25,18 @@ def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
+    undo: Annotated[
+        list[str] | None,
+        typer.Option("--restore", metavar="NAME", help="Put back given code, by its name."),
+    ] = None,
     course: CourseFile = None,
 ) -> None:
     """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
     chosen = course_in(course)
     folder = own_tree(path, chosen)
+    if undo:
+        put_back(folder, undo)
+        return
     wanted = known_todos(todo, chosen)
     options = Options(only=wanted, replays=replays_in(folder), trusted=True, course=chosen)
     if watch:
@@ -38,6 +46,16 @@ def check_command(
         show_standing(result, Teller(console, options.replays))
         say(f"To hand in: {command('hand-in')}{until(chosen)}", console)
     raise typer.Exit(0 if result.complete else 1)
+
+
+def put_back(folder: Path, names: list[str]) -> None:
+    """Undo changes of given code, and say what was done."""
+    for name in names:
+        try:
+            for words in restore(folder, name):
+                say(clean(words), console)
+        except (CannotRestore, OSError) as error:
+            stop(str(error), f"restore {name}")
 
 
 def watched(folder: Path, options: Options) -> Result:

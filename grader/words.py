@@ -41,8 +41,8 @@ def clean(words: str) -> str:
 
 
 def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Why a check is not passed, in named lines; `task` stands behind the place to look at."""
-    place = place_of(check) + task if check.where else ""
+    """Why a check is not passed, in named lines; `task` stands behind a place that is in it."""
+    place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),
         ("Expected", check.expected),

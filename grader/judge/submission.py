@@ -12,7 +12,7 @@ import msgspec
 
 from grader.judge.definitions import MAX_READ, Function, Program, source_of
 from grader.judge.result import Where
-from grader.judge.rubric import CHECKS, Rubric, Todo
+from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.todo_regions import (
     MAX_SOURCE,
     Region,
@@ -83,7 +83,10 @@ def supply_given(folder: Path) -> None:
 
     A package is completed where a part of it was handed in. A program that is missing stays so.
     """
+    programs = {f"{todo.module}.py" for todo in load_rubric().todos}
     for name, text in load_given().items():
+        if name in programs:
+            continue
         package = name.partition("/")[0]
         own_package = (folder / package / "__init__.py").exists()
         hidden = (folder / f"{package}.py").exists() and not own_package
@@ -96,7 +99,7 @@ def supply_given(folder: Path) -> None:
 
 @cache
 def load_given() -> dict[str, str]:
-    """The starter's parts that go without saying: its files by name, as `sync` keeps them."""
+    """The programs as they were handed out: files by name, as `sync` keeps them."""
     return msgspec.json.decode((CHECKS / "given.json").read_bytes(), type=dict[str, str])
 
 
