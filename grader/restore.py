@@ -4,8 +4,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from grader.judge.given import Changed, as_given, changes, restored
+from grader.judge.result import Result
 from grader.judge.submission import load_given
 from grader.todo_regions import RegionError, read_source
+
+MOST_NAMES = 3  # on one line
 
 
 class CannotRestore(Exception):
@@ -16,6 +19,17 @@ def changed_in(tree: Path) -> list[Changed]:
     """What differs in a tree from what was handed out."""
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
     return changes({name: read_source(path) for name, path in own.items()}, load_given())
+
+
+def notes_on(tree: Path, result: Result) -> list[str]:
+    """A line on given code that was changed, unless a check has said it."""
+    checks = [check for todo in result.todos for check in todo.checks]
+    if any(check.where is not None and check.where.given for check in checks):
+        return []
+    found = changed_in(tree)
+    names = ", ".join(dict.fromkeys(each.to_type for each in found[:MOST_NAMES]))
+    more = f" and {len(found) - MOST_NAMES} more" * (len(found) > MOST_NAMES)
+    return [f"Given code was changed: {names}{more}. check --restore NAME undoes it."] * bool(found)
 
 
 def restore(tree: Path, name: str) -> list[str]:

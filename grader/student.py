@@ -13,9 +13,10 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
+from grader.report.screen import Screen
 from grader.report.terminal import Teller, say, show_standing
-from grader.restore import CannotRestore, restore
-from grader.words import clean, command, moment, plural
+from grader.restore import CannotRestore, notes_on, restore
+from grader.words import clean, command, hidden_points_note, moment, plural
 
 app = typer.Typer()
 
@@ -25,13 +26,18 @@ def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
+    whole: Annotated[bool, typer.Option("--all", help="Everything that failed, in full.")] = False,
+    status: Annotated[bool, typer.Option(hidden=True)] = True,
     undo: Annotated[
         list[str] | None,
         typer.Option("--restore", metavar="NAME", help="Put back given code, by its name."),
     ] = None,
     course: CourseFile = None,
 ) -> None:
-    """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
+    """Show what stands in your own tree, and what to do next. Exit status as for `grade`.
+
+    One TODO at a time is told in full; `--all` tells everything.
+    """
     chosen = course_in(course)
     folder = own_tree(path, chosen)
     if undo:
@@ -43,9 +49,20 @@ def check_command(
         result = watched(folder, options)
     else:
         result = graded(folder, options)
+        told(result, options, folder, whole)
+    raise typer.Exit(0 if result.complete or not status else 1)
+
+
+def told(result: Result, options: Options, folder: Path, whole: bool) -> None:
+    """Print the first screen of a result, or the `whole` of it, and how to hand in."""
+    if whole:
         show_standing(result, Teller(console, options.replays))
-        say(f"To hand in: {command('hand-in')}{until(chosen)}", console)
-    raise typer.Exit(0 if result.complete else 1)
+    else:
+        Screen(console, options.replays).show(result, notes=notes_on(folder, result))
+    if whole or result.complete:
+        if words := "" if whole else hidden_points_note(result):
+            say(words, console)
+        say(f"To hand in: {command('hand-in')}{until(options.course)}", console)
 
 
 def put_back(folder: Path, names: list[str]) -> None:

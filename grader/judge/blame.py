@@ -12,6 +12,7 @@ from grader.judge.children import Child
 from grader.judge.failures import NotYet
 from grader.judge.given import Changed
 from grader.judge.lab import Lab, Observation
+from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
 
 MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
@@ -31,17 +32,16 @@ class Blamed:
         """The check with these changes for its reason, before whatever else it means."""
         first = self.changes[0]
         meaning = self.in_words if self.mended else f"{self.in_words} {check.meaning}".rstrip()
-        where = Where(first.file, first.line, given=True) if first.theirs else check.where
+        place = check.where if check.where is not None and not first.theirs else first
+        where = Where(place.file, place.line, given=True)
         return msgspec.structs.replace(check, meaning=meaning, where=where)
 
     @property
     def in_words(self) -> str:
-        names = [each.name for each in self.changes]
-        what = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
         how = "; ".join(each.how for each in self.changes)
-        does = "this passes" if self.mended else "the answer is another one, so do that first"
         undo = " ".join(f"--restore {each.to_type}" for each in self.changes)
-        return f"Given code was changed: {how}. With {what} put back (check {undo}) {does}."
+        then = ", and this passes" if self.mended else ": do that first"
+        return f"Given code was changed: {how}. check {undo} puts it back{then}."
 
 
 @dataclass
@@ -106,4 +106,7 @@ def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
         return True
     if lab.connection.swapped or lab.ended or not isinstance(failure, NotYet):
         return False
-    return (failure.ran, failure.got) != (check.ran, check.got)
+    return (tidied(failure.ran), readable(failure.expected, failure.got)[1]) != (
+        check.ran,
+        check.got,
+    )

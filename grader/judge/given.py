@@ -8,7 +8,7 @@ Layout, comments and docstrings are nobody's business.
 import ast
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 from functools import cache
 
@@ -52,11 +52,9 @@ class Changed:
     def how(self) -> str:
         """What is different, in a sentence without its full stop."""
         if not self.theirs:
-            return f"in {self.file} the given line `{self.given}` is gone"
-        place = f"line {self.line} of {self.file} is `{self.theirs}`"
-        return (
-            f"{place}, given was `{self.given}`" if self.given else f"{place}, which is not given"
-        )
+            return f"`{self.given}` is gone from {self.file}"
+        before = f"was `{self.given}`" if self.given else "was not there"
+        return f"line {self.line} of {self.file}, `{self.theirs}`, {before}"
 
 
 def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
@@ -104,7 +102,7 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
             whole = tuple(as_given(text, given).splitlines())
             yield from difference(file, file, lines, Piece(0, len(lines)), whole)
         return
-    own, ours = pieces(body), given_pieces(given)
+    own, ours = with_markers(pieces(body), text), given_pieces(given)
     for name, piece in ours.items():
         wanted = tuple(right[piece.start : piece.stop])
         there = own.get(name)
@@ -190,7 +188,28 @@ def cut(line: str) -> str:
 
 @cache
 def given_pieces(text: str) -> dict[str, Piece]:
-    return pieces(statements(text))
+    return with_markers(pieces(statements(text)), text)
+
+
+def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
+    """The pieces with the last region in each, which may stand behind its last statement."""
+    lines, regions = text.splitlines(), regions_of(text)
+    return {name: with_last_region(piece, regions, lines) for name, piece in found.items()}
+
+
+def with_last_region(piece: Piece, regions: Sequence[Region], lines: Sequence[str]) -> Piece:
+    stop = piece.stop
+    for region in regions:
+        between = lines[stop : region.start]
+        behind = region.start >= stop and not any(code_lines(between))
+        inside = indent_of(lines[region.start]) > indent_of(lines[piece.start])
+        if inside and (piece.start <= region.start < stop or behind):
+            stop = max(stop, region.stop + 1)
+    return replace(piece, stop=stop)
+
+
+def indent_of(line: str) -> int:
+    return len(line) - len(line.lstrip())
 
 
 def pieces(body: Iterable[ast.stmt], owner: str = "") -> dict[str, Piece]:
@@ -232,7 +251,7 @@ def meaning_of(lines: Sequence[str]) -> str:
 
 def shifted(lines: Sequence[str]) -> str:
     """Lines moved to the left by the indent of the first."""
-    indent = len(lines[0]) - len(lines[0].lstrip()) if lines else 0
+    indent = indent_of(lines[0]) if lines else 0
     return "\n".join(line[indent:] if not line[:indent].strip() else line for line in lines)
 
 

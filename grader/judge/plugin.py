@@ -15,11 +15,12 @@ from grader.judge.children import Child
 from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab, Observation
+from grader.judge.numbers import readable, tidied
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo
-from grader.judge.submission import CannotGrade, Submission
-from grader.protocol import Piece
+from grader.judge.submission import CannotGrade, Submission, load_given
+from grader.protocol import CodeLine, Piece
 
 UNREAD = 3  # files of which is told that they were too long to look into
 
@@ -264,24 +265,35 @@ class GradingPlugin:
         unread = self.submission.unread[:UNREAD] if todo.function and where is None else []
         got = "; ".join([failure.got, *unread])
         if isinstance(failure, NotYet):
+            expected, got = readable(failure.expected, got)
             return self._result(
                 todo,
                 check,
                 title,
                 "not yet",
-                ran=failure.ran,
-                expected=failure.expected,
+                ran=tidied(failure.ran),
+                expected=expected,
                 got=got,
                 meaning=failure.meaning,
                 where=where,
             )
         if failure.raised is not None and failure.raised.frames:
             last = failure.raised.frames[-1]
-            where = Where(last.file, last.line)
+            own = [each for each in failure.raised.frames if not self._is_given(todo, each)]
+            if own or where is None:
+                frame = (own or failure.raised.frames)[-1]
+                where = Where(frame.file, frame.line)
             got += f" (in {last.file}, line {last.line}: {last.text})"
         return self._result(
             todo, check, title, "error", ran=failure.ran, expected="an answer", got=got, where=where
         )
+
+    def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
+        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        text = load_given().get(frame.file)
+        if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
+            return False
+        return frame.text.strip() in map(str.strip, text.splitlines())
 
     def _result(
         self, todo: Todo, check: Check, title: str, state: State, **words: Any

@@ -173,11 +173,21 @@ def look_at(
             region = None
     file = inside.as_posix()
     if region is not None:
-        submission.where[todo.id] = Where(file, region.start + 1)
+        submission.where[todo.id] = Where(file, first_code_line(region))
         submission.begun[todo.id] = region.shape != stubs.get(todo.id)
     elif function is not None:
         submission.where[todo.id] = Where(file, function.lineno)
         submission.begun[todo.id] = submission.functions[todo.id] != stubs.get(f"def {todo.id}")
+
+
+def first_code_line(region: Region) -> int:
+    """The number of a region's first line that says something, or of the one below its marker."""
+    said = (number for number, line in enumerate(region.lines) if not is_comment(line))
+    return region.start + 2 + next(said, 0)
+
+
+def is_comment(line: str) -> bool:
+    return line.strip().startswith("#") or not line.strip()
 
 
 def region_of(text: str, todo: str) -> Region | None:
