@@ -13,8 +13,10 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.submission import CannotGrade
+from grader.report.screen import Screen
 from grader.report.terminal import Teller, say, show_standing
-from grader.words import clean, command, moment, plural
+from grader.restore import CannotRestore, notes_on, restore
+from grader.words import clean, command, hidden_points_note, moment, plural
 
 app = typer.Typer()
 
@@ -24,20 +26,53 @@ def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
+    whole: Annotated[bool, typer.Option("--all", help="Everything that failed, in full.")] = False,
+    status: Annotated[bool, typer.Option(hidden=True)] = True,
+    undo: Annotated[
+        list[str] | None,
+        typer.Option("--restore", metavar="NAME", help="Put back given code, by its name."),
+    ] = None,
     course: CourseFile = None,
 ) -> None:
-    """Show what stands in your own tree, and what to do next. Exit status as for `grade`."""
+    """Show what stands in your own tree, and what to do next. Exit status as for `grade`.
+
+    One TODO at a time is told in full; `--all` tells everything.
+    """
     chosen = course_in(course)
     folder = own_tree(path, chosen)
+    if undo:
+        put_back(folder, undo)
+        return
     wanted = known_todos(todo, chosen)
     options = Options(only=wanted, replays=replays_in(folder), trusted=True, course=chosen)
     if watch:
         result = watched(folder, options)
     else:
         result = graded(folder, options)
+        told(result, options, folder, whole)
+    raise typer.Exit(0 if result.complete or not status else 1)
+
+
+def told(result: Result, options: Options, folder: Path, whole: bool) -> None:
+    """Print the first screen of a result, or the `whole` of it, and how to hand in."""
+    if whole:
         show_standing(result, Teller(console, options.replays))
-        say(f"To hand in: {command('hand-in')}{until(chosen)}", console)
-    raise typer.Exit(0 if result.complete else 1)
+    else:
+        Screen(console, options.replays).show(result, notes=notes_on(folder, result))
+    if whole or result.complete:
+        if words := "" if whole else hidden_points_note(result):
+            say(words, console)
+        say(f"To hand in: {command('hand-in')}{until(options.course)}", console)
+
+
+def put_back(folder: Path, names: list[str]) -> None:
+    """Undo changes of given code, and say what was done."""
+    for name in names:
+        try:
+            for words in restore(folder, name):
+                say(clean(words), console)
+        except (CannotRestore, OSError) as error:
+            stop(str(error), f"restore {name}")
 
 
 def watched(folder: Path, options: Options) -> Result:

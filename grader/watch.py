@@ -6,7 +6,7 @@ how an editor saves, nor whether the file system tells of it.
 
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -25,7 +25,8 @@ from grader.judge.submission import (
     module_of,
     plain_files,
 )
-from grader.report.terminal import Teller, say, show_next, show_standing
+from grader.report.screen import LINES, Screen
+from grader.report.terminal import say
 from grader.todo_regions import read_source
 from grader.words import clean
 
@@ -33,6 +34,7 @@ Sources = dict[str, str]  # the text of each Python file, by its path inside the
 
 SETTLED = 25  # ms without another event, until a save is looked at
 WITHOUT_EVENTS = 1000  # ms, until we look all the same
+MOST_NEWS = 3  # lines on what a save changed
 LOOK_EVERY = 0.25  # s, while checks are running
 
 
@@ -53,24 +55,26 @@ class Watch:
     touched: set[str] = field(default_factory=set)  # TODO ids to be checked, and shown
     others: set[str] = field(default_factory=set)  # to be checked, and shown if anything is new
     looked: float = 0.0  # s, when that was
+    news: list[str] = field(default_factory=list)  # what is new since the last save
     result: Result = field(init=False)
 
     def start(self) -> None:
         """Check the whole tree."""
         self.seen = self.checked = python_sources(self.folder)
         self.result = grade(self.folder, self.options, self.worker)
-        show_standing(self.result, Teller(self.console, self.options.replays))
+        self.draw()
 
     def look(self) -> None:
         """Check again whatever was saved since the last look."""
         again = False
         while (now := python_sources(self.folder)) != self.seen or again:
             if changed := sorted(differing(self.seen, now)):
-                say(f"saved: {clean(', '.join(changed))}", self.console, style="bright_black")
+                self.news = [f"saved: {clean(', '.join(changed))}"]
+                self.tell(self.news, clear=True)
             self.seen, again = now, False
             new = sorted(differing(self.checked, now))
             if trouble := next(filter(None, map(self.trouble_in, new)), ""):
-                say(trouble, self.console, indent=2, style="yellow")
+                self.tell([trouble])
                 continue
             self.plan()
             try:
@@ -102,28 +106,49 @@ class Watch:
 
     def check_again(self) -> None:
         """Check and show what is noted, unless a save comes in between."""
-        points, touched = self.result.points, bool(self.touched)
-        self.check(self.touched, always_show=True)
+        touched = set(self.touched)
+        news = self.check(self.touched, always_tell=True)
+        if touched:
+            self.draw(news, touched)
         self.others -= self.touched
         self.touched = set()
-        self.check(self.others, always_show=False)
+        more = self.check(self.others, always_tell=False)
         self.others = set()
-        if self.result.points != points:
-            show_next(self.result, self.console)
+        if more:
+            self.draw([*news, *more], touched)
         elif not touched:
             total = f"{self.result.points} of {self.result.max_points}"
-            say(f"nothing new: {total} points", self.console)
+            show = self.draw if self.console.is_terminal else self.tell
+            show([f"nothing new: {total} points"])
 
-    def check(self, todos: set[str], always_show: bool) -> None:
+    def check(self, todos: set[str], always_tell: bool) -> list[str]:
+        """Check these again; what is new about them, or about each where all is to be told."""
         if not todos:
-            return
+            return []
         options = replace(self.options, only=frozenset(todos), progress=self.stop_if_saved)
-        teller = Teller(self.console, self.options.replays)
+        news = []
         for todo in grade(self.folder, options, self.worker).todos:
             before = self.replace(todo)
-            if always_show or without_lines(before) != without_lines(todo):
-                teller.tell_todo(todo)
-                self.show_progress(before, todo)
+            if always_tell or without_lines(before) != without_lines(todo):
+                news.append(self.progress(before, todo))
+        return news
+
+    def draw(self, news: Sequence[str] = (), touched: Collection[str] = ()) -> None:
+        """One screen: the save and what it changed, and below it how things stand."""
+        said = [*self.news, *news[:MOST_NEWS], *more_than(news, MOST_NEWS)]
+        if self.console.is_terminal:
+            self.tell(said, clear=True)
+        else:
+            self.tell(news)
+        screen = Screen(self.console, self.options.replays, LINES - len(said) - 1)
+        screen.show(self.result, touched)
+
+    def tell(self, lines: Sequence[str], clear: bool = False) -> None:
+        """Print what is new; where it is a terminal, on one that is empty."""
+        if clear:
+            self.console.clear()
+        for line in lines:
+            say(line, self.console, indent=2, style="bold")
 
     def stop_if_saved(self, _: CheckResult) -> None:
         if time.monotonic() - self.looked > LOOK_EVERY:
@@ -138,15 +163,19 @@ class Watch:
         self.result = self.result.with_todos(todos)
         return before
 
-    def show_progress(self, before: TodoResult, todo: TodoResult) -> None:
+    def progress(self, before: TodoResult, todo: TodoResult) -> str:
+        """What became of a TODO, in a line."""
         if before.points == todo.points:
-            say(f"TODO {todo.id}: {todo.points} of {todo.max_points} as before", self.console)
-            return
+            return f"TODO {todo.id}: {todo.points} of {todo.max_points} as before"
         words = f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}"
         if not todo.bonus:
             total = self.result.points - todo.points + before.points
             words += f", in all {total} → {self.result.points} of {self.result.max_points}"
-        say(words, self.console, style="bold")
+        return words
+
+
+def more_than(news: Sequence[str], most: int) -> list[str]:
+    return [f"and {len(news) - most} more"] * (len(news) > most)
 
 
 # -------------------------------------------------------------------- what a save touched

@@ -41,8 +41,8 @@ def clean(words: str) -> str:
 
 
 def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Why a check is not passed, in named lines; `task` stands behind the place to look at."""
-    place = place_of(check) + task if check.where else ""
+    """Why a check is not passed, in named lines; `task` stands behind a place that is in it."""
+    place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),
         ("Expected", check.expected),
@@ -137,15 +137,17 @@ def about(value: float) -> str:
 # ---------------------------------------------------------------- what to type
 
 
-def command(name: str, todo: str = "", level: int = 1) -> str:
+def command(name: str, todo: str = "", level: int = 1, all_of_it: bool = False) -> str:
     """One of the student's commands, as this person would type it here."""
     if "MAKELEVEL" in os.environ:
-        return f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
+        words = f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
+        return words + " ALL=1" * all_of_it
     python = sys.orig_argv[0]
     start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
-    return f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)
+    words = f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)
+    return words + " --all" * all_of_it
 
 
 # ---------------------------------------------------------------- what students are told

@@ -1,11 +1,11 @@
 """*Expected* and *Got* in so many digits that they look different."""
 
 import math
-import re
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from grader.judge.lab import Lab
+from grader.judge.numbers import without_minus_zero
 
 MAX_DIGITS = 17  # what a float has
 Answer = TypeVar("Answer")
@@ -38,11 +38,6 @@ def told_apart(
     if told[0] == told[1] and digits < MAX_DIGITS:
         return told_apart(say, right, got, digits + 1)
     return told
-
-
-def without_minus_zero(text: str) -> str:
-    """A number that is 0 in the digits shown has no sign: -0.000 differs from 0.000 to nobody."""
-    return re.sub(r"-(?=0(\.0+)?(?![\d.]))", "", text)
 
 
 def decimals_to_tell(wanted: Iterable[float], got: Iterable[float], least: int) -> int:

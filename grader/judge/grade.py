@@ -1,27 +1,30 @@
 """Grading one submission, from a path to a Result."""
 
+import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from pathlib import Path
 
 import msgspec
 
 from grader.judge import misconceptions
+from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.failures import Broke, NotYet
+from grader.judge.given import Changed, changes, restored
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
-from grader.judge.submission import Submission, take_in
+from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
-from grader.todo_regions import shape_of
+from grader.todo_regions import read_source, shape_of
 
 KIT = Path(__file__).parents[2]
 
@@ -136,6 +139,7 @@ class Grading:
     submission: Submission
     sandbox: Sandbox
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
+    blamed: dict[Key, Blamed] = field(default_factory=dict)  # what fails for changed given code
 
     def run(self) -> Result:
         if self.options.isolation == "none":
@@ -156,6 +160,15 @@ class Grading:
             open_right=self.open_right if self.options.reference else None,
         )
         run_pytest(plugin, self.rubric)
+        failed = {key: check for key, check in plugin.results.items() if check.failed}
+        if failed and (changed := self.changed_given()):
+            blame = Blame(changed, self.open_with, plugin.again)
+            blame.look_into(failed)
+            self.blamed = blame.found
+            for id in {id for id, _ in blame.seen}:
+                now = [blame.seen.get(key, seen) for key, seen in plugin.seen.items()]
+                mine = [each for key, each in zip(plugin.seen, now, strict=True) if key[0] == id]
+                self.observations[id] = [each for answers in mine for each in answers]
         result = self.result(plugin.results)
         folder = self.options.replays
         if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
@@ -179,6 +192,26 @@ class Grading:
         taken_in = take_in(self.options.reference, work / "tree", self.rubric, {})
         return sandbox_for(taken_in, work, self.sandbox.worker, self.options)
 
+    def changed_given(self) -> list[Changed]:
+        """What this submission has otherwise than it was handed out."""
+        folder, given = self.submission.folder, load_given()
+        own = {name: folder / name for name in given if (folder / name).is_file()}
+        return changes({name: read_source(path) for name, path in own.items()}, given)
+
+    def open_with(self, undone: Sequence[Changed]) -> Callable[[int], Child]:
+        """A way to open children of the submission with some given code put back."""
+        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))
+        tree = work / "tree"
+        shutil.copytree(self.submission.folder, tree)
+        for name in {each.file for each in undone}:
+            path, mine = tree / name, [each for each in undone if each.file == name]
+            text = restored(read_source(path), mine)
+            path.chmod(0o644)
+            path.write_text(text, encoding="utf-8", newline="\n")
+            path.chmod(0o444)
+        put_back = replace(self.submission, folder=tree)
+        return sandbox_for(put_back, work, self.sandbox.worker, self.options).open_child
+
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""
         modules = dict.fromkeys(
@@ -197,16 +230,27 @@ class Grading:
                     unusable[module] = failure
         return unusable
 
+    def mended(self, todo: Todo, check: CheckResult) -> bool:
+        """Whether a check passes once given code is put back."""
+        blamed = self.blamed.get((todo.id, check.id))
+        return blamed is not None and blamed.mended
+
     def result(self, results: Mapping[tuple[str, str], CheckResult]) -> Result:
         """The marks; `results` are what came of the checks, by TODO and check."""
         todos = []
         for todo in filter(self.options.wants, self.rubric.todos):
             checks = count_guards(todo, [results[todo.id, each.id] for each in todo.checks])
             mistake = None
-            if any(check.failed for check in checks):
+            if any(check.failed and not self.mended(todo, check) for check in checks):
                 mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
             if mistake is not None:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
+            checks = [
+                self.blamed[todo.id, check.id].told(check)
+                if (todo.id, check.id) in self.blamed
+                else check
+                for check in checks
+            ]
             todos.append(
                 TodoResult(
                     todo.id,

@@ -15,11 +15,12 @@ from grader.judge.children import Child
 from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab, Observation
+from grader.judge.numbers import readable, tidied
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo
-from grader.judge.submission import CannotGrade, Submission
-from grader.protocol import Piece
+from grader.judge.submission import CannotGrade, Submission, load_given
+from grader.protocol import CodeLine, Piece
 
 UNREAD = 3  # files of which is told that they were too long to look into
 
@@ -54,6 +55,8 @@ class GradingPlugin:
     progress: Callable[[CheckResult], None] | None = None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
+    seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # the same
+    functions: dict[tuple[str, str], tuple[Todo, Check, Any]] = field(default_factory=dict)
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
     open_right: Callable[[int], Child] | None = None  # a child of the reference itself
@@ -107,6 +110,8 @@ class GradingPlugin:
         if result is None:
             result = self._run(todo, check, title, pyfuncitem.obj)
         self.results[todo.id, check.id] = result
+        if result.failed:
+            self.functions[todo.id, check.id] = todo, check, pyfuncitem.obj
         if self.progress is not None:
             self.progress(result)
         return True
@@ -145,6 +150,7 @@ class GradingPlugin:
         if told.failure is None:
             lab = told
         self.observations.setdefault(todo.id, []).extend(lab.observations)
+        self.seen[todo.id, check.id] = lab.observations
         if told.failure is not None:
             self._blame(todo, check, function, told)
             if not told.ended:
@@ -195,15 +201,32 @@ class GradingPlugin:
             passed_before[function, self.seed] = examples
         return lab, examples[-1] if examples else function
 
+    def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
+        """The lab of a check that failed and is asked once more, of children that others open.
+
+        All marks are decided by then.
+        """
+        todo, check, function = self.functions[key]
+        with judge_settings(), kept_examples(function), seeded(function, self.seed):
+            return self._asked(todo, check, function, isolated=True, opener=open_child)
+
     def _asked(
-        self, todo: Todo, check: Check, example: Example, isolated: bool, right: bool = False
+        self,
+        todo: Todo,
+        check: Check,
+        example: Example,
+        isolated: bool,
+        right: bool = False,
+        opener: Callable[[int], Child] | None = None,
     ) -> Lab:
         """A lab in which the check ran, of the reference itself if it is to be the `right` code."""
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
         secret = secret_of(self.seed, todo, check)
-        lab = Lab(module, lambda: self._child_for(todo, check, right), pieces, secret=secret)
+        lab = Lab(
+            module, lambda: self._child_for(todo, check, right, opener), pieces, secret=secret
+        )
         little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
@@ -224,10 +247,12 @@ class GradingPlugin:
             lab.failure.got += little
         return lab
 
-    def _child_for(self, todo: Todo, check: Check, right: bool) -> Child:
+    def _child_for(
+        self, todo: Todo, check: Check, right: bool, opener: Callable[[int], Child] | None
+    ) -> Child:
         if right and self.open_right is not None:
             return self.open_right(check.cpu_seconds)
-        child = self.open_child(self.budget.cpu_for(todo.id, check.cpu_seconds))
+        child = (opener or self.open_child)(self.budget.cpu_for(todo.id, check.cpu_seconds))
         child.rest_seconds = self.budget.rest_for(todo.id)
         return child
 
@@ -240,24 +265,35 @@ class GradingPlugin:
         unread = self.submission.unread[:UNREAD] if todo.function and where is None else []
         got = "; ".join([failure.got, *unread])
         if isinstance(failure, NotYet):
+            expected, got = readable(failure.expected, got)
             return self._result(
                 todo,
                 check,
                 title,
                 "not yet",
-                ran=failure.ran,
-                expected=failure.expected,
+                ran=tidied(failure.ran),
+                expected=expected,
                 got=got,
                 meaning=failure.meaning,
                 where=where,
             )
         if failure.raised is not None and failure.raised.frames:
             last = failure.raised.frames[-1]
-            where = Where(last.file, last.line)
+            own = [each for each in failure.raised.frames if not self._is_given(todo, each)]
+            if own or where is None:
+                frame = (own or failure.raised.frames)[-1]
+                where = Where(frame.file, frame.line)
             got += f" (in {last.file}, line {last.line}: {last.text})"
         return self._result(
             todo, check, title, "error", ran=failure.ran, expected="an answer", got=got, where=where
         )
+
+    def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
+        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        text = load_given().get(frame.file)
+        if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
+            return False
+        return frame.text.strip() in map(str.strip, text.splitlines())
 
     def _result(
         self, todo: Todo, check: Check, title: str, state: State, **words: Any

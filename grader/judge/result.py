@@ -18,9 +18,10 @@ MAX_FILE = 255  # characters of a file's name that are told
 FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
 
 
-class Where(Struct, frozen=True):
+class Where(Struct, frozen=True, omit_defaults=True):
     file: str
     line: int
+    given: bool = False  # a line of what was handed out, which was changed
 
 
 class CheckResult(Struct, frozen=True):

@@ -12,7 +12,7 @@ import msgspec
 
 from grader.judge.definitions import MAX_READ, Function, Program, source_of
 from grader.judge.result import Where
-from grader.judge.rubric import CHECKS, Rubric, Todo
+from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.todo_regions import (
     MAX_SOURCE,
     Region,
@@ -83,7 +83,10 @@ def supply_given(folder: Path) -> None:
 
     A package is completed where a part of it was handed in. A program that is missing stays so.
     """
+    programs = {f"{todo.module}.py" for todo in load_rubric().todos}
     for name, text in load_given().items():
+        if name in programs:
+            continue
         package = name.partition("/")[0]
         own_package = (folder / package / "__init__.py").exists()
         hidden = (folder / f"{package}.py").exists() and not own_package
@@ -96,7 +99,7 @@ def supply_given(folder: Path) -> None:
 
 @cache
 def load_given() -> dict[str, str]:
-    """The starter's parts that go without saying: its files by name, as `sync` keeps them."""
+    """The programs as they were handed out: files by name, as `sync` keeps them."""
     return msgspec.json.decode((CHECKS / "given.json").read_bytes(), type=dict[str, str])
 
 
@@ -170,11 +173,21 @@ def look_at(
             region = None
     file = inside.as_posix()
     if region is not None:
-        submission.where[todo.id] = Where(file, region.start + 1)
+        submission.where[todo.id] = Where(file, first_code_line(region))
         submission.begun[todo.id] = region.shape != stubs.get(todo.id)
     elif function is not None:
         submission.where[todo.id] = Where(file, function.lineno)
         submission.begun[todo.id] = submission.functions[todo.id] != stubs.get(f"def {todo.id}")
+
+
+def first_code_line(region: Region) -> int:
+    """The number of a region's first line that says something, or of the one below its marker."""
+    said = (number for number, line in enumerate(region.lines) if not is_comment(line))
+    return region.start + 2 + next(said, 0)
+
+
+def is_comment(line: str) -> bool:
+    return line.strip().startswith("#") or not line.strip()
 
 
 def region_of(text: str, todo: str) -> Region | None:

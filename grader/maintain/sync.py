@@ -131,10 +131,10 @@ def stub_sources(starter: dict[str, str]) -> dict[str, str]:
 
 
 def given_sources(starter: dict[str, str]) -> dict[str, str]:
-    """What a submission may lack, to be supplied: the packages' files, and modules without TODO."""
+    """What students are given: to supply what a submission lacks, and to see what was changed."""
     programs = {todo.module for todo in load_rubric().todos}
     return {
         name: text
         for name, text in starter.items()
-        if name.partition("/")[0] in programs or ("/" not in name and not regions_in(text))
+        if name.partition("/")[0] in programs or "/" not in name
     }

@@ -32,6 +32,7 @@ STYLES: dict[State, str] = {
     "waiting": "bright_black",
     "error": "red",
 }
+ENDLESS = ("it used up its", "not run: the checks before it used up")  # of processor time
 STATES = 12  # columns of the states
 MARGIN = 4  # columns left of why a check failed
 WIDTH = 80  # at most
@@ -65,10 +66,8 @@ class Teller:
         say(words, self.console, style="bold")
 
     def tell_todo(self, todo: TodoResult) -> None:
-        line = Text(todo.state.upper().ljust(STATES), style=STYLES[todo.state])
-        line.append(f"{todo.id:<6}{todo.title:<48}", style="default")
-        bonus = " bonus" * todo.bonus
-        line.append(f"{todo.points:>3} / {todo.max_points}{bonus}", style="default")
+        line = Text(todo_line(todo), style="default")
+        line.stylize(STYLES[todo.state], 0, STATES)
         self.console.print(line, soft_wrap=True)
         for checks in alike(todo.failed):
             self.tell_failed(todo, checks)
@@ -93,6 +92,13 @@ class Teller:
             say(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", self.console, indent=2, whole=True)
 
 
+def todo_line(todo: TodoResult) -> str:
+    """A TODO's state, number, title and points."""
+    bonus = " bonus" * todo.bonus
+    points = f"{todo.points:>3} / {todo.max_points}{bonus}"
+    return f"{todo.state.upper():<{STATES}}{todo.id:<6}{todo.title:<48}{points}"
+
+
 def alike(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
     """The checks in groups that have the same reason."""
     groups: dict[tuple[str, ...], list[CheckResult]] = {}
@@ -102,8 +108,13 @@ def alike(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
 
 
 def reason(check: CheckResult) -> tuple[str, ...]:
-    """What is equal for two checks that failed alike: an error is one, whatever was run."""
-    return (check.got,) if check.state == "error" else (check.ran, check.expected, check.got)
+    """What is equal for two checks that failed alike: an error is one, whatever was run.
+
+    A loop that never ends is one, too, however much time a check had left for it.
+    """
+    if check.state != "error":
+        return check.ran, check.expected, check.got
+    return ("endless",) if check.got.startswith(ENDLESS) else (check.got,)
 
 
 def subject(checks: list[CheckResult]) -> str:
@@ -155,15 +166,25 @@ def say(
 
     A single word that is longer than a line is broken, unless it must stay `whole`.
     """
-    if not console.encoding.startswith("utf"):  # such as a Windows file or pipe
-        words = (
-            words.replace("→", "->").encode(console.encoding, "replace").decode(console.encoding)
-        )
-    lines = textwrap.wrap(
+    for line in wrapped(words, console, indent, whole):
+        write(line, console, style)
+
+
+def wrapped(words: str, console: Console, indent: int = 0, whole: bool = False) -> list[str]:
+    """The lines that words take; see `say`."""
+    return textwrap.wrap(
         words,
         min(console.width, WIDTH),
         subsequent_indent=" " * indent,
         break_on_hyphens=False,
         break_long_words=not whole,
     )
-    console.print(Text("\n".join(lines), style=style), soft_wrap=True)
+
+
+def write(line: str, console: Console, style: str = "") -> None:
+    """Print a line, in the letters that the terminal knows."""
+    if not console.encoding.startswith("utf"):  # such as a Windows file or pipe
+        for letter, plain in (("→", "->"), ("…", "...")):
+            line = line.replace(letter, plain)
+        line = line.encode(console.encoding, "replace").decode(console.encoding)
+    console.print(Text(line, style=style), soft_wrap=True)

@@ -40,11 +40,10 @@ def grader(
     )
 
 
-def check(tree: Path, *todos: str) -> str:
+def check(tree: Path, *todos: str, options: tuple[str, ...] = ()) -> str:
     """What `check` prints, without a process of its own."""
-    return (
-        CliRunner().invoke(app, ["check", str(tree), *(f"--todo={todo}" for todo in todos)]).output
-    )
+    words = ["check", str(tree), *options, *(f"--todo={todo}" for todo in todos)]
+    return CliRunner().invoke(app, words).output
 
 
 def fill_in(tree: Path, file: str, **regions: str) -> None:
@@ -61,15 +60,23 @@ def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     tree = hand_in("starter")
     done = grader("check", cwd=tree)
     assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
-    for todo in load_rubric().counted:
-        assert re.search(rf"^NOT STARTED {todo.id} +{todo.title} +0 / ", done.stdout, re.MULTILINE)
+    todos = " ".join(todo.id for todo in load_rubric().counted)
+    assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
     assert "B1" not in done.stdout  # a bonus task is shown once it is begun
     file = tree / "mini_engine" / "contacts.py"
     lines = file.read_text(encoding="utf-8").splitlines()
     (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 1:" in line)
-    assert f"Next: TODO 1, Circle against box (mini_engine/contacts.py:{marker})" in done.stdout
+    place = f"mini_engine/contacts.py:{marker + 2}"  # the stub's return, below its comment
+    assert f"Next: TODO 1, Circle against box ({place})" in done.stdout
     assert "python -m grader hint --todo 1" in done.stdout
-    assert "NOT STARTED only what was handed out is there" in done.stdout
+
+
+def test_all_of_it_is_a_line_for_each_todo_and_what_its_state_means(hand_in):
+    out = check(hand_in("starter"), "1", "8a", options=("--all",))
+    for todo in ("1", "8a"):
+        assert re.search(rf"^NOT STARTED {todo} +\S.+ 0 / ", out, re.MULTILINE)
+    assert "NOT STARTED only what was handed out is there" in out
+    assert "To hand in: " in out
 
 
 def test_full_marks_leave_nothing_to_do(hand_in):
@@ -97,7 +104,7 @@ def test_a_check_leaves_replays_of_what_failed_and_nothing_else(hand_in):
     before = {*tree.rglob("*")}
     fill_in(tree, INTEGRATORS, _8b="    return x, v")
     done = grader("check", "--todo", "8b", cwd=tree / "mini_engine")
-    seen = re.findall(r"See it +(\S+)", done.stdout)
+    seen = re.findall(r"See it\s+(\S+)", done.stdout)
     assert seen and all(path.startswith("../build/replays/8b-") for path in seen)
     assert all((tree / "mini_engine" / path).is_file() for path in seen)
     assert {path.relative_to(tree).parts[0] for path in {*tree.rglob("*")} - before} == {"build"}
@@ -143,13 +150,13 @@ def test_a_hint_for_the_whole_is_to_read_its_checks():
 def test_what_was_begun_comes_before_what_was_not(hand_in):
     tree = hand_in("starter")
     fill_in(tree, INTEGRATORS, _8b="    return x, v")
-    assert "Next: TODO 8b" in check(tree, "8a", "8b")
+    assert "NOT YET     8b " in check(tree, "8a", "8b")
 
 
 def test_waiting_says_for_what(hand_in):
     tree = hand_in("starter")
     fill_in(tree, "pymunk_scene.py", _7a="    space.gravity = 0, 980")
-    out = check(tree, "whole")
+    out = check(tree, "whole", options=("--all",))
     assert re.search(r"^WAITING +whole", out, re.MULTILINE)
     assert "exit is below 1 px: waiting for TODO 3, 5, 6" in " ".join(out.split())
     assert "the line below it says what" in out
@@ -170,9 +177,11 @@ def test_an_exception_is_told_once_with_the_students_line(hand_in):
 
 def test_a_file_that_is_no_python_is_told_once_and_comes_first(hand_in):
     tree = hand_in("solution", mini_engine__joints_py="def broken(:\n")
-    out = check(tree, "3", "4", "8a")
+    out = check(tree, "3", "4", "8a", options=("--all",))
     assert out.count("SyntaxError") == 1
     assert "10 checks  (0 / 10)  as above" in out
+    out = check(tree, "3", "4", "8a")
+    assert out.count("SyntaxError") == 1 and len(out.splitlines()) <= 16
     assert "Next: mend mini_engine/joints.py:1" in out
     assert re.search(r"^PASSED +8a", out, re.MULTILINE)
 

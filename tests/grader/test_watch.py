@@ -329,3 +329,14 @@ def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
     finally:
         process.kill()
     assert process.returncode == 0 and err == ""
+
+
+def test_a_terminal_shows_one_screen_and_what_changed(open_session):
+    session = open_session()
+    console = Console(file=session.out, width=80, force_terminal=True, color_system=None)
+    session.watch.console = console
+    out = session.save(WORLD, solved(WORLD, "5"))
+    last = out.rpartition("\x1b[2J")[2].splitlines()
+    assert "saved: mini_engine/world.py" in last[0] and len(last) <= 16
+    assert "TODO 5: 0 → 8 of 8, in all 0 → 8 of 10" in last[1]
+    assert any(line.startswith("PASSED      5") for line in last)
