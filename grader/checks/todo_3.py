@@ -20,9 +20,7 @@ FAR_AWAY = (2304.0, -1088.0)  # px, where A is
 STILL, SLOW, FAST = (0.0, 0.0), (20.0, -10.0), (100.0, 60.0)  # px/s
 
 
-def joined(
-    lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL
-) -> tuple[Thing, Thing, Thing]:
+def joined(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[Thing, Thing, Thing]:
     """The joint, its A, which is there, and its B, ready to be solved."""
     (x, y), (dx, dy) = at, rod.offset
     a = lab.circle(at, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], angle=ANGLES[0], **ROUGH)
@@ -36,9 +34,7 @@ def joined(
     return joint, a, b
 
 
-def solve(
-    lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL
-) -> tuple[BodyValue, BodyValue]:
+def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[BodyValue, BodyValue]:
     """A and B after a pass over the rod."""
     lab.ran(
         f"solve on a rod {rod.length:g} px long at 1/{1 / rod.dt:g} s: "
