@@ -18,14 +18,6 @@ known = partial(mistake, "1", "circle_box")
 FAR = 65536.0  # px, beyond every distance that a check asks about
 
 
-def circle_first() -> tuple[bool, bool]:
-    """Whether the contact's A is the circle, and its B the box."""
-    return True, True
-
-
-truth("order", circle_first)
-
-
 def right(disc: Disc, rect: Rect) -> Right:
     answers = exact.circle_box(disc, rect)
     if len(answers) > 1:
@@ -33,11 +25,34 @@ def right(disc: Disc, rect: Rect) -> Right:
     return answers[0]
 
 
-truth("circle_box", right)
-
-
 def is_inside(disc: Disc, rect: Rect) -> bool:
     return abs(disc.x - rect.x) <= rect.hx and abs(disc.y - rect.y) <= rect.hy
+
+
+def like(disc: Disc, rect: Rect) -> dict[str, str]:
+    """Where the circle is, in words."""
+    across, down = abs(disc.x - rect.x) - rect.hx, abs(disc.y - rect.y) - rect.hy
+    inside, corner = is_inside(disc, rect), across > 0 and down > 0
+    side = "left" if disc.x < rect.x else "right"
+    end = "top" if disc.y < rect.y else "bottom"
+    face = side if across > down else end
+    near = "a corner is nearest" if corner else f"the {face} face is nearest"
+    words = {"place": "the two are apart or only touch"}
+    if right(disc, rect) is not None:
+        words["place"] = f"the centre is {'inside' if inside else 'outside'} the box"
+    words |= {"face": near, "_way": f"the circle is at the {end} {side}"}
+    words["axis"] = "a corner is nearest"
+    if not corner:
+        words["axis"] = f"a face {'at the side' if across > down else 'above or below'} is nearest"
+    words["_box"] = f"the box is {'at (0, 0)' if rect.x == rect.y == 0 else 'elsewhere'}"
+    words["_radius"] = f"the radius is {disc.r:g} px"
+    words["_edge"] = "the centre is on the edge" if max(across, down) == 0 else "it is not"
+    return words
+
+
+PARTS = {"the normal": [0, 1], "the depth": [2], "the point": [3, 4]}
+
+truth("circle_box", right, like, PARTS)
 
 
 def inside(change: Change) -> Model:
@@ -60,6 +75,14 @@ def outside(change: Change) -> Model:
     return model
 
 
+def circle_first(disc: Disc, rect: Rect) -> tuple[bool, bool]:
+    """Whether the contact's A is the circle, and its B the box."""
+    return True, True
+
+
+truth("order", circle_first, like)
+
+
 def turned(touch: Touch) -> Touch:
     return touch._replace(nx=-touch.nx, ny=-touch.ny)
 
@@ -75,12 +98,19 @@ def any_distance(disc: Disc, rect: Rect) -> Touch:
     return answer._replace(depth=answer.depth - FAR)
 
 
+def on_an_edge(disc: Disc, edge: Rect) -> Answer:
+    """The contact with an edge, in place of the box."""
+    if is_inside(disc, edge):
+        raise Undecided  # the distance is 0
+    return right(disc, edge)
+
+
 mistake(
     "1",
     "order",
     "the-box-comes-first",
     "The box is body A of the contact; the circle must be A and the box B.",
-    lambda: (False, False),
+    lambda disc, rect: (False, False),
 )
 
 
@@ -247,6 +277,46 @@ known(
     "half-is-taken-for-the-full-size",
     "The box is half as large as it should be: half holds half of the sides already.",
     lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2, hy=rect.hy / 2)),
+)
+known(
+    "half-is-taken-for-the-full-width",
+    "The box is half as wide as it should be: half holds half of the sides already.",
+    lambda disc, rect: right(disc, rect._replace(hx=rect.hx / 2)),
+)
+known(
+    "half-is-taken-for-the-full-height",
+    "The box is half as high as it should be: half holds half of the sides already.",
+    lambda disc, rect: right(disc, rect._replace(hy=rect.hy / 2)),
+)
+known(
+    "half-is-doubled",
+    "The box is twice as large as it should be: half is the way from its centre to its sides.",
+    lambda disc, rect: right(disc, rect._replace(hx=rect.hx * 2, hy=rect.hy * 2)),
+)
+known(
+    "width-for-height",
+    "The box is taken for a square as wide as it is: half.x goes with x, and half.y with y.",
+    lambda disc, rect: right(disc, rect._replace(hy=rect.hx)),
+)
+known(
+    "height-for-width",
+    "The box is taken for a square as high as it is: half.x goes with x, and half.y with y.",
+    lambda disc, rect: right(disc, rect._replace(hx=rect.hy)),
+)
+known(
+    "box-at-the-origin",
+    "The box is always taken to be at (0, 0), the origin; it is at b.pos.",
+    lambda disc, rect: right(disc, rect._replace(x=0.0, y=0.0)),
+)
+known(
+    "top-and-bottom-swapped",
+    "The closest point is always on the bottom edge: y grows down, so the top has the smaller y.",
+    lambda disc, rect: on_an_edge(disc, rect._replace(y=rect.y + rect.hy, hy=0.0)),
+)
+known(
+    "left-and-right-swapped",
+    "The closest point is always on the right edge: left and right have changed places.",
+    lambda disc, rect: on_an_edge(disc, rect._replace(x=rect.x + rect.hx, hx=0.0)),
 )
 known(
     "position-is-taken-for-a-corner",

@@ -10,7 +10,28 @@ from grader.judge.misconceptions import Undecided, mistake, truth
 
 Sum = Callable[[Lever, Lever, Pair], float]
 
-truth("effective_mass", exact.effective_mass)
+
+def like(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
+    """Which body can turn, and how it is pushed, in words."""
+    moving = [name for name, each in (("A", a), ("B", b)) if each.mass]
+    turns = {"A": "only A can turn", "B": "only B can turn", "AB": "both can turn"}
+    words = {"moves": turns["".join(moving)]} if moving else {}
+    levels = {0.0: "the axis is upright", 1.0: "the axis is level"}
+    words["axis"] = levels.get(abs(axis[0]), "the axis is aslant")
+    sides = {name: turning_way(each, axis) for name, each in (("A", a), ("B", b)) if each.mass}
+    if sides:
+        words["way"] = " and ".join(f"{name} {way}" for name, way in sides.items())
+    return words
+
+
+def turning_way(lever: Lever, axis: Pair) -> str:
+    turns = cross((lever.rx, lever.ry), axis)
+    if not turns:
+        return "is pushed along its arm"
+    return f"has a cross product {'above' if turns > 0 else 'below'} 0"
+
+
+truth("effective_mass", exact.effective_mass, like, {"the sum": [0]})
 
 known = partial(mistake, "2", "effective_mass")
 
@@ -105,6 +126,38 @@ known(
     "inverse-inertia-is-squared",
     "The inverse inertia is squared too; only the cross product is.",
     with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
+)
+known(
+    "inertia-forgotten",
+    "The spin terms lack the inertia: multiply each by its body's inv_inertia.",
+    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 if lever.mass else 0.0),
+    with_term(lambda lever, axis: lever_cross(lever, axis) ** 2),
+)
+known(
+    "half-of-the-terms",
+    "The spin terms are half of what they must be; they have no factor of their own.",
+    with_term(lambda lever, axis: spin_term(lever, axis) / 2),
+)
+known(
+    "second-term-replaces-the-sum",
+    "Only B's spin term is left: add it to total, or it takes the place of all the rest.",
+    lambda a, b, axis: spin_term(b, axis),
+)
+known(
+    "first-inertia-for-both",
+    "Both spin terms use the inertia of A; the second body has one of its own.",
+    lambda a, b, axis: (
+        masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2 * inverse(a.inertia)
+    ),
+)
+known(
+    "sum-before-the-square",
+    "The two cross products are added before they are squared; each body has a term of its own.",
+    lambda a, b, axis: (
+        masses(a, b)
+        + (lever_cross(a, axis) + lever_cross(b, axis)) ** 2
+        * (inverse(a.inertia) + inverse(b.inertia))
+    ),
 )
 known(
     "first-arm-for-both",

@@ -22,7 +22,32 @@ def right(rod: Rod) -> Answer:
     return (*ends, rod.offset)
 
 
-truth("rod", right)
+def like(rod: Rod) -> dict[str, str]:
+    """What moves, and what the rod has to do, in words."""
+    names = [name for name, mass in (("A", rod.mass_a), ("B", rod.mass_b)) if mass]
+    moves = {"": "no end can move", "A": "only A can move", "B": "only B can move"}
+    off = math.hypot(*rod.offset) - rod.length
+    exact_length = abs(off) <= 1e-9 * rod.length
+    speeds = rod.vel_a, rod.vel_b
+    resting = [name for name, vel in zip("AB", speeds, strict=True) if not any(vel)]
+    rest = {"": "both ends move", "A": "A rests", "B": "B rests", "AB": "both ends rest"}
+    closing = rod.speed
+    return {
+        "moves": moves.get("".join(names), "both ends can move"),
+        "length": "the rod is as long as meant"
+        if exact_length
+        else f"the rod is {'stretched' if off > 0 else 'squeezed'}",
+        "rest": rest["".join(resting)],
+        "speed": "the ends keep their distance"
+        if abs(closing) < 1e-9
+        else f"the ends {'part' if closing > 0 else 'close'}",
+        "_masses": f"the masses are {'equal' if rod.mass_a == rod.mass_b else 'different'}",
+    }
+
+
+PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the place of B": [4, 5]}
+
+truth("rod", right, like, PARTS)
 
 known = partial(mistake, "3", "rod")
 
@@ -150,6 +175,62 @@ known(
     "forgets-the-masses",
     "The impulse is added to the velocities; each end takes it by inv_mass.",
     velocities(without_masses),
+)
+
+
+known(
+    "forgets-the-mass-of-a",
+    "The velocity of A changes by the impulse itself; it must change by impulse * inv_mass of A.",
+    velocities(lambda rod: (without_masses(rod)[0], exact.pushed(rod, right_impulse(rod))[1])),
+)
+known(
+    "forgets-the-mass-of-b",
+    "The velocity of B changes by the impulse itself; it must change by impulse * inv_mass of B.",
+    velocities(lambda rod: (exact.pushed(rod, right_impulse(rod))[0], without_masses(rod)[1])),
+)
+known(
+    "half-of-the-impulse",
+    "The impulse is half of what it must be: k has the masses of both ends in it already.",
+    velocities(lambda rod: exact.pushed(rod, right_impulse(rod) / 2)),
+)
+
+
+def masses_crossed(rod: Rod) -> Ends:
+    by = right_impulse(rod)
+    a, b = by * exact.inverse(rod.mass_b), by * exact.inverse(rod.mass_a)
+    return moved(rod.vel_a, rod.axis, -a), moved(rod.vel_b, rod.axis, b)
+
+
+known(
+    "masses-crossed",
+    "Each end takes the impulse by the mass of the other one; inv_mass of A is for A.",
+    velocities(masses_crossed),
+)
+
+
+def axis_too_long(rod: Rod) -> Ends:
+    (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.offset
+    impulse = (rod.bias - ((bx - ax) * x + (by - ay) * y)) / rod.k
+    a, b = (impulse * exact.inverse(mass) for mass in (rod.mass_a, rod.mass_b))
+    return moved(rod.vel_a, rod.offset, -a), moved(rod.vel_b, rod.offset, b)
+
+
+known(
+    "axis-is-not-a-unit-vector",
+    "The axis is as long as the rod; self.axis has the length 1, as prepare() has made it.",
+    velocities(axis_too_long),
+)
+
+
+def replaced(rod: Rod) -> Ends:
+    still = rod._replace(vel_a=(0.0, 0.0), vel_b=(0.0, 0.0))
+    return exact.pushed(still, right_impulse(rod))
+
+
+known(
+    "velocities-are-replaced",
+    "Each velocity becomes the change alone; the change must be added to the velocity it had.",
+    velocities(replaced),
 )
 
 

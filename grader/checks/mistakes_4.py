@@ -12,7 +12,26 @@ Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
 Model = Callable[[Pair, float, Sequence[Rubbing]], tuple[float, ...]]
 
-truth("friction", exact.friction_totals)
+
+def like(mu: Pair, k: float, passes: Sequence[Rubbing]) -> dict[str, str]:
+    """How the two rub, in words."""
+    slips = [each.slip for each in passes if each.slip]
+    ways = {slip > 0 for slip in slips}
+    words = {
+        "ways": "B slips both ways in turn"
+        if len(ways) == 2
+        else f"B slips {'forwards' if True in ways else 'backwards'}",
+        "mu": f"the two frictions are {'equal' if mu[0] == mu[1] else 'different'}",
+        "passes": "there are several passes" if len(passes) > 1 else "there is one pass",
+    }
+    limits = [math.sqrt(mu[0] * mu[1]) * each.pressed(k) for each in passes]
+    within = all(abs(each.slip / k) <= limit for each, limit in zip(passes, limits, strict=True))
+    words["limit"] = f"the limit is {'not ' if within else ''}reached"
+    words["_pressure"] = "nothing presses" if not any(limits) else "the two are pressed"
+    return words
+
+
+truth("friction", exact.friction_totals, like)
 
 known = partial(mistake, "4", "friction")
 

@@ -15,7 +15,16 @@ def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
     return exact.damped(linear, dt * steps), exact.damped(angular, dt * steps)
 
 
-truth("damping", right)
+def like(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
+    """The rates and the steps, in words."""
+    zeros = [name for name, rate in (("linear", linear), ("angular", angular)) if not rate]
+    words = {"zero": f"{' and '.join(zeros)} damping is 0" if zeros else "both rates are above 0"}
+    words["rates"] = f"the rates are {'equal' if linear == angular else 'different'}"
+    words["step"] = f"a step is 1/{1 / dt:.4g} s"
+    return words
+
+
+truth("damping", right, like, {"the speed": [0], "the spin": [1]})
 
 
 def known(name: str, meaning: str, *models: Model) -> None:

@@ -69,14 +69,21 @@ def touch(
     if noted:
         lab.saw("circle_box", (disc, rect), answer)
     if contact is not None:
-        want_new(lab, contact, circle, box)
+        want_new(lab, contact, circle, box, (disc, rect) if noted else None)
     return answer
 
 
-def want_new(lab: Lab, contact: ContactValue, circle: Thing, box: Thing) -> None:
+def want_new(
+    lab: Lab,
+    contact: ContactValue,
+    circle: Thing,
+    box: Thing,
+    noted: tuple[Disc, Rect] | None,
+) -> None:
     """Of these two, and with no impulse yet; then it gets some, which are no other contact's."""
     order = contact.a == circle.ref, contact.b == box.ref
-    lab.saw("order", (), order)
+    if noted:
+        lab.saw("order", noted, order)
     lab.want(
         order == (True, True),
         "a contact with the circle as A and the box as B",

@@ -17,6 +17,7 @@ from grader.protocol import (
 )
 
 Pair = tuple[float, float]
+SHOWN = 4  # items of a list or tuple that are told one by one
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Decoder:
         self.running = ""  # the experiment, as the line *We ran* has it
         self.failure: NotYet | Broke | None = None  # the first, or the one the check ended with
         self.names: dict[int, str] = {}  # what things are called to the student
+        self.surveys = False  # whether the check goes on where it would fail, to ask all it has
 
     def ran(self, text: str) -> None:
         """Name the experiment, for the line *We ran*."""
@@ -43,12 +45,22 @@ class Decoder:
 
     def want(self, holds: bool, expected: str, got: str, meaning: str = "") -> None:
         """Fail the check unless `holds`, with what was expected and what came out."""
-        if not holds:
+        if holds:
+            return
+        if self.surveys:
+            self.remember(NotYet(self.running, expected, got, meaning))
+        else:
             self.fail(expected, got, meaning)
 
     def fail(self, expected: str, got: str, meaning: str = "") -> NoReturn:
         """Fail the check at once; the words are those of `want`."""
         raise self.remember(NotYet(self.running, expected, got, meaning))
+
+    def refuse(self, wanted: str, what: str, value: Value) -> NoReturn:
+        """Fail the check because of what kind of thing came."""
+        got = self.describe(value)
+        expected = wanted if what == "the answer" else f"{wanted} as {what}"
+        self.fail(expected, got, f"{what[:1].upper()}{what[1:]} must be {wanted}; it is {got}.")
 
     def remember(self, failure: NotYet | Broke) -> NotYet | Broke:
         """Keep the first failure: hypothesis may run a check again and see others."""
@@ -60,7 +72,7 @@ class Decoder:
     def number(self, value: Value, what: str) -> float:
         """The value as a finite number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
-            self.fail(f"a number as {what}", self.describe(value))
+            self.refuse("a number", what, value)
         if not math.isfinite(value):
             self.fail(f"a finite number as {what}", f"{value}")
         return float(value)
@@ -68,7 +80,7 @@ class Decoder:
     def pair(self, value: Value, what: str) -> Pair:
         """The value as two finite numbers."""
         if not isinstance(value, Vec):
-            self.fail(f"a pair of numbers as {what}", self.describe(value))
+            self.refuse("a pair of numbers", what, value)
         return self.number(value.x, what), self.number(value.y, what)
 
     def items(self, value: Value, what: str) -> list[Value]:
@@ -76,7 +88,7 @@ class Decoder:
         if isinstance(value, Vec):
             return [value.x, value.y]
         if not isinstance(value, Items):
-            self.fail(f"a list or tuple as {what}", self.describe(value))
+            self.refuse("a list or tuple", what, value)
         return value.items
 
     # ------------------------------------------------------------ objects
@@ -110,7 +122,7 @@ class Decoder:
                 self.pair(value.point, "the point")
                 self.number(value.depth, "the depth")
             return value
-        self.fail("a Contact or None", self.describe(value))
+        self.refuse("a Contact or None", "the answer", value)
 
     def space(self, value: Value) -> SpaceValue:
         """The value as a pymunk Space, described."""
@@ -125,6 +137,8 @@ class Decoder:
                 return "None (is there a return missing?)"
             case Ref(kind=kind):
                 return f"an object of type {kind}"
+            case Items(items) if 0 < len(items) <= SHOWN:
+                return f"({', '.join(map(in_brief, items))})"
             case Items():
                 return f"a list or tuple of {len(value.items)}"
             case bool() | int() | float() | str():
@@ -132,3 +146,19 @@ class Decoder:
             case Vec(x, y):
                 return f"the pair ({x:.6g}, {y:.6g})"
         return f"a {type(value).__name__.removesuffix('Value').lower()}"
+
+
+def in_brief(value: Value) -> str:
+    """One of several things."""
+    match value:
+        case None:
+            return "None"
+        case bool() | int() | str():
+            return f"{value!r}"[:40]
+        case float():
+            return f"{value:.6g}"
+        case Vec(x, y):
+            return f"({x:.6g}, {y:.6g})"
+        case Ref(kind=kind):
+            return f"a {kind}"[:40]
+    return f"a {type(value).__name__.removesuffix('Value').lower()}"

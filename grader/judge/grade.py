@@ -14,10 +14,12 @@ from grader.judge import misconceptions
 from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
+from grader.judge.diagnosis import Diagnosis
 from grader.judge.failures import Broke, NotYet
 from grader.judge.given import Changed, changes, restored
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
+from grader.judge.names import Names
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
@@ -140,6 +142,7 @@ class Grading:
     sandbox: Sandbox
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
     blamed: dict[Key, Blamed] = field(default_factory=dict)  # what fails for changed given code
+    surveys_all: bool = False  # ask each check to its end, to have all that it may ask
 
     def run(self) -> Result:
         if self.options.isolation == "none":
@@ -157,19 +160,21 @@ class Grading:
             self.options.seed,
             self.options.progress,
             observations=self.observations,
+            surveys_all=self.surveys_all,
             open_right=self.open_right if self.options.reference else None,
         )
         run_pytest(plugin, self.rubric)
+        seen = dict(plugin.seen)
         failed = {key: check for key, check in plugin.results.items() if check.failed}
         if failed and (changed := self.changed_given()):
             blame = Blame(changed, self.open_with, plugin.again)
             blame.look_into(failed)
             self.blamed = blame.found
+            seen |= blame.seen
             for id in {id for id, _ in blame.seen}:
-                now = [blame.seen.get(key, seen) for key, seen in plugin.seen.items()]
-                mine = [each for key, each in zip(plugin.seen, now, strict=True) if key[0] == id]
-                self.observations[id] = [each for answers in mine for each in answers]
-        result = self.result(plugin.results)
+                answers = [each for key, each in seen.items() if key[0] == id]
+                self.observations[id] = [each for some in answers for each in some]
+        result = self.result(plugin.results, seen)
         folder = self.options.replays
         if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
             return result
@@ -235,8 +240,15 @@ class Grading:
         blamed = self.blamed.get((todo.id, check.id))
         return blamed is not None and blamed.mended
 
-    def result(self, results: Mapping[tuple[str, str], CheckResult]) -> Result:
-        """The marks; `results` are what came of the checks, by TODO and check."""
+    def result(
+        self,
+        results: Mapping[tuple[str, str], CheckResult],
+        seen: Mapping[tuple[str, str], list[Observation]],
+    ) -> Result:
+        """The marks; `results` are what came of the checks, by TODO and check.
+
+        Where no known mistake explains all answers, `seen` tells what is wrong in those of each.
+        """
         todos = []
         for todo in filter(self.options.wants, self.rubric.todos):
             checks = count_guards(todo, [results[todo.id, each.id] for each in todo.checks])
@@ -245,6 +257,10 @@ class Grading:
                 mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
             if mistake is not None:
                 checks = [with_meaning(check, mistake.meaning) for check in checks]
+            else:
+                asked = {each.id: seen.get((todo.id, each.id), []) for each in checks}
+                checks = told_in_part(todo.id, checks, asked)
+            checks = [self.with_hint(todo, each) for each in checks]
             checks = [
                 self.blamed[todo.id, check.id].told(check)
                 if (todo.id, check.id) in self.blamed
@@ -273,6 +289,18 @@ class Grading:
         )
         return nothing.with_todos(todos).in_bounds()
 
+    def with_hint(self, todo: Todo, check: CheckResult) -> CheckResult:
+        """With what a name or an argument has to do with a failure: before any other meaning."""
+        if not check.failed:
+            return check
+        modules = {each.id: each.module or todo.module for each in todo.checks}
+        hint = self.names.hint(todo, modules[check.id], check)
+        return with_meaning(check, hint) if hint else check
+
+    @cached_property
+    def names(self) -> Names:
+        return Names(self.submission.folder)
+
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
     """A check that a stub passes as well earns nothing alone: another one must pass, too."""
@@ -285,6 +313,19 @@ def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
         )
         if check.state == "passed"
         else check
+        for check in checks
+    ]
+
+
+def told_in_part(
+    todo: str, checks: list[CheckResult], asked: dict[str, list[Observation]]
+) -> list[CheckResult]:
+    """Each failed check with what its own answers tell, unless it says so itself."""
+    if not any(check.failed for check in checks):
+        return checks
+    diagnosis = Diagnosis(todo, [each for answers in asked.values() for each in answers])
+    return [
+        check if check.meaning else with_meaning(check, diagnosis.of(asked[check.id]))
         for check in checks
     ]
 

@@ -16,6 +16,7 @@ from grader.judge.recorded import Answers, Recorded, key, load_recorded
 from grader.judge.rubric import CHECKS, load_rubric
 
 Model = Callable[..., Any]
+Parts = dict[str, list[int]]
 
 
 class Undecided(Exception):
@@ -33,11 +34,25 @@ class Mistake:
 
 known: list[Mistake] = []
 right: dict[str, Model] = {}
+traits: dict[str, Model] = {}  # what a question is like, in words, by what may tell it from others
+parts: dict[str, Parts] = {}
 
 
-def truth(about: str, model: Model) -> None:
-    """Register the right model of the observations called `about`."""
+def truth(
+    about: str, model: Model, like: Model | None = None, of: dict[str, list[int]] | None = None
+) -> None:
+    """Register the right model of the observations called `about`.
+
+    `like` says what a question is like: a dict of clauses such as {"place": "the centre is inside
+    the box"}, in the order in which a mistake is looked for. By what begins with _ none is looked
+    for: it tells nothing but where answers are wrong. `of` names the parts of an answer, by
+    the positions of their numbers in it.
+    """
     right[about] = model
+    if like is not None:
+        traits[about] = like
+    if of is not None:
+        parts[about] = of
 
 
 def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> None:
@@ -76,7 +91,8 @@ def take_from(table: Recorded, todo: str) -> None:
         if each.todo == todo:
             mistake(todo, each.about, each.id, each.meaning, looked_up(each.answers))
     for about, answers in table.right.items():
-        truth(about, looked_up(answers))
+        like = looked_up(table.traits[about]) if about in table.traits else None
+        truth(about, looked_up(answers), like, table.parts.get(about))
 
 
 def looked_up(answers: Answers) -> Model:

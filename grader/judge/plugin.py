@@ -23,6 +23,7 @@ from grader.judge.submission import CannotGrade, Submission, load_given
 from grader.protocol import CodeLine, Piece
 
 UNREAD = 3  # files of which is told that they were too long to look into
+BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
 
 @dataclass(frozen=True)
@@ -55,8 +56,9 @@ class GradingPlugin:
     progress: Callable[[CheckResult], None] | None = None
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
-    seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # the same
+    seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
     functions: dict[tuple[str, str], tuple[Todo, Check, Any]] = field(default_factory=dict)
+    surveys_all: bool = False  # whether checks that pass are surveyed as well
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
     open_right: Callable[[int], Child] | None = None  # a child of the reference itself
@@ -149,8 +151,10 @@ class GradingPlugin:
             told, again = self._attempt(todo, check, function, isolated=False)
         if told.failure is None:
             lab = told
-        self.observations.setdefault(todo.id, []).extend(lab.observations)
-        self.seen[todo.id, check.id] = lab.observations
+        self.seen[todo.id, check.id] = self._survey(todo, check, function, told)
+        of_todo = self.observations.setdefault(todo.id, [])
+        of_todo.extend(lab.observations)
+        of_todo.extend(each for each in self.seen[todo.id, check.id] if each not in of_todo)
         if told.failure is not None:
             self._blame(todo, check, function, told)
             if not told.ended:
@@ -159,6 +163,18 @@ class GradingPlugin:
                 self.failing[todo.id, check.id] = failing
             return self._failure(todo, check, title, told.failure)
         return self._result(todo, check, title, "passed")
+
+    def _survey(self, todo: Todo, check: Check, function: Any, told: Lab) -> list[Observation]:
+        """What the program as it is answers to all that a failed check asks, and not just so far.
+
+        By that, what is wrong can be told from what is right. Not worth its time for a property,
+        which asks much, nor where a program was played.
+        """
+        wanted = isinstance(told.failure, NotYet) or self.surveys_all
+        brief = told.connection.cpu < BRIEF and not told.played
+        if not wanted or not brief or not told.observations or check.kind == "property":
+            return told.observations
+        return self._asked(todo, check, function, isolated=False, surveys=True).observations
 
     def _blame(self, todo: Todo, check: Check, function: Any, lab: Lab) -> None:
         """Note a check that the right code fails as well: that is not the submission's fault.
@@ -218,8 +234,12 @@ class GradingPlugin:
         isolated: bool,
         right: bool = False,
         opener: Callable[[int], Child] | None = None,
+        surveys: bool = False,
     ) -> Lab:
-        """A lab in which the check ran, of the reference itself if it is to be the `right` code."""
+        """A lab in which the check ran, of the reference itself if it is to be the `right` code.
+
+        One that `surveys` goes on where the check fails, and costs the submission no time.
+        """
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
@@ -227,6 +247,7 @@ class GradingPlugin:
         lab = Lab(
             module, lambda: self._child_for(todo, check, right, opener), pieces, secret=secret
         )
+        lab.surveys = surveys
         little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
@@ -240,7 +261,7 @@ class GradingPlugin:
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
-        if right:
+        if right or surveys:
             return lab
         self.budget.charge(todo.id, lab.connection)
         if lab.ended and lab.failure is not None:

@@ -34,6 +34,8 @@ class RecordedMistake(Struct, frozen=True):
 class Recorded(Struct, frozen=True):
     oracles: dict[str, Answers] = {}
     right: dict[str, Answers] = {}  # the right answers to observations, by what they are about
+    traits: dict[str, Answers] = {}  # what these are like
+    parts: dict[str, dict[str, list[int]]] = {}  # of an answer
     mistakes: list[RecordedMistake] = []
 
 

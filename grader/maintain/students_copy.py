@@ -182,8 +182,11 @@ def record(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
         for each in misconceptions.known
         if each.todo in asked
     ]
-    right = {about: answers(model, about, seen) for about, model in misconceptions.right.items()}
-    return Recorded(notes, right, mistakes)
+    right, traits = (
+        {about: answers(model, about, seen) for about, model in models.items()}
+        for models in (misconceptions.right, misconceptions.traits)
+    )
+    return Recorded(notes, right, traits, misconceptions.parts, mistakes)
 
 
 def without_properties(rubric: Rubric) -> Rubric:
@@ -196,8 +199,9 @@ def without_properties(rubric: Rubric) -> Rubric:
 
 
 def watch(path: Path, todos: frozenset[str], rubric: Rubric, worker: Worker) -> list[Observation]:
-    """What these checks see of a submission."""
+    """What these checks see of a submission, each asked to its end."""
     with grading(path, Options(reference=None, only=todos, trusted=True), worker, rubric) as run:
+        run.surveys_all = True
         run.run()
     return [each for observations in run.observations.values() for each in observations]
 

@@ -1,0 +1,436 @@
+"""What is wrong where no known mistake explains every answer: half done, or wrong in two ways.
+
+A known mistake is told by the questions that it shows in, such as those from outside the box, and
+by the parts of the answer that it changes, such as the normal. It must give each of these as the
+submission did. Two mistakes that give the same are none.
+
+Where none fits, what is wrong is narrowed down by numbers: in which questions, in which part of the
+answer, and by how much. That is what was observed and no guess.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+from grader.judge.lab import Observation
+from grader.judge.misconceptions import (
+    Mistake,
+    Undecided,
+    alike,
+    known,
+    load_known,
+    parts,
+    right,
+    traits,
+)
+from grader.judge.recorded import key
+
+WHOLE = "the answer"  # the name of a part where an answer has none, or is another kind of thing
+FEWEST = 2  # answers that a mistake must explain to be told by a part of the questions
+MOST = 3  # clauses of one kind in a sentence
+LONGEST = 150  # characters of these
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A question, what it is like, and its answer beside the right one."""
+
+    about: str
+    inputs: tuple[Any, ...]
+    like: dict[str, str]
+    answer: Any
+    right: Any
+
+    @cached_property
+    def kind(self) -> str:
+        """What is wrong where the answer is no such thing as the right one; else empty."""
+        if isinstance(self.answer, str):
+            return f"the answer is {self.answer}"
+        if self.answer is None and self.right is not None:
+            return "there is no answer (None; is a return missing?)"
+        if self.right is None and self.answer is not None:
+            return "there is an answer where None is right"
+        return "" if len(self.numbers) == len(flat(self.right)) else "the answer has other parts"
+
+    @property
+    def numbers(self) -> list[float]:
+        return flat(self.answer)
+
+    def part(self, name: str, answer: Any) -> Any:
+        """A part of an answer; all of it where it is another kind of thing."""
+        numbers, places = flat(answer), parts.get(self.about, {}).get(name)
+        if places is None or len(numbers) <= max(places):
+            return answer
+        return [numbers[place] for place in places]
+
+    @cached_property
+    def wrong(self) -> frozenset[str]:
+        """The parts of the answer that are wrong."""
+        names = [] if self.kind else list(parts.get(self.about, {}))
+        if alike(self.answer, self.right):
+            return frozenset()
+        off = [n for n in names if not alike(self.part(n, self.answer), self.part(n, self.right))]
+        return frozenset(off) or frozenset({WHOLE})
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A known mistake in some of the questions and some parts of their answers."""
+
+    mistake: Mistake
+    where: str  # a clause, or empty where it needs none
+    changed: frozenset[str]  # the parts of the answer
+    explains: frozenset[int]  # the numbers of the questions
+
+    @property
+    def meaning(self) -> str:
+        return f"Where {self.where}: {self.mistake.meaning}" if self.where else self.mistake.meaning
+
+
+class Diagnosis:
+    """What can be told of a TODO by its answers."""
+
+    def __init__(self, todo: str, observations: Sequence[Observation]) -> None:
+        load_known(todo)
+        self.mistakes = [each for each in known if each.todo == todo]
+        self.seen = list(seen_of(observations))
+        self.predictions: dict[tuple[Mistake, int], Seen | None] = {}
+        self.findings = [
+            finding
+            for about in dict.fromkeys(s.about for s in self.seen)
+            for finding in self.find(about)
+        ]
+
+    def of(self, observations: Sequence[Observation]) -> str:
+        """What the answers of one check mean; empty where nothing can be told.
+
+        The first wrong one is spoken of, by the known mistakes that show in it. What these leave
+        unexplained of it is narrowed down.
+        """
+        asked = {(each.about, key(each.inputs)) for each in observations}
+        numbers = [
+            number
+            for number, each in enumerate(self.seen)
+            if each.wrong and (each.about, key(each.inputs)) in asked
+        ]
+        if not numbers:
+            return ""
+        first = self.seen[numbers[0]]
+        here = [each for each in self.findings if numbers[0] in each.explains]
+        told = [each.meaning for each in here]
+        left = first.wrong.difference(*(each.changed for each in here))
+        if left and (narrowed := narrow(self.seen, first, left)):
+            told.append(narrowed)
+        if not told:
+            told = [each.meaning for each in self.findings if each.mistake.about == first.about]
+        return " And: ".join(dict.fromkeys(told[:2]))
+
+    # ------------------------------------------------------------ known mistakes
+
+    def find(self, about: str) -> list[Finding]:
+        """The mistakes told by the questions of one kind, the one that shows in most first."""
+        numbers = [n for n, each in enumerate(self.seen) if each.about == about]
+        wrong = [n for n in numbers if self.seen[n].wrong]
+        if not wrong:
+            return []
+        names = dict.fromkeys(name for n in numbers for name in self.seen[n].like)
+        kinds = [name for name in names if not name.startswith("_")]
+        best: list[Finding] = []
+        for ways in ([()], combinations(kinds, 1), combinations(kinds, 2)):
+            for way in ways:
+                group = self.groups(numbers, way)
+                found = [each for where, some in group for each in self.named(where, some)]
+                if explained(found) > explained(best):
+                    best = found
+            if best:
+                break
+        return best
+
+    def groups(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
+        """The questions by what they are like in these ways."""
+        found: dict[str, list[int]] = {}
+        for number in numbers:
+            like = self.seen[number].like
+            if all(kind in like for kind in kinds):
+                found.setdefault(" and ".join(like[kind] for kind in kinds), []).append(number)
+        return list(found.items())
+
+    def named(self, where: str, numbers: list[int]) -> list[Finding]:
+        """The mistakes that explain some parts of all these answers, until none is left."""
+        found: list[Finding] = []
+        covered: frozenset[str] = frozenset()
+        wrong = [n for n in numbers if self.seen[n].wrong]
+        while len(wrong) >= FEWEST:
+            left = frozenset(name for n in wrong for name in self.seen[n].wrong) - covered
+            if not left:
+                break
+            fit = [
+                (each, changed)
+                for each in self.mistakes
+                if each.about == self.seen[wrong[0]].about
+                and (changed := self.fits(each, numbers, covered)) & left
+            ]
+            chosen = self.chosen(fit)
+            if chosen is None:
+                break
+            mistake, changed = chosen
+            covered |= changed
+            shows = frozenset(n for n in wrong if self.seen[n].wrong & changed)
+            clause = where if self.elsewhere(mistake, numbers) else ""
+            found.append(Finding(mistake, clause, changed, shows))
+        return found
+
+    def fits(self, mistake: Mistake, numbers: list[int], covered: frozenset[str]) -> frozenset[str]:
+        """The parts that a mistake changes; none where one of them is not as in the answers.
+
+        What is `covered` another mistake has changed already.
+        """
+        both = [(self.seen[n], self.predicted(mistake, n)) for n in numbers]
+        decided = [(each, predicted) for each, predicted in both if predicted is not None]
+        changed = frozenset[str]().union(*(p.wrong for _, p in decided)) - covered
+        shows = sum(bool(predicted.wrong & changed) for _, predicted in decided)
+        told = sum(bool(each.wrong) for each, _ in decided)
+        if shows < FEWEST or 2 * told < sum(bool(each.wrong) for each, _ in both):
+            return frozenset()
+        as_seen = all(
+            alike(each.part(name, predicted.answer), each.part(name, each.answer))
+            for each, predicted in decided
+            for name in changed
+        )
+        return changed if as_seen else frozenset()
+
+    def predicted(self, mistake: Mistake, number: int) -> Seen | None:
+        """A question with the answer that a mistake gives to it, if there is one."""
+        if (mistake, number) not in self.predictions:
+            each, found = self.seen[number], None
+            if each.about == mistake.about:
+                with suppress(Undecided):
+                    answer = mistake.model(*each.inputs)
+                    found = Seen(each.about, each.inputs, each.like, answer, each.right)
+            self.predictions[mistake, number] = found
+        return self.predictions[mistake, number]
+
+    def chosen(
+        self, fit: list[tuple[Mistake, frozenset[str]]]
+    ) -> tuple[Mistake, frozenset[str]] | None:
+        """The mistake that changes most, and none where several do, but that fits all questions."""
+        most = max((len(changed) for _, changed in fit), default=0)
+        best = [(each, changed) for each, changed in fit if len(changed) == most]
+        if len({each.id for each, _ in best}) > 1:
+            best = [(each, changed) for each, changed in best if not self.denied(each, changed)]
+        return best[0] if len({each.id for each, _ in best}) == 1 else None
+
+    def denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:
+        """Whether a mistake would show in other questions as well, and does not."""
+        for number, each in enumerate(self.seen):
+            predicted = self.predicted(mistake, number)
+            if predicted is not None and any(
+                not alike(each.part(n, predicted.answer), each.part(n, each.answer))
+                for n in predicted.wrong & changed
+            ):
+                return True
+        return False
+
+    def elsewhere(self, mistake: Mistake, numbers: list[int]) -> bool:
+        """Whether a mistake would show outside of these questions too."""
+        outside = set(range(len(self.seen))).difference(numbers)
+        return any(p is not None and p.wrong for p in (self.predicted(mistake, n) for n in outside))
+
+
+def explained(findings: Iterable[Finding]) -> int:
+    return len(frozenset().union(*(each.explains for each in findings)))
+
+
+def seen_of(observations: Sequence[Observation]) -> Iterable[Seen]:
+    """The questions with a right answer, each once."""
+    asked = set()
+    for each in observations:
+        name = each.about, key(each.inputs)
+        if name in asked or each.about not in right:
+            continue
+        asked.add(name)
+        try:
+            meant = right[each.about](*each.inputs)
+            like = traits[each.about](*each.inputs) if each.about in traits else {}
+        except Undecided:
+            continue
+        yield Seen(each.about, each.inputs, like, each.answer, meant)
+
+
+def flat(answer: Any) -> list[float]:
+    """The numbers of an answer, whatever its shape."""
+    if isinstance(answer, tuple | list):
+        return [number for each in answer for number in flat(each)]
+    return [answer] if isinstance(answer, int | float) else []
+
+
+# ---------------------------------------------------------------- narrowed down by numbers
+
+
+def narrow(seen: Sequence[Seen], first: Seen, left: frozenset[str]) -> str:
+    """In which questions these parts are wrong as in the first one, and how; empty if unknown."""
+    alike_asked = [each for each in seen if each.about == first.about]
+    if first.kind:
+        wrong = [each for each in alike_asked if each.kind == first.kind]
+        others = [each for each in alike_asked if each.kind != first.kind]
+        where = condition(wrong, others)
+        raised = isinstance(first.answer, str) and not others
+        return f"{sentence(first.kind)} {where}." if where and not raised else ""
+    told = []
+    for name in [n for n in parts.get(first.about, {}) if n in left]:
+        wrong = [each for each in alike_asked if not each.kind and name in each.wrong]
+        others = [each for each in alike_asked if each not in wrong and not each.kind]
+        where, how = condition(wrong, others), relation(name, wrong)
+        if where or how:
+            many = f"in {len(wrong)} of {len(wrong) + len(others)} questions"
+            told.append((name, how or "is wrong", where or many))
+    return joined(told)
+
+
+def joined(told: list[tuple[str, str, str]]) -> str:
+    """`the normal is turned round where ..., and the depth is too large where ...`."""
+    if not told:
+        return ""
+    if len({where for _, _, where in told}) == 1:
+        words = " and ".join(f"{name} {how}" for name, how, _ in told)
+        return sentence(f"{words} {told[0][2]}".strip()) + "."
+    return " ".join(
+        sentence(f"{name} {how} {where}".strip()) + "." for name, how, where in told[:2]
+    )
+
+
+def sentence(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def condition(wrong: list[Seen], others: list[Seen]) -> str:
+    """What tells the questions with a wrong answer from the others, from what they are like."""
+    if not others:
+        return "in every question" if len(wrong) > 1 else ""
+    kinds = list(dict.fromkeys(kind for each in wrong for kind in each.like))
+    for ways in (1, 2):
+        for some in combinations(kinds, ways):
+            bad, good = values(wrong, *some), values(others, *some)
+            if None in bad or bad.keys() & good.keys():
+                continue
+            if few(bad):
+                right_too = f", and right where {either(good)}" if few(good) and ways == 1 else ""
+                return f"where {either(bad)}{right_too}"
+            if few(good):
+                return f"but where {either(good)}"
+    return partly(wrong, others, kinds)
+
+
+def few(clauses: dict[Any, int]) -> bool:
+    """Whether they make a clause that can be read."""
+    return None not in clauses and len(clauses) <= MOST and len(either(clauses)) <= LONGEST
+
+
+def partly(wrong: list[Seen], others: list[Seen], kinds: list[str]) -> str:
+    """Where most of the wrong answers are and few others; empty where that is nowhere."""
+    best, least = "", len(others) // 2 + 1
+    for kind in kinds:
+        bad, good = values(wrong, kind), values(others, kind)
+        mixed = sum(good[each] for each in bad if each in good)
+        if few(bad) and mixed < least:
+            best, least = (
+                f"in {len(wrong)} of {len(wrong) + mixed} questions where {either(bad)}",
+                mixed,
+            )
+    return best
+
+
+def values(seen: list[Seen], *kinds: str) -> dict[Any, int]:
+    """What questions are like in these ways, and how many are."""
+    found: dict[Any, int] = {}
+    for each in seen:
+        clauses = [each.like.get(kind) for kind in kinds]
+        name = None if None in clauses else " and ".join(filter(None, clauses))
+        found[name] = found.get(name, 0) + 1
+    return found
+
+
+def either(clauses: Iterable[Any]) -> str:
+    return " or ".join(str(each) for each in clauses)
+
+
+# ---------------------------------------------------------------- by how much
+
+
+Numbers = list[tuple[float, float]]  # of the answer, and of the right one
+
+
+def relation(name: str, wrong: list[Seen]) -> str:
+    """How a part of the answers differs from the right one in all of these; empty if it varies."""
+    vectors = [
+        (flat(each.part(name, each.answer)), flat(each.part(name, each.right))) for each in wrong
+    ]
+    pairs = [pair for ours, theirs in vectors for pair in zip(ours, theirs, strict=False)]
+    for holds, words in RELATIONS:
+        if holds(pairs):
+            return words
+    if same_swapped(vectors):
+        return "has its two numbers swapped"
+    factor = one_factor(pairs)
+    if factor is not None:
+        return f"is {factor:.4g} times what it must be"
+    if len(vectors) >= FEWEST and len({tuple(ours) for ours, _ in vectors}) == 1:
+        return f"is always {in_words(vectors[0][0])}"
+    off = one_offset(vectors)
+    if off:
+        return f"is {abs(off):.4g} too {'large' if off > 0 else 'small'}"
+    return compared(pairs)
+
+
+def times(factor: float) -> Callable[[Numbers], bool]:
+    return lambda pairs: all(alike(ours, factor * theirs) for ours, theirs in pairs)
+
+
+RELATIONS: tuple[tuple[Callable[[Numbers], bool], str], ...] = (
+    (times(0.0), "is 0"),
+    (times(-1.0), "is turned round: it has the opposite sign"),
+    (times(2.0), "is twice what it must be"),
+    (times(0.5), "is half of what it must be"),
+)
+
+
+def same_swapped(vectors: list[tuple[list[float], list[float]]]) -> bool:
+    return all(len(ours) == 2 and alike(ours[::-1], theirs) for ours, theirs in vectors)
+
+
+def one_factor(pairs: Numbers) -> float | None:
+    """The factor between all answers and the right ones; None where there is no one such."""
+    factors = [ours / theirs for ours, theirs in pairs if abs(theirs) > 1e-9]
+    if len(factors) < FEWEST or any(
+        abs(ours) > 1e-6 for ours, theirs in pairs if abs(theirs) <= 1e-9
+    ):
+        return None
+    same = all(math.isclose(each, factors[0], rel_tol=1e-6) for each in factors)
+    return factors[0] if same and len({round(theirs, 6) for _, theirs in pairs}) > 1 else None
+
+
+def one_offset(vectors: list[tuple[list[float], list[float]]]) -> float:
+    """By how much a single number is always off; 0 where it varies."""
+    offs = [ours[0] - theirs[0] for ours, theirs in vectors if len(ours) == len(theirs) == 1]
+    if len(offs) < max(FEWEST, len(vectors)):
+        return 0.0
+    return offs[0] if all(math.isclose(each, offs[0], rel_tol=1e-6) for each in offs) else 0.0
+
+
+def compared(pairs: Numbers) -> str:
+    """Whether all the numbers that are off are too large, or too small."""
+    off = [(ours, theirs) for ours, theirs in pairs if not alike(ours, theirs)]
+    if all(ours * theirs >= 0 and abs(ours) > abs(theirs) for ours, theirs in off):
+        return "is too large"
+    if all(ours * theirs >= 0 and abs(ours) < abs(theirs) for ours, theirs in off):
+        return "is too small"
+    return ""
+
+
+def in_words(numbers: list[float]) -> str:
+    told = ", ".join(f"{number + 0.0:.4g}" for number in numbers)
+    return told if len(numbers) == 1 else f"({told})"

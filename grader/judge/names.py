@@ -1,0 +1,161 @@
+"""Names and arguments: what a submission calls otherwise than it was handed out, and what it means.
+
+Told from the text alone. A function that was renamed, or whose arguments are in another order, is
+said to be the cause only where it is the TODO's own, or where the failure names it.
+"""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from grader.judge.definitions import statements
+from grader.judge.result import CheckResult
+from grader.judge.rubric import CHECKS, Todo, load_rubric
+from grader.judge.submission import load_given
+from grader.todo_regions import python_files, read_source
+
+ALIKE = 0.6  # of two names, from which on one may be the other's new one
+
+# What a message of Python's means where a student may not know it.
+ERRORS = (
+    (r"EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
+    (
+        r"'(function|method|builtin_function_or_method)'",
+        "A function's name without brackets is the function itself, not what it returns: call it.",
+    ),
+    (
+        r"TypeError: .*(NoneType|\bNone\b)",
+        "There is a None among the values: a function without return gives one.",
+    ),
+    (
+        r"AttributeError: 'NoneType'",
+        "What stands before the dot is None: a function without return gives one.",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Signature:
+    """A function as it is defined: its name, with the class before it, and its arguments."""
+
+    path: str
+    names: tuple[str, ...]
+    least: int  # how many it must be given
+    open: bool  # whether it takes any number
+
+    @property
+    def name(self) -> str:
+        return self.path.rpartition(".")[2]
+
+    @property
+    def owner(self) -> str:
+        return self.path.rpartition(".")[0]
+
+    @property
+    def shown(self) -> str:
+        names = self.names[1:] if self.owner and self.names[:1] == ("self",) else self.names
+        return f"{self.name}({', '.join(names)})"
+
+
+def signatures(text: str) -> Iterator[Signature]:
+    """The functions and methods of a source text."""
+    for node in statements(text):
+        if isinstance(node, ast.FunctionDef):
+            yield signature(node, "")
+        elif isinstance(node, ast.ClassDef):
+            for each in node.body:
+                if isinstance(each, ast.FunctionDef):
+                    yield signature(each, f"{node.name}.")
+
+
+def signature(node: ast.FunctionDef, owner: str) -> Signature:
+    args = [*node.args.posonlyargs, *node.args.args]
+    names = tuple(each.arg for each in args)
+    least = len(names) - len(node.args.defaults)
+    return Signature(owner + node.name, names, least, node.args.vararg is not None)
+
+
+@cache
+def handed_out(module: str) -> dict[str, Signature]:
+    """The functions of a program as students get it, as far as the checks know them."""
+    texts = [text for name, text in load_given().items() if name.split("/")[0] == module]
+    found = {each.path: each for text in texts for each in signatures(text)}
+    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
+    for todo in load_rubric().todos:
+        path = todo.function.partition(":")[2]
+        if todo.module == module and f"def {todo.id}" in stubs:
+            owner = path.rpartition(".")[0]
+            for each in signatures(stubs[f"def {todo.id}"]):
+                whole = f"{owner}.{each.path}" if owner else each.path
+                found[whole] = Signature(whole, each.names, each.least, each.open)
+    return found
+
+
+class Names:
+    """The names of a submission beside those that were handed out."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.found: dict[str, dict[str, Signature]] = {}
+
+    def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
+        """What a failed check owes to a name or an argument; empty where it is something else."""
+        own = todo.function.partition(":")[2]
+        for path, words in self.changed(module).items():
+            name = path.rpartition(".")[2]
+            if path == own or re.search(rf"\b{re.escape(name)}\b", check.got):
+                return words
+        return next((words for error, words in ERRORS if re.search(error, check.got)), "")
+
+    def changed(self, module: str) -> Mapping[str, str]:
+        """By the name that was handed out, what has become of it."""
+        theirs, ours = handed_out(module), self.of(module)
+        told = {}
+        for path, meant in theirs.items() if ours else ():
+            found = ours.get(path)
+            words = otherwise(meant, found) if found else renamed(meant, module, theirs, ours)
+            if words:
+                told[path] = words
+        return told
+
+    def of(self, module: str) -> dict[str, Signature]:
+        """The functions of a program of the submission."""
+        if module not in self.found:
+            package, single = self.folder / module, self.folder / f"{module}.py"
+            paths = python_files(package) if package.is_dir() else [single]
+            texts = [read_source(path) for path in paths if path.is_file()]
+            self.found[module] = {each.path: each for text in texts for each in signatures(text)}
+        return self.found[module]
+
+
+def renamed(
+    meant: Signature, module: str, theirs: Mapping[str, Signature], ours: Mapping[str, Signature]
+) -> str:
+    """`World has no apply_damping; it has apply_damp: renamed?`, where a new name is much alike."""
+    new = [each for path, each in ours.items() if path not in theirs and each.owner == meant.owner]
+    near = max(new, key=lambda each: likeness(each.name, meant.name), default=None)
+    if near is None or likeness(near.name, meant.name) < ALIKE:
+        return ""
+    place = meant.owner or module
+    return f"{place} has no {meant.name}; it has {near.name}: renamed?"
+
+
+def likeness(first: str, second: str) -> float:
+    return SequenceMatcher(None, first, second).ratio()
+
+
+def otherwise(meant: Signature, found: Signature) -> str:
+    """Where a function takes other arguments than it is called with."""
+    if found.open or found.names == meant.names:
+        return ""
+    if sorted(found.names) == sorted(meant.names):
+        return f"It is {found.shown} here, and it is called as {meant.shown}: keep the order."
+    if found.least > len(meant.names) or len(found.names) < meant.least:
+        return f"It is {found.shown} here, and it is called as {meant.shown}: keep its arguments."
+    return ""
