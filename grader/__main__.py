@@ -1,12 +1,19 @@
 """`python -m grader`: the current folder is no place to import from, it may be a submission."""
 
 import os
+import signal
 import sys
 
 here = os.getcwd()
 kit = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:] = [kit, *(each for each in sys.path if os.path.abspath(each or here) != here)]
 
-from grader.cli import main  # noqa: E402
+try:
+    from grader.cli import main
 
-main()
+    main()
+except KeyboardInterrupt:  # while it starts, or between two commands' own words for it
+    print("stopped before the end", file=sys.stderr)
+    sys.exit(2)
+finally:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: nothing is left to be stopped

@@ -17,20 +17,30 @@ STEPS = (  # where a body was before a step, x, y and angle, where it is now, an
     ((-5.0, 20.0, -8.0), (-905.0, -400.0, -7.5), STEP),
     ((2.0, 3.0, 0.1), (2.3, 2.9, 0.1), 1 / 240),
     ((50.0, 50.0, 20.0), (50.0, 50.0, 20.0), STEP),
+    ((2100.28125, 650.40625, 1.53125), (2100.34375, 650.40625, 1.59375), STEP),  # far out, slow
+    ((0.5, 0.25, 0.03125), (0.75, -0.25, -0.03125), STEP),
 )
-BY_HAND = (4.0, 8.0)  # px; where the body is put after the last of these
-SHARES = (0.625, 0.25, 1.0, 0.0)
+# What a body has when it is drawn, as if it had just hit something; on none of it its place hangs.
+STATES = (  # velocity in px/s, spin in rad/s, mass in kg, restitution, friction
+    ((-90.28125, 10.40625), -3.015625, 1.125, 0.1875, 0.3125),
+    ((5.28125, -20.40625), 40.015625, 1 / 1024, 0.96875, 0.0),
+    ((0.0, 0.0), 0.0, 900.0, 0.0, 1.53125),
+    ((2000.28125, 0.40625), 0.28125, 1.0, 0.3, 0.6),
+)
+BY_HAND = (4.28125, 8.40625)  # px; where the body is put after the last of these
+SHARES = (0.625, 0.25, 1.0, 0.0, 0.53125, 0.03125)
 RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enough to be seen to move
 
 
 def a_body_is_drawn_on_its_way_through_the_step(lab: Lab) -> None:
     """A body is drawn part of its way, and stays where it is"""
     x, y, angle = lab.about(0.0, 64.0), lab.about(0.0, 64.0), lab.about(0.0, 1.0)
-    for begin, end, dt in STEPS:
+    for number, (begin, end, dt) in enumerate(STEPS):
         before = begin[0] + x, begin[1] + y, begin[2] + angle
         now = end[0] + x, end[1] + y, end[2] + angle
-        body = moved(lab, before, now, dt)
-        lab.put(body, vel=(-90.0, 10.0), omega=-3.0)  # as if it had just hit something
+        vel, omega, mass, restitution, friction = STATES[number % len(STATES)]
+        body = moved(lab, before, now, dt, mass, restitution=restitution, friction=friction)
+        lab.put(body, vel=vel, omega=omega)
         want_all_shares(lab, body, before, now)
     lab.put(body, pos=BY_HAND)
     want_all_shares(lab, body, before, (*BY_HAND, now[2]))
@@ -84,13 +94,10 @@ def say_angle(angle: float, digits: int) -> str:
     return f"{angle:.{digits}f} rad"
 
 
-def moved(lab: Lab, before: Place, now: Place, dt: float) -> Thing:
+def moved(lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface: float) -> Thing:
     """A body that a step of its world has brought from one place and angle to another."""
     vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
-    surface = {"restitution": 0.1875, "friction": 0.3125}
-    body = lab.circle(
-        before[:2], 10.0, 1.125, angle=before[2], vel=(vx, vy), omega=omega, **surface
-    )
+    body = lab.circle(before[:2], 10.0, mass, angle=before[2], vel=(vx, vy), omega=omega, **surface)
     lab.simulate(lab.world(body, bonus=True), [body], 1, dt)
     return body
 
