@@ -100,10 +100,15 @@ def standing_still(lab: Lab) -> Thing:
     """A world or space in the middle of something, with a body far below the window."""
     if lab.module == "pymunk_scene":
         space = lab.thing(lab.call("pymunk:Space"), "a Space")
-        for pos, spin in (((450.0, 300.0), 0.005), ((100.0, 9000.0), 0.0), ((460.0, 90.0), -3.0)):
+        for pos, spin in (
+            ((450.28125, 300.40625), 0.005),
+            ((100.0, 9000.0), 0.0),
+            ((460.0, 90.0), -3.0),
+        ):
             body = lab.thing(lab.call("pymunk:Body", 1.0, 100.0), "a Body")
-            lab.put(body, position=pos, velocity=(0.25, -2.0), angular_velocity=spin)
+            lab.put(body, position=pos, velocity=(0.25, -2.0), angular_velocity=spin, angle=0.53125)
             lab.tell(space, "add", body)
+        lab.put(space, gravity=(3.265625, -700.25))
         return space
     hook, bob = lab.circle((700, 90), 6, 0.0), lab.circle((840, 95), 24, vel=(3.0, 1.0))
     more = lab.circle((840, 190), 12)

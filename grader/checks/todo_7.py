@@ -65,6 +65,8 @@ def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
         f"at ({still.pos.x:g}, {still.pos.y:g}), turned by {still.angle:g} rad",
     )
     want_usual_settings(lab, lab.thing(space))
+    bare = sum(not each.shapes for each in space.bodies if each.kind == "dynamic")
+    lab.want(not bare, "a shape around each body that moves", f"{bare} without one")
 
 
 def want_usual_settings(lab: Lab, space: Thing) -> None:

@@ -98,6 +98,10 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
     want_the_same_contacts(lab, [*level, *upright], [floor, wall])
     lab.ran("find_contacts with balls that overlap by half a pixel, left of 0 and above it")
     want_the_same_contacts(lab, AT_THE_RIM, [])
+    lab.ran("find_contacts with balls that overlap just left of 0, above it, at 640 and at 928 px")
+    at_0 = [Disc(each, 300.0, 10.0) for each in (-8.0, -25.0)]
+    at_0 += [Disc(600.0, each, 10.0) for each in (-8.0, -25.0)]
+    want_the_same_contacts(lab, [*at_0, *overlapping_at(640.0), *overlapping_at(928.0)], [])
 
 
 def overlapping_at(line: float) -> list[Disc]:
@@ -192,6 +196,10 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
 
 def work(lab: Lab, balls: list[Disc]) -> int:
     """How many lines run to find the contacts. Some of these must be found: no work is no way."""
+    few = crowd(lab, balls[:2], [])[0]
+    lab.put(few, grid=True)
+    for _ in range(101):  # as in a scene that has run for a while
+        lab.tell(few, "find_contacts")
     world, bodies = crowd(lab, balls, [])
     found = touching(lab, world, bodies, grid=True)
     touched, right = len(found), len(balls) // 2

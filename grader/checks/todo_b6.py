@@ -4,9 +4,10 @@ from grader.checks.pacing import want_a_proper_end
 from grader.judge.lab import Lab
 from grader.protocol import BodyValue, Event, Played
 
-# What is held at each click, and how many times as heavy the ball must be. A click has its own
-# frame, but for those that are twice: the next ball is dropped with the same keys still down.
-CLICKS = (
+# What is held at each click, and how many times as heavy the ball must be. Each click has a frame
+# of its own but for the last two, which come in one.
+CLICKS = 2 * (
+    ("left shift", 10),
     ("", 1),
     ("left shift", 10),
     ("left shift", 10),
@@ -32,7 +33,7 @@ def shift_drops_heavier_balls(lab: Lab) -> None:
     right, down = lab.whole(0, 40), lab.whole(0, 40)
     places = [(x + right, y + down) for x, y in PLACES]
     clicks = [
-        Event(3 + number, "click", place, held=keys)
+        Event(3 + min(number, len(CLICKS) - 2), "click", place, held=keys)
         for number, (place, (keys, _)) in enumerate(zip(places, CLICKS, strict=True))
     ]
     played = lab.play([17] * (len(clicks) + 5), clicks, physics=False)

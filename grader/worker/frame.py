@@ -4,6 +4,7 @@ A function may change what its docstring names and nothing else. The child only 
 what may change is the judge's to say.
 """
 
+import math
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
@@ -125,7 +126,9 @@ def alike(before: Numbers, after: Numbers) -> bool:
     return before == after or (
         len(before) == len(after)
         and all(
-            isinstance(a, float) and isinstance(b, float) and abs(a - b) <= 1e-9 * max(1.0, abs(a))
+            isinstance(a, float)
+            and isinstance(b, float)
+            and math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)  # infinity is like itself alone
             for a, b in zip(before, after, strict=True)
         )
     )
