@@ -1,17 +1,22 @@
 """The notebooks of a course: `engine` follows its rubric, the others ask what it has.
 
+The questions for practice in `quiz` are those of the page handouts/quiz.md.
+
 A cell that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It is left out
 where a course has none of them, and so is a notebook in which nothing is left to do.
 """
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 from grader.judge.course import Course
 from grader.judge.rubric import Rubric
 
-ENGINE = "engine.ipynb"
+ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
+PRACTICE = "practice-"  # and a number: the questions of the page
+QUESTION = re.compile(r"<!--% if asked\((.*?)\) %-->\n(.*?)\n<!--% endif %-->", re.S)
 
 Cell = dict[str, Any]
 
@@ -50,6 +55,17 @@ def engine_notebook(rubric: Rubric) -> Cell:
     python = {"display_name": "Python 3", "language": "python", "name": "python3"}
     metadata = {"kernelspec": python, "language_info": {"name": "python"}}
     return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+
+
+def with_practice(notebook: Cell, page: str) -> Cell:
+    """The quiz with the questions of a page, each with its TODOs, after the words about them."""
+    cells = [cell for cell in notebook["cells"] if not cell["id"].startswith(PRACTICE)]
+    at = 1 + next(n for n, cell in enumerate(cells) if cell["id"] == "about-practice")
+    asked = [
+        markdown(f"{PRACTICE}{number}", text, {"todos": re.findall(r'"(\w+)"', about)})
+        for number, (about, text) in enumerate(QUESTION.findall(page), 1)
+    ]
+    return notebook | {"cells": [*cells[:at], *asked, *cells[at:]]}
 
 
 def markdown(name: str, text: str, metadata: Cell) -> Cell:

@@ -406,10 +406,21 @@ def test_the_quiz_and_its_answers_belong_together() -> None:
     quiz = text_of("quiz.md")
     questions = re.findall(r"^\*\*(\d+)\. ", quiz, re.M)
     assert len(questions) >= 5
-    assert re.findall(r"^- ([A-D])\. ", quiz, re.M) == [*"ABCD"] * len(questions)
+    found = re.findall(r"<summary>([A-D])\. .+</summary>\n<p>(Right)?.+</p>\n</details>", quiz)
+    assert [letter for letter, _ in found] == [*"ABCD"] * len(questions)
+    for number in range(len(questions)):
+        assert sum(bool(right) for _, right in found[4 * number :][:4]) == 1, number + 1
+
+
+def test_the_quiz_that_counts_asks_something_else_and_has_these_answers() -> None:
+    notebook = json.loads((SOLUTION / "notebooks" / "quiz.ipynb").read_text(encoding="utf-8"))
+    cells = {cell["id"]: "".join(cell["source"]) for cell in notebook["cells"]}
     answers = table_below(text_of("instructor/quiz-answers.md"), "## Quiz")
-    assert [row[0] for row in answers] == questions
-    assert all(row[1] in "ABCD" for row in answers)
+    assert [row[0] for row in answers] == [name[9:] for name in cells if name.startswith("questio")]
+    for number, letter, _ in answers:
+        assert f'answer_{number} = "{letter.lower()}"' in cells[f"answer-{number}"]
+        asked = cells[f"question-{number}"].splitlines()[2]
+        assert asked not in text_of("quiz.md") and len(asked) > 40
 
 
 def test_the_journal_is_marked_as_in_its_notebook() -> None:

@@ -1,5 +1,7 @@
 """Run a notebook's code cells in order, as Jupyter does, and print what failed as JSON.
 
+With it comes what the last of them said.
+
     python run_cells.py NOTEBOOK [--draw]
 
 A failing cell does not stop the next one. Figures are drawn where that is asked for, since
@@ -36,17 +38,19 @@ def main(path, draws):
         stand_in()
     os.chdir(path.parent)
     sys.path.insert(0, "")
-    space, failed = {"__name__": "__main__"}, {}
+    space, failed, said = {"__name__": "__main__"}, {}, ""
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] != "code":
             continue
+        out = io.StringIO()
         try:
-            with redirect_stdout(io.StringIO()):
+            with redirect_stdout(out):
                 exec(compile("".join(cell["source"]), cell["id"], "exec"), space)
         except Exception as error:
             failed[cell["id"]] = f"{type(error).__name__}: {error}"
+        said = out.getvalue()
     kept = {name: space.get(name) for name in ("by_step", "by_passes", "spring_curves")}
-    print(json.dumps({"failed": failed, "kept": kept}))
+    print(json.dumps({"failed": failed, "kept": kept, "said": said}))
 
 
 main(Path(sys.argv[1]).resolve(), "--draw" in sys.argv)

@@ -99,7 +99,7 @@ def make_class(folder):
     replace_in(looping["integrators"], "answer-8a", LOOP)
     without_cell(looping["integrators"], "one-step-8b")
     without_cell(looping["quiz"], "quiz-2")
-    replace_in(looping["quiz"], "answer-3", 'answer_3 = "d"')
+    replace_in(looping["quiz"], "answer-3", 'answer_3 = "a"')
     hand_in(folder / "dora", "solution", looping)
 
     hand_in(folder / "emil", "solution", answers())

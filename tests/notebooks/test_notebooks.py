@@ -24,10 +24,16 @@ from handed_in import (
     source,
 )
 
+from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
-from grader.maintain.notebooks import engine_notebook, tidied
+from grader.maintain.notebooks import PRACTICE, engine_notebook, tidied, with_practice
 
 RUNNER = Path(__file__).with_name("run_cells.py")
+MISSING = {  # what Run All says in the end of a notebook as it was handed out
+    "accuracy": ["spring_curves", "by_step", "by_passes", "spring_error", "worst_stretch"],
+    "integrators": ["semi_implicit_euler", "velocity_verlet", "rk4"],
+    "quiz": [f"answer_{number}" for number in range(1, 9)],
+}
 ALL = pytest.mark.parametrize("name", NAMES)
 KINDS = {
     "code": {"", "locked", "solution", "grade+locked", "grade+solution"},
@@ -86,6 +92,15 @@ def test_no_graded_cell_ends_in_a_value(name):
     for cell in cells(name):
         if kind(cell) == "grade+locked":
             assert not isinstance(ast.parse(source(cell)).body[-1], ast.Expr), cell["id"]
+
+
+def test_the_quiz_begins_with_the_pages_questions_for_practice():
+    page = (KIT / "handouts" / "quiz.md").read_text(encoding="utf-8")
+    notebook = read(SOURCE / "quiz.ipynb")
+    assert with_practice(notebook, page) == notebook, "run: make notebooks"
+    practice = [cell for cell in notebook["cells"] if cell["id"].startswith(PRACTICE)]
+    assert len(practice) == len(re.findall(r"^\*\*\d", page, re.M)) >= 5
+    assert all(kind(cell) == "" and source(cell).count("<details>") == 4 for cell in practice)
 
 
 def test_the_quiz_has_at_least_five_questions_and_the_journal_three():
@@ -167,15 +182,40 @@ def run_of(complete):
 
 @ALL
 def test_the_solutions_notebooks_run_without_a_failure(name, run_of):
-    assert run_of(name)["failed"] == {}
+    found = run_of(name)
+    assert found["failed"] == {} and " yet: " not in found["said"]
 
 
 @ALL
 def test_the_starters_fail_only_where_there_is_work_to_do(name, tmp_path):
     notebook = read(RELEASED / f"{name}.ipynb")
-    failed = set(run(hand_in(tmp_path / "tree", "starter", {name: notebook}), name)["failed"])
+    found = run(hand_in(tmp_path / "tree", "starter", {name: notebook}), name)
     hidden_only = {cell["id"] for cell in cells(name) if cell["id"].startswith("swing-")}
-    assert failed == graded_by_code(name) - hidden_only
+    assert set(found["failed"]) == graded_by_code(name) - hidden_only
+    missing = re.findall(r"\w+", found["said"].partition(" yet: ")[2])
+    assert missing == MISSING.get(name, [])
+
+
+@pytest.mark.parametrize("name", MISSING)
+def test_run_all_goes_past_every_cell_that_may_fail(name):
+    """Jupyter stops at a cell that raises, unless it says that it may."""
+    for cell in cells(name, RELEASED):
+        if kind(cell) in ("solution", "grade+locked", "grade+solution"):
+            may_fail = "raises-exception" in cell["metadata"].get("tags", [])
+            assert may_fail == (cell["cell_type"] == "code"), cell["id"]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", MISSING)
+def test_run_all_in_jupyters_own_way_goes_to_the_end(name, tmp_path):
+    nbclient = pytest.importorskip("nbclient", reason="comes with the extra notebooks")
+    nbformat = pytest.importorskip("nbformat")
+    folder = hand_in(tmp_path / "tree", "starter", {name: read(RELEASED / f"{name}.ipynb")})
+    notebook = nbformat.read(folder / "notebooks" / f"{name}.ipynb", as_version=4)
+    place = {"metadata": {"path": str(folder / "notebooks")}}
+    nbclient.NotebookClient(notebook, timeout=60, resources=place).execute()
+    (last,) = [cell for cell in notebook.cells if cell.id == "given-standing"]
+    assert " yet: " in last.outputs[0].text
 
 
 def test_the_measured_curves_are_the_lessons(run_of):
@@ -200,7 +240,7 @@ WRONG = [
     ("integrators", "answer-8c", "accel(x + dt * v3)", "accel(x + dt * v1)", "8c"),
     ("accuracy", "answer-spring-error", "calls += 1", "calls = steps", "test-spring-error"),
     ("accuracy", "answer-rod-curves", "(30, 60, 120, 240, 480)", "(30, 60, 120)", "rod-curves"),
-    ("quiz", "answer-4", '"d"', '"a"', "quiz-4"),
+    ("quiz", "answer-4", '"b"', '"a"', "quiz-4"),
 ]
 MORE_WRONG = [
     ("accuracy", "answer-spring-error", "(v - EXACT[1]) / OMEGA", "0", "test-spring-error"),

@@ -22,7 +22,9 @@ def share(intake: Intake, people: ClassList, files_of: Callable[[Found], str]) -
         everybody = [*names.values(), *absent]
         members = {each.name: with_group(each, everybody) for each in here}
         intake.found = [members.get(each.name, each) for each in intake.found]
-        if here and len({files_of(each) for each in here}) == 1:
+        if not absent:
+            continue
+        if len(here) == 1 or len({files_of(each) for each in here}) == 1:
             first = members[here[0].name]
             mates = (replace(first, name=mate, handed_in_by=first.name) for mate in absent)
             intake.found += [with_group(mate, everybody) for mate in mates]

@@ -1,6 +1,7 @@
 """The notebooks of both trees: `engine` follows the rubric, the starter's are nbgrader's release.
 
-Edit `solution/notebooks/` in Jupyter. `engine.ipynb` alone is written from the rubric.
+Edit `solution/notebooks/` in Jupyter. `engine.ipynb` is written from the rubric, and the questions
+for practice in `quiz.ipynb` from the page of the handouts.
 """
 
 import os
@@ -12,7 +13,7 @@ from pathlib import Path
 
 from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse, make_course
 from grader.judge.rubric import load_rubric
-from grader.maintain.notebooks import engine_notebook, read, tidied, write
+from grader.maintain.notebooks import QUIZ, engine_notebook, read, tidied, with_practice, write
 
 
 def release(kit: Path) -> list[str]:
@@ -21,6 +22,9 @@ def release(kit: Path) -> list[str]:
     changed = []
     if write(solution / "engine.ipynb", engine_notebook(load_rubric())):
         changed.append("solution/notebooks/engine.ipynb")
+    page = (kit / "handouts" / "quiz.md").read_text(encoding="utf-8")
+    if write(solution / QUIZ, with_practice(read(solution / QUIZ), page)):
+        changed.append(f"solution/notebooks/{QUIZ}")
     for path in sorted(solution.glob("*.ipynb")):
         if write(path, tidied(read(path))):
             changed.append(f"solution/notebooks/{path.name}")
