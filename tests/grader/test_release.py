@@ -513,19 +513,31 @@ def test_only_what_runs_is_required():
     )
 
 
-def test_a_student_unpacks_and_checks(released: Released, tmp_path: Path):
-    """With the packages of this environment."""
+NO_FORK = "import os; del os.fork; "  # as on Windows
+
+
+@pytest.mark.parametrize(("first", "folder"), [("", "mini_engine"), (NO_FORK, ".")])
+def test_a_student_unpacks_checks_and_hands_in(
+    released: Released, tmp_path: Path, first: str, folder: str
+):
+    """With the packages of this environment; `test_walk.py` has the whole lab."""
     tree = tmp_path / "a course" / releases.NAME
     shutil.copytree(released.tree, tree)
+
+    def types(*words: str) -> tuple[int, str]:
+        argv = ["grader", *words]
+        code = f"import runpy; sys.argv = {argv!r}; runpy.run_module('grader', run_name='__main__')"
+        command = releases.alone(released.installed, first + code)
+        done = subprocess.run(command, cwd=tree / folder, capture_output=True, text=True)
+        assert not done.stderr
+        return done.returncode, done.stdout
+
     shutil.copyfile(KIT / "solution" / "integrators.py", tree / "integrators.py")
-    words = ["grader", "check", "--todo", "1", "--todo", "8a"]
-    code = f"import runpy; sys.argv = {words!r}; runpy.run_module('grader', run_name='__main__')"
-    for folder in (tree, tree / "mini_engine"):
-        command = releases.alone(released.installed, code)
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-        assert done.returncode == 1, done.stderr
-        assert re.search("^NOT STARTED 1$", done.stdout, re.M)
-        assert re.search("^PASSED +8a ", done.stdout, re.M)
+    status, out = types("check", "--todo", "1", "--todo", "8a")
+    assert status == 1 and re.search("^NOT STARTED 1$", out, re.M), out
+    assert re.search("^PASSED +8a ", out, re.M), out
+    status, out = types("hand-in")
+    assert status == 0 and (tree / "hand-in.zip").is_file(), out
 
 
 @pytest.mark.soak
