@@ -43,8 +43,7 @@ def check_command(
     if undo:
         put_back(folder, undo)
         return
-    wanted = known_todos(todo, chosen)
-    options = Options(only=wanted, replays=replays_in(folder), trusted=True, course=chosen)
+    options = own_options(known_todos(todo, chosen), chosen, replays_in(folder))
     if watch:
         result = watched(folder, options)
     else:
@@ -63,6 +62,11 @@ def told(result: Result, options: Options, folder: Path, whole: bool) -> None:
         if words := "" if whole else hidden_points_note(result):
             say(words, console)
         say(f"To hand in: {command('hand-in')}{until(options.course)}", console)
+
+
+def own_options(todos: frozenset[str], course: Course, replays: Path | None = None) -> Options:
+    """How `check` grades: as `grade` does without a reference, but for what confines."""
+    return Options(only=todos, replays=replays, trusted=True, course=course)
 
 
 def put_back(folder: Path, names: list[str]) -> None:

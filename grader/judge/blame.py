@@ -16,6 +16,9 @@ from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
 
 MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
+MOST_ASKED = (
+    60  # times that checks are asked again, so that a tree with many faults is told of soon
+)
 
 Key = tuple[str, str]  # the ids of a TODO and a check
 OpenChild = Callable[[int], Child]
@@ -51,6 +54,8 @@ class Blame:
     changes: Sequence[Changed]
     open_with: Callable[[Sequence[Changed]], OpenChild]  # children of the tree with these undone
     again: Callable[[Key, OpenChild], Lab]
+    spent: Callable[[], bool] = lambda: False  # whether the submission has used up its time
+    asked: int = 0
     found: dict[Key, Blamed] = field(default_factory=dict)
     seen: dict[Key, list[Observation]] = field(default_factory=dict)  # with all of them undone
 
@@ -61,7 +66,7 @@ class Blame:
         open_child = self.open_with(self.changes)
         for key, check in failed.items():
             first = alike.setdefault(check.got, key) if check.state == "error" else key
-            if first is key:
+            if first is key and not self._is_enough():
                 self._ask(key, check, open_child, differ)
         alone = dict.fromkeys(differ, self.changes[:1]) if len(self.changes) == 1 else {}
         if not alone and differ and len(self.changes) <= MOST_ALONE:
@@ -76,10 +81,17 @@ class Blame:
     def _ask(
         self, key: Key, check: CheckResult, open_child: OpenChild, differ: dict[Key, bool]
     ) -> None:
-        lab = self.again(key, open_child)
+        lab = self._asked(key, open_child)
         self.seen[key] = lab.observations
         if makes_a_difference(lab, check):
             differ[key] = lab.failure is None
+
+    def _asked(self, key: Key, open_child: OpenChild) -> Lab:
+        self.asked += 1
+        return self.again(key, open_child)
+
+    def _is_enough(self) -> bool:
+        return self.asked >= MOST_ASKED or self.spent()
 
     def _alone(
         self, failed: Mapping[Key, CheckResult], differ: Mapping[Key, bool]
@@ -91,7 +103,9 @@ class Blame:
             open_child = self.open_with([change]) if left else None
             for key in left:
                 assert open_child is not None
-                lab = self.again(key, open_child)
+                if self._is_enough():
+                    return found
+                lab = self._asked(key, open_child)
                 if lab.failure is None or (
                     not differ[key] and makes_a_difference(lab, failed[key])
                 ):

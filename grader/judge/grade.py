@@ -167,7 +167,7 @@ class Grading:
         seen = dict(plugin.seen)
         failed = {key: check for key, check in plugin.results.items() if check.failed}
         if failed and (changed := self.changed_given()):
-            blame = Blame(changed, self.open_with, plugin.again)
+            blame = Blame(changed, self.open_with, plugin.again, lambda: bool(plugin.budget.cut))
             blame.look_into(failed)
             self.blamed = blame.found
             seen |= blame.seen

@@ -1,12 +1,16 @@
 """Given code that was changed: named for what it does, and put back by its name."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
 
+from grader.judge.blame import MOST_ASKED, Blame
+from grader.judge.failures import NotYet
 from grader.judge.given import Changed, changes, restored
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult
 from grader.judge.submission import load_given
 from grader.maintain.verify import shared_worker
 from grader.restore import changed_in
@@ -163,6 +167,29 @@ def test_an_import_that_went_away_is_told_where_nothing_runs(hand_in):
     change(tree, "mini_engine/joints.py", "from .constants import BETA\n", "")
     failed = told(tree, "3")["3"]
     assert failed and all("`from .constants import BETA` is gone" in e["Meaning"] for e in failed)
+
+
+def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
+    """Each time costs as much as the check; what cannot be told apart is told together."""
+
+    class Failing:
+        failure, ended, observations = NotYet("ran", "1", "2"), False, ()
+        connection = SimpleNamespace(swapped=[])
+
+    def again(key, undone):
+        lab = Failing()
+        lab.failure = None if len(undone) == 5 else Failing.failure
+        return lab
+
+    five = [Changed(f"f{n}", "a.py", n, "x", "y", n, n) for n in range(5)]
+    failed = {
+        ("1", f"c{n}"): CheckResult(f"c{n}", "C", "unit", "not yet", 0, 1, "ran", "1", "2")
+        for n in range(40)
+    }
+    blame = Blame(five, lambda undone: undone, again)
+    blame.look_into(failed)
+    assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
+    assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
 
 
 # ---------------------------------------------------------------- putting it back

@@ -9,8 +9,7 @@ import shutil
 import subprocess
 import sys
 import zipfile
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,17 +21,26 @@ from rich.console import Console
 from grader.checks import exact
 from grader.judge import recorded
 from grader.judge.grade import KIT, Options, grade
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.maintain import release as releases
+from grader.maintain import students_copy
 from grader.maintain.bank import Member, members
 from grader.maintain.cut import pruned, with_bodies
 from grader.maintain.leaks import Secret, leaks_in_text, secrets_of, texts_in
 from grader.maintain.pages import as_page
 from grader.maintain.release import Refused, build, build_wheel, look_for_leaks, pinned, prove
-from grader.maintain.students_copy import HELPERS, cut_checks, hidden_checks, visible
+from grader.maintain.students_copy import (
+    HELPERS,
+    Tree,
+    cut_checks,
+    hidden_checks,
+    record,
+    visible,
+)
 from grader.maintain.sync import students_files
 from grader.maintain.verify import Report, shared_worker
+from grader.todo_regions import replaced
 
 WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" and m.is_patch]
 REGIONS = {todo.id: todo.file for todo in load_rubric().todos if todo.function}
@@ -40,16 +48,20 @@ LESSON = [member for member in WRONG if not member.bonus]
 EACH = list({REGIONS[min(member.todos)]: member for member in LESSON}.values())  # one a file
 SAMPLE = EACH[::2]  # the soak has them all
 
+ASKED = frozenset({"8a"}).union(*(member.todos for member in SAMPLE))  # of the copy in `make test`
+
 GRADE = """
 import json, sys
 from pathlib import Path
 from grader.judge.children import start_worker
-from grader.judge.grade import Options, grade
+from grader.judge.course import read_course
+from grader.judge.grade import grade
 from grader.report.files import as_json
+from grader.student import own_options
 worker = start_worker()
 for line in sys.stdin:
     path, todos = json.loads(line)
-    result = grade(Path(path), Options(reference=None, only=frozenset(todos)), worker)
+    result = grade(Path(path), own_options(frozenset(todos), read_course()), worker)
     print(as_json(result).decode().replace("\\n", ""))
 worker.close()
 """
@@ -68,8 +80,8 @@ class Released:
         (wheel,) = self.tree.glob("*.whl")
         return wheel
 
-    def grade(self, submissions: list[tuple[Path, frozenset[str]]]) -> list[Result]:
-        """What the students' copy of the grader says."""
+    def check(self, submissions: list[tuple[Path, frozenset[str]]]) -> list[Result]:
+        """What `check` says in the students' copy of the grader."""
         asked = "\n".join(json.dumps([str(path), sorted(todos)]) for path, todos in submissions)
         done = subprocess.run(
             releases.alone(self.installed, f"exec({GRADE!r})"),
@@ -111,7 +123,8 @@ def wrong_in(work: Path, chosen: list[Member]) -> dict[str, Path]:
 def released(once, expected_runs: bytes) -> Released:
     """Made by one of the processes that run the tests, with the runs that are recorded already.
 
-    What the copy makes of both trees is asked by `make release` and in `make soak`.
+    It has the answers of the TODOs in ASKED alone. What the copy makes of both trees is asked by
+    `make release` and in `make soak`.
     """
 
     def fill(work: Path) -> None:
@@ -119,6 +132,7 @@ def released(once, expected_runs: bytes) -> Released:
         marks = {"solution": most}
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(releases, "record_expected", lambda *_: expected_runs)
+            patched.setattr(students_copy, "record", recorded_for_some)
             patched.setattr(
                 releases,
                 "grade_with",
@@ -129,6 +143,11 @@ def released(once, expected_runs: bytes) -> Released:
     return released_in(once("release", fill), SAMPLE)
 
 
+def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.Recorded:
+    """The right answers of those TODOs alone that `make test` asks of the copy."""
+    return record(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
+
+
 @pytest.fixture(scope="session")
 def secrets() -> list[Secret]:
     return secrets_of(KIT)
@@ -137,33 +156,86 @@ def secrets() -> list[Secret]:
 # ---------------------------------------------------------------- the students' grader
 
 
-def compare(released: Released, chosen: list[Member]) -> Counter[str]:
-    """Grade with both graders: every visible check must end alike. Counts the mistakes named."""
-    submissions = [(released.wrong[member.name], member.todos) for member in chosen]
-    named: Counter[str] = Counter()
-    for (path, todos), theirs in zip(submissions, released.grade(submissions), strict=True):
+Pair = tuple[TodoResult, TodoResult]  # ours and theirs
+
+
+def as_told(todo: TodoResult) -> dict[str, CheckResult]:
+    """The checks of a TODO, without what only one of both graders may know."""
+    return {
+        check.id: msgspec.structs.replace(check, meaning="", replay=None) for check in todo.checks
+    }
+
+
+def compare(released: Released, submissions: list[tuple[Path, frozenset[str]]]) -> list[Pair]:
+    """Ask `check` of the copy and `grade` of the kit: every visible check must end alike, with the
+    same words. Returns what both say of each TODO."""
+    pairs: list[Pair] = []
+    for (path, todos), theirs in zip(submissions, released.check(submissions), strict=True):
         ours = grade(path, Options(reference=None, only=todos), shared_worker())
         for our, their in zip(ours.todos, theirs.todos, strict=True):
-            states = {check.id: (check.state, check.points) for check in our.checks}
-            shown = {check.id: (check.state, check.points) for check in their.checks}
-            assert shown == {name: states[name] for name in shown}, path.name
+            shown, here = as_told(their), as_told(our)
+            assert shown == {name: here[name] for name in shown}, path.name
             assert their.misconception in (our.misconception, None), path.name
-            if our.misconception:
-                named["same" if their.misconception else "none"] += 1
-    return named
+            pairs.append((our, their))
+    return pairs
+
+
+def share_named(pairs: list[Pair]) -> float:
+    """How many of the mistakes that the kit names the copy names as well."""
+    named = [their.misconception for our, their in pairs if our.misconception]
+    return sum(map(bool, named)) / len(named)
+
+
+def of_the_bank(released: Released, chosen: list[Member]) -> list[tuple[Path, frozenset[str]]]:
+    return [(released.wrong[member.name], member.todos) for member in chosen]
 
 
 def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released):
-    named = compare(released, SAMPLE)
     assert len(SAMPLE) >= 4
-    assert named["same"] > 0.7 * named.total() > 0
+    assert share_named(compare(released, of_the_bank(released, SAMPLE))) > 0.7
+
+
+STEP = "v = v + accel(x) * dt\n    return x + v * dt, v"
+ON_THIS_MACHINE = {  # what may go otherwise here than there: imports, given files, folders
+    "imports-what-is-installed": f"import rich\n    {STEP}",
+    "imports-the-grader": f"from grader import grade\n    {STEP}",
+    "tries-an-import": f"try:\n        import msgspec\n    except ImportError:\n        {STEP}",
+    "imports-its-own": f"import own_helper\n    {STEP}",
+    "imports-given-code": f"import lab_runtime\n    {STEP}",
+    "reads-beside-it": f"open('own_helper.py').close()\n    {STEP}",
+    "reads-what-is-not-handed-in": f"open('build/replays/.gitignore').close()\n    {STEP}",
+    "reads-the-environment": f"import os\n    x += 'COURSE_FILE' in os.environ\n    {STEP}",
+    "asks-its-arguments": f"import sys\n    x += len(sys.argv) - 1\n    {STEP}",
+    "uses-changed-given-code": "v = explicit_euler(x, v, dt, accel)[1]\n    return x + v * dt, v",
+}
+
+
+def test_a_machine_with_other_things_on_it_changes_nothing(released: Released, tmp_path: Path):
+    """`check` runs in the student's folder, on any machine, and says what `grade` will."""
+    text = (KIT / "starter" / "integrators.py").read_text(encoding="utf-8")
+    trees = []
+    for name, body in ON_THIS_MACHINE.items():
+        tree = tmp_path / name
+        (tree / "build" / "replays").mkdir(parents=True)
+        (tree / "build" / "replays" / ".gitignore").write_text("*\n", encoding="utf-8")
+        (tree / "own_helper.py").write_text("", encoding="utf-8")
+        mine = replaced(text, {"8a": tuple(f"    {body}".splitlines())})
+        if name == "uses-changed-given-code":
+            mine = mine.replace("    return x + v * dt, v + accel(x) * dt", "    return x, v", 1)
+        (tree / "integrators.py").write_text(mine, encoding="utf-8")
+        trees.append((tree, frozenset({"8a"})))
+    pairs = zip(ON_THIS_MACHINE, compare(released, trees), strict=True)
+    states = {name: their.state for name, (_, their) in pairs}
+    assert states["imports-what-is-installed"] == states["imports-the-grader"] == "error"
+    assert states["reads-what-is-not-handed-in"] == "error"
+    right = ("tries-an-import", "imports-its-own", "imports-given-code", "reads-beside-it")
+    assert {states[name] for name in right} == {"passed"}
 
 
 @pytest.mark.soak
 def test_so_it_is_for_all_wrong_submissions(tmp_path: Path):
     released = make(tmp_path, WRONG)
-    named = compare(released, WRONG)
-    assert named["same"] > 0.9 * named.total() > 0
+    assert share_named(compare(released, of_the_bank(released, WRONG))) > 0.9
 
 
 def test_the_points_of_both_graders_belong_together():
@@ -180,7 +252,7 @@ def test_the_wheel_has_the_visible_rubric(released: Released):
 
 
 def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path, monkeypatch):
-    (none,) = released.grade([(KIT / "starter", frozenset())])
+    (none,) = released.check([(KIT / "starter", frozenset())])
     monkeypatch.setattr(releases, "grade_with", lambda *_: none)
     with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
         prove(released.wheel, tmp_path / "installed")
@@ -472,19 +544,31 @@ def test_only_what_runs_is_required():
     )
 
 
-def test_a_student_unpacks_and_checks(released: Released, tmp_path: Path):
-    """With the packages of this environment."""
+NO_FORK = "import os; del os.fork; "  # as on Windows
+
+
+@pytest.mark.parametrize(("first", "folder"), [("", "mini_engine"), (NO_FORK, ".")])
+def test_a_student_unpacks_checks_and_hands_in(
+    released: Released, tmp_path: Path, first: str, folder: str
+):
+    """With the packages of this environment; `test_walk.py` has the whole lab."""
     tree = tmp_path / "a course" / releases.NAME
     shutil.copytree(released.tree, tree)
+
+    def types(*words: str) -> tuple[int, str]:
+        argv = ["grader", *words]
+        code = f"import runpy; sys.argv = {argv!r}; runpy.run_module('grader', run_name='__main__')"
+        command = releases.alone(released.installed, first + code)
+        done = subprocess.run(command, cwd=tree / folder, capture_output=True, text=True)
+        assert not done.stderr
+        return done.returncode, done.stdout
+
     shutil.copyfile(KIT / "solution" / "integrators.py", tree / "integrators.py")
-    words = ["grader", "check", "--todo", "1", "--todo", "8a"]
-    code = f"import runpy; sys.argv = {words!r}; runpy.run_module('grader', run_name='__main__')"
-    for folder in (tree, tree / "mini_engine"):
-        command = releases.alone(released.installed, code)
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-        assert done.returncode == 1, done.stderr
-        assert re.search("^NOT STARTED 1 ", done.stdout, re.M)
-        assert re.search("^PASSED +8a ", done.stdout, re.M)
+    status, out = types("check", "--todo", "1", "--todo", "8a")
+    assert status == 1 and re.search("^NOT STARTED 1$", out, re.M), out
+    assert re.search("^PASSED +8a ", out, re.M), out
+    status, out = types("hand-in")
+    assert status == 0 and (tree / "hand-in.zip").is_file(), out
 
 
 @pytest.mark.soak
