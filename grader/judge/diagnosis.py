@@ -147,20 +147,30 @@ class Diagnosis:
         names = dict.fromkeys(name for n in numbers for name in self.seen[n].like)
         kinds = [name for name in names if not name.startswith("_")]
         best: list[Finding] = []
-        for ways in ([()], combinations(kinds, 1), combinations(kinds, 2)):
-            for way in ways:
-                group = self.groups(numbers, way)
-                found = [
-                    each
-                    for where, some in group
-                    for each in self.named(where, some)
-                    if len(each.explains) > len(way)
-                ]
-                if explained(found) > explained(best):
-                    best = found
-            if best:
-                break
+        for way in [(), *combinations(kinds, 1), *combinations(kinds, 2)]:
+            if best and len(way) == 2:
+                break  # the smaller the groups are, the more fits by chance
+            group = self.groups(numbers, way)
+            found = [
+                each
+                for where, some in group
+                for each in self.named(where, some)
+                if len(each.explains) > len(way)
+            ]
+            if self.explained(found) > self.explained(best):
+                best = found
         return best
+
+    def explained(self, findings: list[Finding]) -> int:
+        """How many wrong parts of answers these mistakes explain."""
+        return len(
+            {
+                (n, part)
+                for f in findings
+                for n in f.explains
+                for part in f.changed & self.seen[n].wrong
+            }
+        )
 
     def groups(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
         """The questions by what they are like in these ways."""
@@ -265,10 +275,6 @@ class Diagnosis:
         """Whether a mistake would show outside of these questions too."""
         outside = set(range(len(self.seen))).difference(numbers)
         return any(p is not None and p.wrong for p in (self.predicted(mistake, n) for n in outside))
-
-
-def explained(findings: Iterable[Finding]) -> int:
-    return len(frozenset().union(*(each.explains for each in findings)))
 
 
 def seen_of(observations: Sequence[Observation]) -> Iterable[Seen]:
