@@ -60,25 +60,37 @@ class Seen:
         ours, theirs = len(self.numbers), len(flat(self.right))
         return "" if ours == theirs else f"there are {ours} {self.about} instead of {theirs}"
 
-    @property
+    @cached_property
     def numbers(self) -> list[float]:
         return flat(self.answer)
 
-    def part(self, name: str, answer: Any) -> Any:
-        """A part of an answer; all of it where it is another kind of thing."""
-        numbers, places = flat(answer), parts.get(self.about, {}).get(name)
-        if not places or len(numbers) <= max(places):
-            return answer
-        return [numbers[place] for place in places]
+    @cached_property
+    def pieces(self) -> dict[str, Any]:
+        """The parts of the answer by their names."""
+        return pieces_of(self.about, self.answer)
+
+    @cached_property
+    def right_pieces(self) -> dict[str, Any]:
+        """The same of the right one."""
+        return pieces_of(self.about, self.right)
 
     @cached_property
     def wrong(self) -> frozenset[str]:
         """The parts of the answer that are wrong."""
-        names = [] if self.kind else list(parts.get(self.about, {}))
         if alike(self.answer, self.right):
             return frozenset()
-        off = [n for n in names if not alike(self.part(n, self.answer), self.part(n, self.right))]
+        names = [] if self.kind else parts.get(self.about, {})
+        off = [name for name in names if not alike(self.pieces[name], self.right_pieces[name])]
         return frozenset(off) or frozenset({WHOLE})
+
+
+def pieces_of(about: str, answer: Any) -> dict[str, Any]:
+    """The parts of an answer; each is all of it where it is another kind of thing."""
+    numbers, found = flat(answer), {WHOLE: answer}
+    for name, places in parts.get(about, {}).items():
+        has = places and len(numbers) > max(places)
+        found[name] = [numbers[place] for place in places] if has else answer
+    return found
 
 
 @dataclass(frozen=True)
@@ -223,10 +235,7 @@ class Diagnosis:
         as_seen = frozenset(
             name
             for name in changed
-            if all(
-                alike(each.part(name, predicted.answer), each.part(name, each.answer))
-                for each, predicted in decided
-            )
+            if all(alike(predicted.pieces[name], each.pieces[name]) for each, predicted in decided)
         )
         return as_seen if as_seen == changed or mistake.about in separate else frozenset()
 
@@ -265,8 +274,7 @@ class Diagnosis:
         for number, each in enumerate(self.seen):
             predicted = self.predicted(mistake, number)
             if predicted is not None and any(
-                not alike(each.part(n, predicted.answer), each.part(n, each.answer))
-                for n in predicted.wrong & changed
+                not alike(predicted.pieces[n], each.pieces[n]) for n in predicted.wrong & changed
             ):
                 return True
         return False
@@ -410,9 +418,7 @@ Numbers = list[tuple[float, float]]  # of the answer, and of the right one
 
 def relation(name: str, wrong: list[Seen]) -> str:
     """How a part of the answers differs from the right one in all of these; empty if it varies."""
-    vectors = [
-        (flat(each.part(name, each.answer)), flat(each.part(name, each.right))) for each in wrong
-    ]
+    vectors = [(flat(each.pieces[name]), flat(each.right_pieces[name])) for each in wrong]
     pairs = [pair for ours, theirs in vectors for pair in zip(ours, theirs, strict=False)]
     for holds, words in RELATIONS if len(vectors) >= FEWEST else ():
         if holds(pairs):
