@@ -256,6 +256,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
     force: list[float]  # accel(x), a polynomial in x, lowest power first
     steps: int = 1
     twice: bool = False  # ask again at once, and look at what is around it
+    places: bool = False  # answer with the places at which accel was asked
 
 
 class Event(Struct, frozen=True):

@@ -17,10 +17,10 @@ def like(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
     turns = {"A": "only A can turn", "B": "only B can turn", "AB": "both can turn"}
     words = {"moves": turns["".join(moving)]} if moving else {}
     levels = {0.0: "the axis is upright", 1.0: "the axis is level"}
-    words["axis"] = levels.get(abs(axis[0]), "the axis is aslant")
+    words["_axis"] = levels.get(abs(axis[0]), "the axis is aslant")
     sides = {name: turning_way(each, axis) for name, each in (("A", a), ("B", b)) if each.mass}
     if sides:
-        words["way"] = " and ".join(f"{name} {way}" for name, way in sides.items())
+        words["_way"] = " and ".join(f"{name} {way}" for name, way in sides.items())
     return words
 
 
@@ -132,6 +132,11 @@ known(
     "The spin terms lack the inertia: multiply each by its body's inv_inertia.",
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2 if lever.mass else 0.0),
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2),
+)
+known(
+    "size-for-the-square",
+    "The cross product counts by its size and is not squared: abs() makes no square.",
+    with_term(lambda lever, axis: abs(lever_cross(lever, axis)) * inverse(lever.inertia)),
 )
 known(
     "half-of-the-terms",

@@ -37,8 +37,8 @@ def like(rod: Rod) -> dict[str, str]:
         "length": "the rod is as long as meant"
         if exact_length
         else f"the rod is {'stretched' if off > 0 else 'squeezed'}",
-        "rest": rest["".join(resting)],
-        "speed": "the ends keep their distance"
+        "_rest": rest["".join(resting)],
+        "_speed": "the ends keep their distance"
         if abs(closing) < 1e-9
         else f"the ends {'part' if closing > 0 else 'close'}",
         "_masses": f"the masses are {'equal' if rod.mass_a == rod.mass_b else 'different'}",
@@ -47,7 +47,7 @@ def like(rod: Rod) -> dict[str, str]:
 
 PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the place of B": [4, 5]}
 
-truth("rod", right, like, PARTS)
+truth("rod", right, like, PARTS, apart=True)
 
 known = partial(mistake, "3", "rod")
 

@@ -7,6 +7,7 @@ from functools import partial
 from grader.checks import exact
 from grader.checks.exact import DEPTH, Pair, Rubbing, clamped
 from grader.judge.misconceptions import Undecided, mistake, truth
+from grader.judge.misconceptions import known as registered
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
@@ -21,8 +22,8 @@ def like(mu: Pair, k: float, passes: Sequence[Rubbing]) -> dict[str, str]:
         "ways": "B slips both ways in turn"
         if len(ways) == 2
         else f"B slips {'forwards' if True in ways else 'backwards'}",
-        "mu": f"the two frictions are {'equal' if mu[0] == mu[1] else 'different'}",
-        "passes": "there are several passes" if len(passes) > 1 else "there is one pass",
+        "_mu": f"the two frictions are {'equal' if mu[0] == mu[1] else 'different'}",
+        "_passes": "there are several passes" if len(passes) > 1 else "there is one pass",
     }
     limits = [math.sqrt(mu[0] * mu[1]) * each.pressed(k) for each in passes]
     within = all(abs(each.slip / k) <= limit for each, limit in zip(passes, limits, strict=True))
@@ -31,7 +32,7 @@ def like(mu: Pair, k: float, passes: Sequence[Rubbing]) -> dict[str, str]:
     return words
 
 
-truth("friction", exact.friction_totals, like)
+truth("friction", exact.friction_totals, like, {"the friction in total": []})
 
 known = partial(mistake, "4", "friction")
 
@@ -100,7 +101,7 @@ known(
 )
 known(
     "limit-without-mu",
-    "The limit is jn itself: ice would grip as well as rubber.",
+    "The limit is jn itself, without the two frictions: ice would grip as well as rubber.",
     with_limit(lambda mu, jn: jn),
 )
 known(
@@ -201,3 +202,87 @@ for sign in (1, -1):
         "min and max are swapped: the total is the same whatever the slip.",
         with_clamp(lambda total, wanted, limit: -limit, sign),
     )
+
+
+known(
+    "half-the-limit",
+    "The limit is half of what it may be: sqrt(mu_a mu_b) * jn either way.",
+    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn / 2),
+)
+known(
+    "twice-the-limit",
+    "The limit is twice what it may be: sqrt(mu_a mu_b) * jn either way.",
+    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn * 2),
+)
+
+
+def kept_as_wanted(applied: Rule) -> Model:
+    """Where the contact keeps the total that was wanted, and this much is applied of it.
+
+    `applied` takes what the contact has kept, what is wanted, and the limit.
+    """
+
+    def model(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
+        if not (mu[0] and mu[1]):
+            raise Undecided
+        totals, kept = [0.0], 0.0
+        for each in passes:
+            limit, wanted = math.sqrt(mu[0] * mu[1]) * each.pressed(k), kept - each.slip / k
+            totals.append(totals[-1] + applied(kept, wanted, limit))
+            kept = wanted
+        return tuple(totals[1:])
+
+    return model
+
+
+known(
+    "result-goes-to-the-contact",
+    "The limited value is written to c.jt, and total stays as it was: give it to total, for the "
+    "lines below apply what total has more than c.jt.",
+    kept_as_wanted(lambda kept, wanted, limit: wanted - clamped(wanted, limit)),
+    kept_as_wanted(
+        lambda kept, wanted, limit: (
+            wanted - (kept if abs(wanted) <= limit else math.copysign(limit, wanted))
+        )
+    ),
+)
+for sign in (1, -1):
+    known(
+        "lower-limit-without-its-minus",
+        "Whatever is below limit becomes -limit: compare with -limit for the other way.",
+        with_clamp(lambda total, wanted, limit: limit if wanted > limit else -limit, sign),
+    )
+
+
+# ---------------------------------------------------------------- another limit and another clamp
+
+
+LIMITS: dict[str, Limit] = {
+    "friction-of-a-only": lambda mu, jn: mu[0] * jn,
+    "friction-of-b-only": lambda mu, jn: mu[1] * jn,
+    "root-is-forgotten": lambda mu, jn: mu[0] * mu[1] * jn,
+    "arithmetic-mean-of-mu": lambda mu, jn: (mu[0] + mu[1]) / 2 * jn,
+    "smaller-mu": lambda mu, jn: min(mu) * jn,
+    "six-tenths": lambda mu, jn: 0.6 * jn,
+}
+RULES: tuple[tuple[str, Rule], ...] = (
+    ("clamps-the-increment", lambda total, wanted, limit: total + clamped(wanted - total, limit)),
+    ("lets-go-beyond-the-limit", lambda total, wanted, limit: wanted * (abs(wanted) <= limit)),
+    ("clamps-from-above-only", lambda total, wanted, limit: min(limit, wanted)),
+    ("clamps-from-below-only", lambda total, wanted, limit: max(-limit, wanted)),
+    ("loses-the-sign", lambda total, wanted, limit: limit if abs(wanted) > limit else wanted),
+    ("loses-the-sign", lambda total, wanted, limit: -limit if abs(wanted) > limit else wanted),
+)
+
+
+def meaning_of(name: str) -> str:
+    return next(each.meaning for each in registered if (each.todo, each.id) == ("4", name))
+
+
+for limit_name, limit_of in LIMITS.items():
+    for rule_name, rule in RULES:
+        known(
+            f"{limit_name}+{rule_name}",
+            f"{meaning_of(limit_name)} And: {meaning_of(rule_name)}",
+            with_limit_and_rule(limit_of, rule),
+        )

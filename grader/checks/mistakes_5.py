@@ -17,14 +17,13 @@ def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
 
 def like(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
     """The rates and the steps, in words."""
-    zeros = [name for name, rate in (("linear", linear), ("angular", angular)) if not rate]
-    words = {"zero": f"{' and '.join(zeros)} damping is 0" if zeros else "both rates are above 0"}
-    words["rates"] = f"the rates are {'equal' if linear == angular else 'different'}"
-    words["step"] = f"a step is 1/{1 / dt:.4g} s"
+    words = {}
+    words["_rates"] = f"the rates are {'equal' if linear == angular else 'different'}"
+    words["_step"] = f"a step is 1/{1 / dt:.4g} s"
     return words
 
 
-truth("damping", right, like, {"the speed": [0], "the spin": [1]})
+truth("damping", right, like, {"the speed": [0], "the spin": [1]}, apart=True)
 
 
 def known(name: str, meaning: str, *models: Model) -> None:
@@ -66,6 +65,36 @@ known(
     "a-step-length-of-its-own",
     "Every step loses as much as one of 1/120 s; it must lose what its own dt asks for.",
     per_step(lambda rate, dt: math.exp(-rate / 120)),
+)
+known(
+    "a-sixtieth-for-every-step",
+    "Every step loses as much as one of 1/60 s; it must lose what its own dt asks for.",
+    per_step(lambda rate, dt: math.exp(-rate / 60)),
+)
+known(
+    "sixty-for-the-step",
+    "exp(-rate * 60) is lost in every step: the step is dt seconds long, not 60.",
+    per_step(lambda rate, dt: math.exp(-rate * 60)),
+)
+known(
+    "rate-left-out",
+    "exp(-dt) is lost in every step, whatever the rate: the rate belongs in it, -rate * dt.",
+    per_step(lambda rate, dt: math.exp(-dt)),
+)
+known(
+    "rates-typed-in",
+    "The loss is that of the usual rates, 0.05 and 0.3, whatever rates the world has.",
+    lambda linear, angular, dt, steps: right(0.05, 0.3, dt, steps),
+)
+known(
+    "damped-twice",
+    "Everything is damped twice in a step: exp(-2 * rate * dt) is left.",
+    per_step(lambda rate, dt: math.exp(-2 * rate * dt)),
+)
+known(
+    "step-times-the-share",
+    "A step keeps exp(-rate) * dt: dt belongs into the exponent, in brackets.",
+    per_step(lambda rate, dt: math.exp(-rate) * dt),
 )
 known(
     "straight-line-instead-of-exp",

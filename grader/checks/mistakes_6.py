@@ -218,6 +218,94 @@ def different(sizes: list[int]) -> list[float]:
     return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_SIZES]
 
 
+def emptied(frames: Frames) -> Answer:
+    steps, held = [], 0
+    for frame in frames[:-1]:
+        held += capped(frame)
+        steps.append(min(whole_steps(held), 1))
+        held *= not steps[-1]
+    return counted(steps)
+
+
+known(
+    "emptied-by-a-step",
+    "A step empties the accumulator: what is left beyond STEP is lost; take STEP from it.",
+    emptied,
+)
+known(
+    "drops-the-remainder+no-cap",
+    "What is left of a frame after its whole steps is thrown away; it belongs to the next frame. "
+    "And: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
+    lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
+)
+
+
+def sixtieths(frames: Frames) -> Answer:
+    """Whole sixtieths, as two steps of the right size would be."""
+    steps, held = [], 0
+    for frame in frames[:-1]:
+        held += capped(frame)
+        if held and held % (2 * STEP) == 0 and held != CAP:
+            raise Undecided
+        steps.append(held // (2 * STEP))
+        held -= steps[-1] * 2 * STEP
+    return steps, [2 * STEP_SECONDS] if any(steps) else []
+
+
+known(
+    "sixtieths-for-steps",
+    "Every step is 1/60 s long, and so is the time it waits for; STEP is half of that.",
+    sixtieths,
+)
+
+
+def steps_with_the_accumulator(frames: Frames) -> Answer:
+    steps, sizes, held = [], [], 0
+    for frame in frames[:-1]:
+        held += capped(frame)
+        steps.append(whole_steps(held))
+        for _ in range(steps[-1]):
+            sizes.append(held)
+            held -= STEP
+    return steps, different(sizes)
+
+
+known(
+    "steps-with-the-accumulator",
+    "Each step in the loop gets all that is in the accumulator; it must be STEP long.",
+    steps_with_the_accumulator,
+)
+
+
+def steps_with_the_frame(frames: Frames) -> Answer:
+    steps, _ = right(frames)
+    pairs = zip(steps, frames, strict=False)
+    return steps, different([uncapped(frame) for count, frame in pairs if count])
+
+
+known(
+    "steps-with-the-frame-in-the-loop",
+    "Each step in the loop gets the time of the whole frame; it must be STEP long.",
+    steps_with_the_frame,
+)
+
+
+def pair_swapped(frames: Frames) -> Answer:
+    """The number of steps comes back as the seconds that wait."""
+    steps = [0]
+    for frame in frames[:-1]:
+        steps.append(min(whole_steps(capped(frame) + SECOND * steps[-1]), RUNAWAY))
+        if steps[-1] == RUNAWAY:
+            break
+    return counted(steps[1:])
+
+
+known(
+    "pair-the-wrong-way-round",
+    "The pair is the wrong way round: return the accumulator first, then steps.",
+    pair_swapped,
+)
+
 truth("said", lambda ran: ran)
 
 mistake(

@@ -90,6 +90,11 @@ known_7b(
     lambda radius, mass: mass * radius**2 * 2 / 5,
 )
 known_7b(
+    "half-twice",
+    "That is half of a disc's moment: its factor is 1/2, of mass times radius squared.",
+    lambda radius, mass: exact.disc_moment(mass, radius) / 2,
+)
+known_7b(
     "mass-is-left-out",
     "That is the moment of a disc of mass 1; a heavier ball is harder to turn.",
     lambda radius, mass: exact.disc_moment(1.0, radius),

@@ -1,7 +1,7 @@
 """Known mistakes in TODO 8a to 8c, as models of what one step then returns."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from grader.checks import exact
@@ -20,11 +20,32 @@ def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
     return exact.semi_implicit_euler(x, v, dt, polynomial(force))
 
 
-truth(SEMI_IMPLICIT, right_semi_implicit)
+XV = {"x": [0], "v": [1]}
 
-truth(VERLET, lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)))
 
-truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)))
+def like(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
+    """Where a step begins, in words."""
+    return {
+        "_speed": f"v is {'0' if not v else 'not 0'} at the start",
+        "_force": f"{'no' if not polynomial(force)(x) else 'a'} force acts at the start",
+        "_case": f"a step of {dt:g} s from x = {x:g}, v = {v:g} with accel(x) = {formula(force)}",
+    }
+
+
+def formula(force: Force) -> str:
+    powers = zip(force, ("", "·x", "·x²", "·x³"), strict=False)
+    return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
+
+
+truth(SEMI_IMPLICIT, right_semi_implicit, like, XV, apart=True)
+truth(
+    VERLET,
+    lambda x, v, dt, force: exact.velocity_verlet(x, v, dt, polynomial(force)),
+    like,
+    XV,
+    apart=True,
+)
+truth(RK4, lambda x, v, dt, force: exact.rk4(x, v, dt, polynomial(force)), like, XV, apart=True)
 
 
 SPRING = (0.0, -((2 * math.pi) ** 2))  # the lesson's
@@ -335,3 +356,250 @@ known_8c(
     "1, 2, 2, 1.",
     three_eighths,
 )
+
+
+# ---------------------------------------------------------------- a part left out, or typed in
+
+
+TYPED = {"1/60": 1 / 60, "1/30": 1 / 30, "1/120": 1 / 120, "1/40": 1 / 40}
+for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
+    for words, seconds in TYPED.items():
+        mistake(
+            todo,
+            about,
+            f"step-of-{words.replace('/', '-')}",
+            f"Every step is taken to last {words} s; it lasts dt.",
+            lambda x, v, dt, force, about=about, seconds=seconds: right[about](
+                x, v, seconds, force
+            ),
+        )
+    if todo != "8a":
+        mistake(
+            todo,
+            about,
+            "velocity-returned-first",
+            "The pair is the wrong way round: return x first, then v.",
+            lambda x, v, dt, force, about=about: right[about](x, v, dt, force)[::-1],
+        )
+    mistake(
+        todo,
+        about,
+        "x-is-not-moved",
+        "x comes back as it was: it must move.",
+        lambda x, v, dt, force, about=about: (x, right[about](x, v, dt, force)[1]),
+    )
+    mistake(
+        todo,
+        about,
+        "v-is-not-changed",
+        "v comes back as it was: the acceleration must change it.",
+        lambda x, v, dt, force, about=about: (right[about](x, v, dt, force)[0], v),
+    )
+
+
+def semi_implicit_with(
+    kick: Callable[[float, float], float], drift: Callable[[float, float], float]
+) -> Callable[[float, float, float, Force], State]:
+    """v changes by kick(a, dt), then x by drift(v, dt)."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        v += kick(polynomial(force)(x), dt)
+        return x + drift(v, dt), v
+
+    return model
+
+
+known_8a(
+    "moves-a-whole-second",
+    "x moves by v; in a step of dt seconds it moves by v * dt.",
+    semi_implicit_with(lambda a, dt: a * dt, lambda v, dt: v),
+)
+known_8a(
+    "acceleration-has-the-wrong-sign",
+    "v changes the wrong way: add accel(x) * dt, whose sign says which way.",
+    semi_implicit_with(lambda a, dt: -a * dt, lambda v, dt: v * dt),
+)
+known_8a(
+    "velocity-is-not-used",
+    "v does not change: add accel(x) * dt to it before x moves.",
+    semi_implicit_with(lambda a, dt: 0.0, lambda v, dt: v * dt),
+)
+
+
+def verlet_with(
+    bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
+) -> Callable[[float, float, float, Force], State]:
+    """x bends by bend(a, dt); v changes by kick(a at the start, a at the end, dt)."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        accel = polynomial(force)
+        end = x + v * dt + bend(accel(x), dt)
+        return end, v + kick(accel(x), accel(end), dt)
+
+    return model
+
+
+BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
+    "half-is-missing-in-x": (
+        "x gets a * dt² of the acceleration; on a parabola it is half of that.",
+        lambda a, dt: a * dt**2,
+    ),
+    "straight-line-in-x": (
+        "x moves along a straight line, x + v * dt; the acceleration bends the way.",
+        lambda a, dt: 0.0,
+    ),
+    "square-is-missing-in-x": (
+        "x gets half of a * dt; the square is missing: half of a * dt².",
+        lambda a, dt: a * dt / 2,
+    ),
+}
+KICKS: dict[str, tuple[str, Callable[[float, float, float], float]]] = {
+    "sum-instead-of-mean": (
+        "v gets the sum of both accelerations; it needs their mean, half of that.",
+        lambda begin, end, dt: (begin + end) * dt,
+    ),
+    "old-acceleration-twice": (
+        "Both accelerations are the one at the old x; the second belongs to the new x.",
+        lambda begin, end, dt: begin * dt,
+    ),
+    "new-acceleration-only": (
+        "v uses the acceleration at the new x only; it needs the mean of both ends.",
+        lambda begin, end, dt: end * dt,
+    ),
+    "step-is-missing-in-v": (
+        "v gets the mean acceleration itself; in a step of dt seconds it changes by mean * dt.",
+        lambda begin, end, dt: (begin + end) / 2,
+    ),
+}
+known_8b(
+    "square-is-missing-in-x",
+    BENDS["square-is-missing-in-x"][0],
+    verlet_with(BENDS["square-is-missing-in-x"][1], lambda begin, end, dt: (begin + end) / 2 * dt),
+)
+known_8b(
+    "step-is-missing-in-v",
+    KICKS["step-is-missing-in-v"][0],
+    verlet_with(lambda a, dt: a * dt**2 / 2, KICKS["step-is-missing-in-v"][1]),
+)
+for bend_name, (bend_words, bend) in BENDS.items():
+    for kick_name, (kick_words, kick) in KICKS.items():
+        both = verlet_with(bend, kick)
+        known_8b(f"{bend_name}+{kick_name}", f"{bend_words} And: {kick_words}", both)
+
+
+def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    return parabola(x, v, dt, accel), v + (accel(x) + accel(v)) / 2 * dt
+
+
+known_8b(
+    "acceleration-of-the-velocity",
+    "The second acceleration is that at v; accel is asked about the new x.",
+    second_at_v,
+)
+
+
+def kicked_before(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    half_way = v + accel(x) * dt / 2
+    end = x + half_way * dt + accel(x) * dt**2 / 2
+    return end, half_way + accel(end) * dt / 2
+
+
+known_8b(
+    "half-kick-counts-twice-in-x",
+    "x gets the acceleration twice: v has its half already when x moves.",
+    kicked_before,
+)
+
+# ---------------------------------------------------------------- 8c: other samples, other weights
+
+Source = tuple[int, float]  # the sample that one starts from, and the share of the step
+USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
+
+
+def sampled(
+    x: float, v: float, dt: float, force: Force, sources: Sequence[Source] = USUAL
+) -> tuple[list[State], list[float]]:
+    """The four samples, and the places where accel is asked."""
+    accel = polynomial(force)
+    samples, places = [(v, accel(x))], [x]
+    for source, share in sources:
+        dx, dv = samples[source]
+        places.append(x + share * dt * dx)
+        samples.append((v + share * dt * dv, accel(places[-1])))
+    return samples, places
+
+
+def places_of(sources: Sequence[Source]) -> Callable[..., tuple[float, ...]]:
+    return lambda x, v, dt, force: tuple(dict.fromkeys(sampled(x, v, dt, force, sources)[1]))
+
+
+def weighed(
+    sources: Sequence[Source], weights: Sequence[float]
+) -> Callable[[float, float, float, Force], State]:
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        for weight, (dx, dv) in zip(weights, sampled(x, v, dt, force, sources)[0], strict=True):
+            x, v = x + dt * weight * dx, v + dt * weight * dv
+        return x, v
+
+    return model
+
+
+SAMPLES = "samples of accel"
+truth(
+    SAMPLES,
+    places_of(USUAL),
+    like,
+    {f"the place of k{n + 1}": [n] for n in range(4)},
+)
+OTHER_SAMPLES: dict[str, tuple[str, tuple[Source, ...]]] = {
+    "second-sample-at-full-step": (
+        "The second sample, k2, is taken a whole step ahead; it belongs half-way.",
+        ((0, 1.0), (1, 0.5), (2, 1.0)),
+    ),
+    "third-sample-at-full-step": (
+        "The third sample, k3, is taken a whole step ahead; it belongs half-way.",
+        ((0, 0.5), (1, 1.0), (2, 1.0)),
+    ),
+    "last-sample-at-half-step": (
+        "The last sample is taken half-way; it belongs to the end of the step.",
+        ((0, 0.5), (1, 0.5), (2, 0.5)),
+    ),
+    "middle-samples-at-full-step": (
+        "All samples are taken a whole step ahead; the two in the middle belong half-way.",
+        ((0, 1.0), (1, 1.0), (2, 1.0)),
+    ),
+    "third-sample-repeats-the-second": (
+        "The third sample starts from the first again; it must use what the second one found.",
+        ((0, 0.5), (0, 0.5), (2, 1.0)),
+    ),
+    "last-sample-uses-the-second": (
+        "The last sample, k4, goes on from the second; it must use what the third one found.",
+        ((0, 0.5), (1, 0.5), (1, 1.0)),
+    ),
+    "every-sample-from-the-first": (
+        "Every sample starts from the first one; each must use what the one before it found.",
+        ((0, 0.5), (0, 0.5), (0, 1.0)),
+    ),
+}
+OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
+    "equal-weights": (
+        "All four samples weigh the same; the two in the middle count twice: 1, 2, 2, 1.",
+        ((1 / 4,) * 4, (1 / 6,) * 4),
+    ),
+    "sum-is-not-divided": (
+        "The weighted sum is used as it is; the weights 1, 2, 2, 1 add up to 6, so divide by 6.",
+        ((1.0, 2.0, 2.0, 1.0),),
+    ),
+    "last-sample-is-missing": (
+        "Only three samples count; the fourth, k4, at the end of the step, is missing.",
+        ((1 / 5, 2 / 5, 2 / 5, 0.0), (1 / 6, 2 / 6, 2 / 6, 0.0), (1 / 4, 2 / 4, 1 / 4, 0.0)),
+    ),
+}
+RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
+for sample_name, (sample_words, sources) in OTHER_SAMPLES.items():
+    mistake("8c", SAMPLES, sample_name, sample_words, places_of(sources))
+    known_8c(sample_name, sample_words, weighed(sources, RIGHT_WEIGHTS))
+for weight_name, (weight_words, many) in OTHER_WEIGHTS.items():
+    known_8c(weight_name, weight_words, *(weighed(USUAL, weights) for weights in many))

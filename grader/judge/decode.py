@@ -138,7 +138,7 @@ class Decoder:
             case Ref(kind=kind):
                 return f"an object of type {kind}"
             case Items(items) if 0 < len(items) <= SHOWN:
-                return f"({', '.join(map(in_brief, items))})"
+                return f"({', '.join(map(in_brief, items))}){which_is_none(items)}"
             case Items():
                 return f"a list or tuple of {len(value.items)}"
             case bool() | int() | float() | str():
@@ -146,6 +146,13 @@ class Decoder:
             case Vec(x, y):
                 return f"the pair ({x:.6g}, {y:.6g})"
         return f"a {type(value).__name__.removesuffix('Value').lower()}"
+
+
+def which_is_none(items: list[Value]) -> str:
+    """`, of which the second is None`, where one is."""
+    names = ("first", "second", "third", "fourth")
+    none = [name for name, each in zip(names, items, strict=False) if each is None]
+    return f", of which the {none[0]} is None" if none else ""
 
 
 def in_brief(value: Value) -> str:

@@ -25,11 +25,14 @@ from grader.judge.misconceptions import (
     load_known,
     parts,
     right,
+    said,
+    separate,
     traits,
 )
 from grader.judge.recorded import key
 
 WHOLE = "the answer"  # the name of a part where an answer has none, or is another kind of thing
+CASE = "_case"  # the name of what a question is, in words
 FEWEST = 2  # answers that a mistake must explain to be told by a part of the questions
 MOST = 3  # clauses of one kind in a sentence
 LONGEST = 150  # characters of these
@@ -54,27 +57,40 @@ class Seen:
             return "there is no answer (None; is a return missing?)"
         if self.right is None and self.answer is not None:
             return "there is an answer where None is right"
-        return "" if len(self.numbers) == len(flat(self.right)) else "the answer has other parts"
+        ours, theirs = len(self.numbers), len(flat(self.right))
+        return "" if ours == theirs else f"there are {ours} {self.about} instead of {theirs}"
 
-    @property
+    @cached_property
     def numbers(self) -> list[float]:
         return flat(self.answer)
 
-    def part(self, name: str, answer: Any) -> Any:
-        """A part of an answer; all of it where it is another kind of thing."""
-        numbers, places = flat(answer), parts.get(self.about, {}).get(name)
-        if places is None or len(numbers) <= max(places):
-            return answer
-        return [numbers[place] for place in places]
+    @cached_property
+    def pieces(self) -> dict[str, Any]:
+        """The parts of the answer by their names."""
+        return pieces_of(self.about, self.answer)
+
+    @cached_property
+    def right_pieces(self) -> dict[str, Any]:
+        """The same of the right one."""
+        return pieces_of(self.about, self.right)
 
     @cached_property
     def wrong(self) -> frozenset[str]:
         """The parts of the answer that are wrong."""
-        names = [] if self.kind else list(parts.get(self.about, {}))
         if alike(self.answer, self.right):
             return frozenset()
-        off = [n for n in names if not alike(self.part(n, self.answer), self.part(n, self.right))]
+        names = [] if self.kind else parts.get(self.about, {})
+        off = [name for name in names if not alike(self.pieces[name], self.right_pieces[name])]
         return frozenset(off) or frozenset({WHOLE})
+
+
+def pieces_of(about: str, answer: Any) -> dict[str, Any]:
+    """The parts of an answer; each is all of it where it is another kind of thing."""
+    numbers, found = flat(answer), {WHOLE: answer}
+    for name, places in parts.get(about, {}).items():
+        has = places and len(numbers) > max(places)
+        found[name] = [numbers[place] for place in places] if has else answer
+    return found
 
 
 @dataclass(frozen=True)
@@ -83,12 +99,14 @@ class Finding:
 
     mistake: Mistake
     where: str  # a clause, or empty where it needs none
+    part: str  # of the answer, or empty where the mistake is all there
     changed: frozenset[str]  # the parts of the answer
     explains: frozenset[int]  # the numbers of the questions
 
     @property
     def meaning(self) -> str:
-        return f"Where {self.where}: {self.mistake.meaning}" if self.where else self.mistake.meaning
+        places = [f"where {self.where}"] * bool(self.where) + [f"in {self.part}"] * bool(self.part)
+        return sentence(", ".join(places) + ": " * bool(places) + self.mistake.meaning)
 
 
 class Diagnosis:
@@ -120,9 +138,10 @@ class Diagnosis:
         if not numbers:
             return ""
         first = self.seen[numbers[0]]
-        here = [each for each in self.findings if numbers[0] in each.explains]
-        told = [each.meaning for each in here]
-        left = first.wrong.difference(*(each.changed for each in here))
+        here = [each for each in self.findings if each.explains.intersection(numbers)]
+        explained = [each.changed for each in here if numbers[0] in each.explains]
+        told = [each.meaning for each in here] if explained else []
+        left = first.wrong.difference(*explained)
         if left and (narrowed := narrow(self.seen, first, left)):
             told.append(narrowed)
         if not told:
@@ -140,15 +159,30 @@ class Diagnosis:
         names = dict.fromkeys(name for n in numbers for name in self.seen[n].like)
         kinds = [name for name in names if not name.startswith("_")]
         best: list[Finding] = []
-        for ways in ([()], combinations(kinds, 1), combinations(kinds, 2)):
-            for way in ways:
-                group = self.groups(numbers, way)
-                found = [each for where, some in group for each in self.named(where, some)]
-                if explained(found) > explained(best):
-                    best = found
-            if best:
-                break
+        for way in [(), *combinations(kinds, 1), *combinations(kinds, 2)]:
+            if best and len(way) == 2:
+                break  # the smaller the groups are, the more fits by chance
+            group = self.groups(numbers, way)
+            found = [
+                each
+                for where, some in group
+                for each in self.named(where, some)
+                if len(each.explains) > len(way)
+            ]
+            if self.explained(found) > self.explained(best):
+                best = found
         return best
+
+    def explained(self, findings: list[Finding]) -> int:
+        """How many wrong parts of answers these mistakes explain."""
+        return len(
+            {
+                (n, part)
+                for f in findings
+                for n in f.explains
+                for part in f.changed & self.seen[n].wrong
+            }
+        )
 
     def groups(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
         """The questions by what they are like in these ways."""
@@ -181,7 +215,9 @@ class Diagnosis:
             covered |= changed
             shows = frozenset(n for n in wrong if self.seen[n].wrong & changed)
             clause = where if self.elsewhere(mistake, numbers) else ""
-            found.append(Finding(mistake, clause, changed, shows))
+            more = self.changes(mistake, numbers) - changed
+            part = either(name for name in parts[mistake.about] if name in changed) if more else ""
+            found.append(Finding(mistake, clause, part, changed, shows))
         return found
 
     def fits(self, mistake: Mistake, numbers: list[int], covered: frozenset[str]) -> frozenset[str]:
@@ -196,12 +232,17 @@ class Diagnosis:
         told = sum(bool(each.wrong) for each, _ in decided)
         if shows < FEWEST or 2 * told < sum(bool(each.wrong) for each, _ in both):
             return frozenset()
-        as_seen = all(
-            alike(each.part(name, predicted.answer), each.part(name, each.answer))
-            for each, predicted in decided
+        as_seen = frozenset(
+            name
             for name in changed
+            if all(alike(predicted.pieces[name], each.pieces[name]) for each, predicted in decided)
         )
-        return changed if as_seen else frozenset()
+        return as_seen if as_seen == changed or mistake.about in separate else frozenset()
+
+    def changes(self, mistake: Mistake, numbers: list[int]) -> frozenset[str]:
+        """The parts that a mistake changes in any of these questions."""
+        predicted = [self.predicted(mistake, number) for number in numbers]
+        return frozenset[str]().union(*(each.wrong for each in predicted if each is not None))
 
     def predicted(self, mistake: Mistake, number: int) -> Seen | None:
         """A question with the answer that a mistake gives to it, if there is one."""
@@ -209,7 +250,7 @@ class Diagnosis:
             each, found = self.seen[number], None
             if each.about == mistake.about:
                 with suppress(Undecided):
-                    answer = mistake.model(*each.inputs)
+                    answer = said(mistake.model, each.inputs)
                     found = Seen(each.about, each.inputs, each.like, answer, each.right)
             self.predictions[mistake, number] = found
         return self.predictions[mistake, number]
@@ -217,20 +258,23 @@ class Diagnosis:
     def chosen(
         self, fit: list[tuple[Mistake, frozenset[str]]]
     ) -> tuple[Mistake, frozenset[str]] | None:
-        """The mistake that changes most, and none where several do, but that fits all questions."""
-        most = max((len(changed) for _, changed in fit), default=0)
-        best = [(each, changed) for each, changed in fit if len(changed) == most]
-        if len({each.id for each, _ in best}) > 1:
-            best = [(each, changed) for each, changed in best if not self.denied(each, changed)]
-        return best[0] if len({each.id for each, _ in best}) == 1 else None
+        """The mistake that changes most; of several that change the same, the one that fits all."""
+        for parts_changed in sorted(
+            {changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c))
+        ):
+            best = [(each, changed) for each, changed in fit if changed == parts_changed]
+            if len({each.id for each, _ in best}) > 1:
+                best = [(each, changed) for each, changed in best if not self.denied(each, changed)]
+            if len({each.id for each, _ in best}) == 1:
+                return best[0]
+        return None
 
     def denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:
         """Whether a mistake would show in other questions as well, and does not."""
         for number, each in enumerate(self.seen):
             predicted = self.predicted(mistake, number)
             if predicted is not None and any(
-                not alike(each.part(n, predicted.answer), each.part(n, each.answer))
-                for n in predicted.wrong & changed
+                not alike(predicted.pieces[n], each.pieces[n]) for n in predicted.wrong & changed
             ):
                 return True
         return False
@@ -239,10 +283,6 @@ class Diagnosis:
         """Whether a mistake would show outside of these questions too."""
         outside = set(range(len(self.seen))).difference(numbers)
         return any(p is not None and p.wrong for p in (self.predicted(mistake, n) for n in outside))
-
-
-def explained(findings: Iterable[Finding]) -> int:
-    return len(frozenset().union(*(each.explains for each in findings)))
 
 
 def seen_of(observations: Sequence[Observation]) -> Iterable[Seen]:
@@ -254,8 +294,8 @@ def seen_of(observations: Sequence[Observation]) -> Iterable[Seen]:
             continue
         asked.add(name)
         try:
-            meant = right[each.about](*each.inputs)
-            like = traits[each.about](*each.inputs) if each.about in traits else {}
+            meant = said(right[each.about], each.inputs)
+            like = said(traits[each.about], each.inputs) if each.about in traits else {}
         except Undecided:
             continue
         yield Seen(each.about, each.inputs, like, each.answer, meant)
@@ -281,14 +321,25 @@ def narrow(seen: Sequence[Seen], first: Seen, left: frozenset[str]) -> str:
         raised = isinstance(first.answer, str) and not others
         return f"{sentence(first.kind)} {where}." if where and not raised else ""
     told = []
-    for name in [n for n in parts.get(first.about, {}) if n in left]:
+    names = list(parts.get(first.about, {}))
+    for name in [name for name in names if name in left]:
         wrong = [each for each in alike_asked if not each.kind and name in each.wrong]
         others = [each for each in alike_asked if each not in wrong and not each.kind]
         where, how = condition(wrong, others), relation(name, wrong)
         if where or how:
             many = f"in {len(wrong)} of {len(wrong) + len(others)} questions"
             told.append((name, how or "is wrong", where or many))
-    return joined(told)
+    answered = [each for each in alike_asked if not each.kind]
+    fine = [name for name in names if not any(name in each.wrong for each in answered)]
+    right_too = f" {sentence(' and '.join(fine))} {'is' if len(fine) == 1 else 'are'} right."
+    return joined(told) + right_too * bool(told and fine) + example(first) * bool(told)
+
+
+def example(seen: Seen) -> str:
+    """The answer to one question beside the right one, where the question can be said in words."""
+    case = seen.like.get(CASE)
+    ours, theirs = (in_words(flat(each)) for each in (seen.answer, seen.right))
+    return f" In {case}: {ours} instead of {theirs}." if case else ""
 
 
 def joined(told: list[tuple[str, str, str]]) -> str:
@@ -311,11 +362,12 @@ def condition(wrong: list[Seen], others: list[Seen]) -> str:
     """What tells the questions with a wrong answer from the others, from what they are like."""
     if not others:
         return "in every question" if len(wrong) > 1 else ""
-    kinds = list(dict.fromkeys(kind for each in wrong for kind in each.like))
+    kinds = list(dict.fromkeys(k for each in wrong for k in each.like if k != CASE))
     for ways in (1, 2):
         for some in combinations(kinds, ways):
             bad, good = values(wrong, *some), values(others, *some)
-            if None in bad or bad.keys() & good.keys():
+            many = 2 * len(bad.keys() | good.keys()) > len(wrong) + len(others)
+            if many or None in bad or bad.keys() & good.keys():
                 continue
             if few(bad):
                 right_too = f", and right where {either(good)}" if few(good) and ways == 1 else ""
@@ -366,19 +418,21 @@ Numbers = list[tuple[float, float]]  # of the answer, and of the right one
 
 def relation(name: str, wrong: list[Seen]) -> str:
     """How a part of the answers differs from the right one in all of these; empty if it varies."""
-    vectors = [
-        (flat(each.part(name, each.answer)), flat(each.part(name, each.right))) for each in wrong
-    ]
+    vectors = [(flat(each.pieces[name]), flat(each.right_pieces[name])) for each in wrong]
     pairs = [pair for ours, theirs in vectors for pair in zip(ours, theirs, strict=False)]
-    for holds, words in RELATIONS:
+    for holds, words in RELATIONS if len(vectors) >= FEWEST else ():
         if holds(pairs):
             return words
-    if same_swapped(vectors):
+    if len(vectors) >= FEWEST and same_swapped(vectors):
         return "has its two numbers swapped"
     factor = one_factor(pairs)
     if factor is not None:
         return f"is {factor:.4g} times what it must be"
-    if len(vectors) >= FEWEST and len({tuple(ours) for ours, _ in vectors}) == 1:
+    if (
+        len({tuple(theirs) for _, theirs in vectors})
+        > 1
+        == len({tuple(ours) for ours, _ in vectors})
+    ):
         return f"is always {in_words(vectors[0][0])}"
     off = one_offset(vectors)
     if off:

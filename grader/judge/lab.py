@@ -339,6 +339,15 @@ class Lab(Decoder):
         self.want(len(states) == steps, f"{steps} states", f"{len(states)}")
         return states
 
+    def places(self, method: str, start: Pair, dt: float, force: Sequence[float]) -> list[float]:
+        """The places at which one step of an integrator asks for the acceleration."""
+        target = f"{self.module}:{method}"
+        request = Integrate(target, *start, dt, list(force), places=True)
+        return [
+            self.number(each, "what accel is asked about")
+            for each in self.items(self._value(request), "the places")
+        ]
+
     def play(
         self,
         frames: list[int],

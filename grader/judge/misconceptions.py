@@ -36,23 +36,31 @@ known: list[Mistake] = []
 right: dict[str, Model] = {}
 traits: dict[str, Model] = {}  # what a question is like, in words, by what may tell it from others
 parts: dict[str, Parts] = {}
+separate: set[str] = set()  # observations of which a mistake may be made in one part alone
 
 
 def truth(
-    about: str, model: Model, like: Model | None = None, of: dict[str, list[int]] | None = None
+    about: str,
+    model: Model,
+    like: Model | None = None,
+    of: Parts | None = None,
+    apart: bool = False,
 ) -> None:
     """Register the right model of the observations called `about`.
 
     `like` says what a question is like: a dict of clauses such as {"place": "the centre is inside
     the box"}, in the order in which a mistake is looked for. By what begins with _ none is looked
     for: it tells nothing but where answers are wrong. `of` names the parts of an answer, by
-    the positions of their numbers in it.
+    the positions of their numbers in it; no positions are all of them. Where each part has code of
+    its own, they are `apart`, and a mistake may be made in one of them alone.
     """
     right[about] = model
     if like is not None:
         traits[about] = like
     if of is not None:
         parts[about] = of
+    if apart:
+        separate.add(about)
 
 
 def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> None:
@@ -92,7 +100,7 @@ def take_from(table: Recorded, todo: str) -> None:
             mistake(todo, each.about, each.id, each.meaning, looked_up(each.answers))
     for about, answers in table.right.items():
         like = looked_up(table.traits[about]) if about in table.traits else None
-        truth(about, looked_up(answers), like, table.parts.get(about))
+        truth(about, looked_up(answers), like, table.parts.get(about), about in table.separate)
 
 
 def looked_up(answers: Answers) -> Model:
@@ -120,19 +128,27 @@ def named(todo: str, observations: Sequence[Observation]) -> Mistake | None:
     return first
 
 
+def said(model: Model, inputs: tuple[Any, ...]) -> Any:
+    """What a model gives. Raises Undecided too where it divides by 0 or leaves all numbers."""
+    try:
+        return model(*inputs)
+    except ArithmeticError:
+        raise Undecided from None
+
+
 def explains(each: Mistake, observations: Iterable[Observation]) -> bool:
     told_apart = False
     for seen in observations:
         if seen.about != each.about:
             continue
         try:
-            predicted = each.model(*seen.inputs)
+            predicted = said(each.model, seen.inputs)
         except Undecided:
             continue
         if not alike(predicted, seen.answer):
             return False
         try:
-            told_apart = told_apart or not alike(right[each.about](*seen.inputs), seen.answer)
+            told_apart = told_apart or not alike(said(right[each.about], seen.inputs), seen.answer)
         except Undecided:
             continue
     return told_apart

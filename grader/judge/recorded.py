@@ -36,6 +36,7 @@ class Recorded(Struct, frozen=True):
     right: dict[str, Answers] = {}  # the right answers to observations, by what they are about
     traits: dict[str, Answers] = {}  # what these are like
     parts: dict[str, dict[str, list[int]]] = {}  # of an answer
+    separate: list[str] = []  # what has a mistake in one part alone
     mistakes: list[RecordedMistake] = []
 
 

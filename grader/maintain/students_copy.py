@@ -186,7 +186,9 @@ def record(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
         {about: answers(model, about, seen) for about, model in models.items()}
         for models in (misconceptions.right, misconceptions.traits)
     )
-    return Recorded(notes, right, traits, misconceptions.parts, mistakes)
+    return Recorded(
+        notes, right, traits, misconceptions.parts, sorted(misconceptions.separate), mistakes
+    )
 
 
 def without_properties(rubric: Rubric) -> Rubric:
@@ -233,11 +235,11 @@ def noted(function: Any, notes: Answers) -> Any:
 
 def answers(model: misconceptions.Model, about: str, seen: list[Observation]) -> Answers:
     """What a model says to everything that was observed."""
-    said = {}
+    found = {}
     for each in seen:
         if each.about == about:
             try:
-                said[key(each.inputs)] = model(*each.inputs)
+                found[key(each.inputs)] = misconceptions.said(model, each.inputs)
             except misconceptions.Undecided:
                 continue
-    return said
+    return found

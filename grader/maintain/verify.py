@@ -8,12 +8,13 @@ import os
 import tempfile
 import time
 from collections import Counter as Count
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from functools import cache
 from multiprocessing import active_children, get_context
 from pathlib import Path
+from typing import TypeVar
 
 from rich.console import Console
 from rich.table import Table
@@ -26,10 +27,14 @@ from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.maintain.bank import Entry, Member, members
+from grader.maintain.halfway import Halfway, graded, halfway
 from grader.maintain.kept import Kept
 from grader.maintain.ladders import Ladder, ladders
 from grader.maintain.sync import sync
 from grader.maintain.traces import watched
+
+One = TypeVar("One")
+Found = TypeVar("Found")
 
 KEPT = KIT / "build" / "verify"
 
@@ -46,8 +51,20 @@ class Verdict:
 
 
 @dataclass
+class Told:
+    """A student half way, and what the first failure says that it must not, or does not say."""
+
+    state: Halfway
+    complaint: str
+
+
+ENOUGH = 0.95  # of the states half way, whose first failure must say what is wrong
+
+
+@dataclass
 class Report:
     verdicts: list[Verdict] = field(default_factory=list)
+    told: list[Told] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)  # about the kit itself
 
     @property
@@ -57,7 +74,19 @@ class Report:
     @property
     def sound(self) -> bool:
         of_members = [each.complaint for each in self.verdicts]
-        return not any([*self.complaints, *of_members, *(each.complaint for each in self.ladders)])
+        found = [*self.complaints, *of_members, *(each.complaint for each in self.ladders)]
+        return not any([*found, self.untold])
+
+    @property
+    def untold(self) -> str:
+        """What is wrong with what students half way are told; empty where nothing is."""
+        wrong = [each for each in self.told if each.complaint.startswith("says ")]
+        right = sum(not each.complaint for each in self.told)
+        if wrong:
+            return f"{len(wrong)} students half way are told what is wrong"
+        if right < ENOUGH * len(self.told):
+            return f"only {right} of {len(self.told)} students half way are told what they need"
+        return ""
 
 
 def verify(
@@ -81,6 +110,14 @@ def verify(
             counter.reached(len(report.verdicts))
             if verdict.complaint:
                 console.print(f"{verdict.member.name}: {verdict.complaint}")
+    asked = {todo.id for todo in course.rubric.todos}
+    states = [each for each in halfway() if each.todo in asked and only in f"halfway/{each.name}"]
+    with Counter("asking for students half way", len(states), console) as counter:
+        for told in ask_all(states, jobs):
+            report.told.append(told)
+            counter.reached(len(report.told))
+            if told.complaint:
+                console.print(f"{told.state.name}: {told.complaint}")
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)
@@ -121,9 +158,21 @@ def kit_complaints() -> Iterator[str]:
 
 
 def grade_all(chosen: Iterable[Member], jobs: int) -> Iterator[Verdict]:
+    yield from each_of(grade_member, chosen, jobs)
+
+
+def ask_all(states: Iterable[Halfway], jobs: int) -> Iterator[Told]:
+    yield from each_of(graded_halfway, states, jobs)
+
+
+def each_of(function: Callable[[One], Found], chosen: Iterable[One], jobs: int) -> Iterator[Found]:
+    """What a function makes of each, in processes of their own, in the order in which they end."""
+    todo = list(chosen)
+    if not todo:
+        return
     context = get_context("spawn")
     with ProcessPoolExecutor(jobs or os.cpu_count(), context, begin_process) as pool:
-        futures = [pool.submit(grade_member, member) for member in chosen]
+        futures = [pool.submit(function, each) for each in todo]
         try:
             for future in as_completed(futures):
                 yield future.result()
@@ -154,6 +203,14 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
         seconds = time.monotonic() - start
         complaint = complaint_of(member, result, seconds) or traces.complaint
         return Verdict(member, result, seconds, complaint)
+
+
+def graded_halfway(state: Halfway) -> Told:
+    """What the first failure says of a state; like `grade_member`, with a worker of the process."""
+    worker = shared_worker()
+    shared = worker if isinstance(worker, WarmWorker) else None
+    with tempfile.TemporaryDirectory(prefix="bank-") as folder:
+        return Told(state, state.complaint(graded(state, Path(folder).resolve(), shared)))
 
 
 def complaint_of(member: Member, result: Result, seconds: float) -> str:
@@ -187,6 +244,11 @@ def show(report: Report, console: Console) -> None:
     console.print(table)
     for line in summary(report.verdicts):
         console.print(line)
+    right = sum(not each.complaint for each in report.told)
+    if report.told:
+        console.print(f"students half way: {len(report.told)}, told what is wrong: {right}")
+    if report.untold:
+        console.print(f"students half way: {report.untold}")
     for complaint in report.complaints:
         console.print(f"the kit: {complaint}")
 

@@ -172,6 +172,9 @@ class Subject:
     def integrate(self, request: Integrate) -> Items:
         """What the integrator answers, step by step, as far as each is a state to go on from."""
         method, accel = self.find(request.target), polynomial(request.force)
+        places: list[Value] = []
+        if request.places:
+            accel = noting(accel, places)
         x, v = request.x, request.v
         answers: list[Value] = []
         for _ in range(request.steps):
@@ -180,7 +183,7 @@ class Subject:
             if not isinstance(answer, Vec) or not all(map(math.isfinite, answer)):
                 break
             x, v = map(float, answer)
-        return Items(answers)
+        return Items(places if request.places else answers)
 
     def make_body(self, request: MakeBody) -> Any:
         """A body of the lesson's engine in one request: most checks make many."""
@@ -380,6 +383,17 @@ def polynomial(coefficients: list[float]) -> Callable[..., float]:
         return total
 
     return accel
+
+
+def noting(accel: Callable[..., float], places: list[Value]) -> Callable[..., float]:
+    """The same, and the first places at which it is asked are noted."""
+
+    def noted(x: float, *others: Any) -> float:
+        if len(places) < MAX_ITEMS:
+            places.append(as_number(x, "what accel is asked about"))
+        return accel(x, *others)
+
+    return noted
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
