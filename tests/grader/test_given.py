@@ -94,6 +94,19 @@ def test_what_is_in_regions_or_changes_nothing_is_no_change(old, new):
     assert not changes({SOLVER: text.replace(old, new)}, load_given())
 
 
+def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
+    """Students may move given code, and leave out an import that nothing reads any more."""
+    given = load_given()
+    text = given[SOLVER]
+    start, stop = text.index("def friction_limit"), text.index("def solve_friction")
+    moved = "from .limits import friction_limit\n" + text[:start] + text[stop:]
+    assert not changes({SOLVER: moved.replace("import math\n", "")}, given)
+    name = "mini_engine/__init__.py"  # which passes all of them on
+    lacking = given[name].replace("from .body import Body\n", "")
+    (found,) = changes({name: lacking}, given)
+    assert found.given == "from .body import Body"
+
+
 def test_the_solution_changes_nothing_that_was_given():
     assert not changed_in(KIT / "solution") and not changed_in(KIT / "starter")
 
