@@ -103,23 +103,18 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
             yield from difference(file, file, lines, Piece(0, len(lines)), whole)
         return
     own, ours = with_markers(pieces(body), text), given_pieces(given)
+    elsewhere = imported_names(body)
     for name, piece in ours.items():
         wanted = tuple(right[piece.start : piece.stop])
         there = own.get(name)
-        if there is None:
-            if piece.owner and piece.owner not in own:
-                continue  # its class is missed as a whole
-            place = (
-                end_of_imports(body) if piece.constant else end_of(body, piece.owner, len(lines))
-            )
-            gap = () if piece.constant else ("",) if piece.owner else ("", "")
-            first = first_code(wanted)
-            yield Changed(name, file, place + 1, "", first, place, place, (*gap, *wanted))
-        elif not piece.whole_class and not there.whole_class:
+        if there is None and not {name, piece.owner, "*"} & (elsewhere - {""}):
+            if not piece.owner or piece.owner in own:  # or its class is missed as a whole
+                yield gone(name, file, body, piece, wanted, len(lines))
+        elif there is not None and not piece.whole_class and not there.whole_class:
             kept = with_regions(wanted, lines[there.start : there.stop])
             if kept is not None:
                 yield from difference(name, file, lines, there, kept)
-    for missing in missing_imports(body, given):
+    for missing in missing_imports(body, given, file.endswith("__init__.py")):
         place = end_of_imports(body)
         yield Changed(missing, file, place + 1, "", missing, place, place, (missing,))
     for name in sorted(own.keys() & imported_names(statements(given)) - ours.keys()):
@@ -127,6 +122,15 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
         yield Changed(
             name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
         )
+
+
+def gone(
+    name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
+) -> Changed:
+    """A piece that is not there any more; it comes back behind the imports, its class or all."""
+    place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
+    gap = () if piece.constant else ("",) if piece.owner else ("", "")
+    return Changed(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
 
 
 def difference(
@@ -274,13 +278,15 @@ def imported_names(body: Iterable[ast.stmt]) -> set[str]:
     return {name for name, _, _ in imports_in(body)}
 
 
-def missing_imports(body: list[ast.stmt], given: str) -> Iterator[str]:
-    """The given imports, as lines, of which the name is bound by nothing in this file."""
+def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterator[str]:
+    """The given imports, as lines, of names that nothing binds in this file, and that it reads.
+
+    Of a file that passes its names on, all of them.
+    """
     bound = imported_names(body) | pieces(body).keys()
-    if "*" in bound:
-        return
+    read = {node.id for node in ast.walk(ast.Module(body, [])) if isinstance(node, ast.Name)}
     for name, source, what in imports_in(statements(given)):
-        if name not in bound:
+        if name not in bound and (passed_on or ("*" not in bound and name in read)):
             called = f" as {name}" if name != what else ""
             yield f"from {source} import {what}{called}" if source else f"import {what}{called}"
 
