@@ -499,19 +499,6 @@ known_8b(
 )
 
 
-def kicked_before(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    half_way = v + accel(x) * dt / 2
-    end = x + half_way * dt + accel(x) * dt**2 / 2
-    return end, half_way + accel(end) * dt / 2
-
-
-known_8b(
-    "half-kick-counts-twice-in-x",
-    "x gets the acceleration twice: v has its half already when x moves.",
-    kicked_before,
-)
-
 # ---------------------------------------------------------------- 8c: other samples, other weights
 
 Source = tuple[int, float]  # the sample that one starts from, and the share of the step

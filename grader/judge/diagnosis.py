@@ -27,6 +27,7 @@ from grader.judge.misconceptions import (
     right,
     said,
     separate,
+    simplest,
     traits,
 )
 from grader.judge.recorded import key
@@ -142,10 +143,11 @@ class Diagnosis:
         explained = [each.changed for each in here if numbers[0] in each.explains]
         told = [each.meaning for each in here] if explained else []
         left = first.wrong.difference(*explained)
-        if left and (narrowed := narrow(self.seen, first, left)):
-            told.append(narrowed)
-        if not told:
+        narrowed = narrow(self.seen, first, left) if left else ""
+        if not told and " where " not in narrowed:
             told = [each.meaning for each in self.findings if each.mistake.about == first.about]
+        if (narrowed and not told) or " where " in narrowed:
+            told.append(narrowed)
         return " And: ".join(dict.fromkeys(told[:2]))
 
     # ------------------------------------------------------------ known mistakes
@@ -208,7 +210,7 @@ class Diagnosis:
                 if each.about == self.seen[wrong[0]].about
                 and (changed := self.fits(each, numbers, covered)) & left
             ]
-            chosen = self.chosen(fit)
+            chosen = self.chosen(fit, numbers)
             if chosen is None:
                 break
             mistake, changed = chosen
@@ -256,17 +258,24 @@ class Diagnosis:
         return self.predictions[mistake, number]
 
     def chosen(
-        self, fit: list[tuple[Mistake, frozenset[str]]]
+        self, fit: list[tuple[Mistake, frozenset[str]]], numbers: list[int]
     ) -> tuple[Mistake, frozenset[str]] | None:
-        """The mistake that changes most; of several that change the same, the one that fits all."""
-        for parts_changed in sorted(
-            {changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c))
-        ):
-            best = [(each, changed) for each, changed in fit if changed == parts_changed]
-            if len({each.id for each, _ in best}) > 1:
-                best = [(each, changed) for each, changed in best if not self.denied(each, changed)]
-            if len({each.id for each, _ in best}) == 1:
-                return best[0]
+        """The mistake that changes most; of several that change the same, the one that fits all.
+
+        Where still several do, none of what they change is told of by another one.
+        """
+        tied: frozenset[str] = frozenset()
+        order = sorted({changed for _, changed in fit}, key=lambda c: (-len(c), sorted(c)))
+        for changed in order:
+            best = [each for each, some in fit if some == changed]
+            if len(simplest({each.id for each in best})) > 1:
+                best = [each for each in best if self.changes(each, numbers) <= changed]
+            if len(simplest({each.id for each in best})) > 1:
+                best = [each for each in best if not self.denied(each, changed)]
+            left = simplest({each.id for each in best})
+            if len(left) == 1 and not changed <= tied:
+                return next(each for each in best if each.id == left[0]), changed
+            tied |= changed
         return None
 
     def denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:

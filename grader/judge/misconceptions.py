@@ -6,7 +6,7 @@ model does not. Nothing is guessed from how the code looks.
 
 import importlib
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -121,11 +121,15 @@ def named(todo: str, observations: Sequence[Observation]) -> Mistake | None:
     A student's copy sees less, so it names one only if no other explains as much.
     """
     load_known(todo)
-    found = (each for each in known if each.todo == todo and explains(each, observations))
-    first = next(found, None)
-    if first is not None and load_recorded() is not None:
-        return first if all(each.id == first.id for each in found) else None
-    return first
+    found = [each for each in known if each.todo == todo and explains(each, observations)]
+    if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
+        return None
+    return found[0] if found else None
+
+
+def simplest(ids: Collection[str]) -> list[str]:
+    """The ids without those of two mistakes, `one+other`, one of which is there by itself."""
+    return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 
 def said(model: Model, inputs: tuple[Any, ...]) -> Any:
