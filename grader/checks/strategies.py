@@ -34,19 +34,21 @@ rates = st.sampled_from(RATES) | st.sampled_from(RATES[:4])  # 1/s; often small 
 step_sizes = st.sampled_from(STEP_SIZES)  # s
 damped_steps = st.sampled_from(DAMPED_STEPS)  # s
 
+# The simplest is not 0, so that the very first answer says something.
 near_and_far = st.one_of(
-    st.integers(-32, 32).map(lambda n: n / 8),
+    st.integers(-32, 32).map(lambda n: (n + 5) / 8),
     st.integers(-8000, 8000).map(lambda n: n / 8),
-    st.sampled_from([0.0, 1 / 64, -1 / 64, 100.03125, 2345.25, -1234.5]),
+    st.sampled_from([0.0, 1 / 64, -1 / 64]),
 )
 states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
-gentle_forces = st.tuples(*[st.integers(-8, 8).map(lambda n: n / 4)] * 4)  # up to the cubic term
+gentle_forces = st.tuples(
+    *[st.integers(-8, 8).map(lambda n: (n + 1) / 4)] * 4
+)  # up to the cubic term
 falls = st.integers(3918, 3922).map(lambda n: (n / 4, 0.0, 0.0, 0.0))  # px/s²; gravity, or nearly
 forces = gentle_forces | falls
 seeds = st.integers(0, 999)  # of a random.Random
 # From long ones, by which integrators are told apart, to short ones that are no round numbers.
-long_steps = [2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16]  # s
-time_steps = st.sampled_from([*long_steps, 1 / 29.8, 1 / 30, 1 / 120, 1 / 480, 1 / 2000])  # s
+time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
 
 # For a property that plays a program: a play takes as long as hundreds of calls, so no shrinking.
 once = settings(

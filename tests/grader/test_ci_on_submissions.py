@@ -211,7 +211,7 @@ def test_a_mistake_is_annotated_on_its_line(tmp_path: Path):
     assert kind == "error" and held["title"].startswith("TODO 8c: ")
     assert held["file"] == "integrators.py" and "Expected" in message
     line = (checkout / held["file"]).read_text(encoding="utf-8").splitlines()[int(held["line"]) - 1]
-    assert "# TODO 8c:" in line
+    assert "accel(x)" in line  # the first line of code in the region, and not its marker
     assert "TODO 8c" in run.summary.partition("```text")[2]
 
 

@@ -92,7 +92,7 @@ def sheet_of(tree: Path) -> str:
 
 def blocks(page: str) -> Iterator[list[str]]:
     """The blocks of lines to be typed."""
-    for block in re.findall(r"<pre><code>(.*?)</code></pre>", page, re.DOTALL):
+    for block in re.findall(r"<pre[^>]*><code>(.*?)</code></pre>", page, re.DOTALL):
         yield html.unescape(block).splitlines()
 
 
