@@ -111,6 +111,7 @@ def standing_still(lab: Lab) -> Thing:
             lab.tell(space, "add", body)
         lab.put(space, gravity=(3.265625, -700.25))
         return space
+    walls = [lab.box((-900.0, 50.0 * number), (20, 20)) for number in range(16)]
     hook, bob = lab.circle((700, 90), 6, 0.0), lab.circle((840, 95), 24, vel=(3.0, 1.0))
     more = lab.circle((840, 190), 12)
     ends = (hook, bob), (bob, more)
@@ -120,7 +121,7 @@ def standing_still(lab: Lab) -> Thing:
         lab.circle((100, 9000), 20),
         lab.circle((460, 310), 10, vel=(30.0, 5.0), omega=-3.0),
         lab.circle((440, 310), 10, vel=(-3.0, 5.0)),
-        *(lab.box((-900.0, 50.0 * number), (20, 20)) for number in range(16)),
+        *walls,
         lab.box((450, 580), (450, 20)),
         hook,
         bob,

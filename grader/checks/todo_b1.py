@@ -341,13 +341,15 @@ def going_to_sleep_changes_nothing_else(lab: Lab) -> None:
     lab.put(world, gravity=(0.28125, 0.0))
     for body, seconds in zip(bodies, times, strict=True):
         lab.put(body, vel=(2.0, 0.0), omega=-0.1, still_for=seconds)
-    frame = dict.fromkeys(bodies[2:], FALLING_ASLEEP)
-    lab.call("update_sleep", world, STEP, changes=frame)
-    want(lab, True, bodies[-1], LONG_AT_REST)
-    lab.call("update_sleep", world, STEP, changes=dict.fromkeys(bodies[2:-2], FALLING_ASLEEP))
+    looked_at = (*bodies, flying, hook, bob, more, *rods)
+    for may in (bodies[2:], bodies[2:-2]):
+        frame = dict.fromkeys(may, FALLING_ASLEEP)
+        lab.call("update_sleep", world, STEP, changes=frame, sees=looked_at)
+        want(lab, True, bodies[-1], LONG_AT_REST)
     lab.put(flying, pos=(40.3 * (len(times) - 1), LYING - 2 * RADIUS + 0.5))
     lab.tell(world, "step", STEP)
-    lab.call("update_sleep", world, STEP, changes=dict.fromkeys(bodies[2:], FALLING_ASLEEP))
+    frame = dict.fromkeys(bodies[2:], FALLING_ASLEEP)
+    lab.call("update_sleep", world, STEP, changes=frame, sees=looked_at)
 
 
 def a_sleeping_pile_costs_next_to_nothing(lab: Lab) -> None:
