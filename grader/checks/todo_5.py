@@ -150,7 +150,7 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
     changes = {world: "contacts", belt: "pos angle"} | {  # a belt may move or stay
         ball: "pos vel angle omega" for ball in (*balls, *fleet)
     }
-    changes |= {rod: "axis bias k" for rod in rods}
+    changes |= {rod: "axis bias k stiffness damping" for rod in rods}
     for dt in (*steps, 1 / 118):  # the last one nearly as usual
         left = lab.thing(
             lab.call("Contact", fleet[0], fleet[2], (0.0, 1.0), 0.25, (0.0, 9e5 + 20.0))
