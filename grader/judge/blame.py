@@ -34,7 +34,9 @@ class Blamed:
     def told(self, check: CheckResult) -> CheckResult:
         """The check with these changes for its reason, before whatever else it means."""
         first = self.changes[0]
-        meaning = self.in_words if self.mended else f"{self.in_words} {check.meaning}".rstrip()
+        gone = not all(each.theirs for each in self.changes)  # then a new name may have been told
+        alone = self.mended and not gone
+        meaning = self.in_words if alone else f"{self.in_words} {check.meaning}".rstrip()
         place = check.where if check.where is not None and not first.theirs else first
         where = Where(place.file, place.line, given=True)
         return msgspec.structs.replace(check, meaning=meaning, where=where)
