@@ -170,7 +170,8 @@ def call(subject: Subject, request: Call) -> Returned:
     args = [subject.decode(each) for each in request.args]
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
     if not request.work:
-        frame = Frame(subject, refs_in(request), args) if request.framed else None
+        looked_at = [*refs_in(request), *request.states]
+        frame = Frame(subject, looked_at, args) if request.framed else None
         if request.stepping:
             returned = call_stepping(subject, args[0], lambda: function(*args, **kwargs))
         else:
