@@ -20,6 +20,8 @@ from grader.report.files import write_json
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+for name in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS"):
+    os.environ.pop(name, None)  # that of `make test` is not the make of a student
 
 KIT = Path(__file__).parents[1]
 os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
