@@ -21,7 +21,8 @@ MEMBERS = [member for member in EVERY if member.kind != "ladder"]
 RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
 MOST = {"wrong": 1, "right": 2, "hostile": 3}  # of a group of this kind
 MOST_OF_ANOTHER = 8
-TOO_LONG = ("in-every-todo", "B3-only-the-nearest")  # each takes as long as ten others
+# Each of these takes as long as ten others.
+TOO_LONG = ("in-every-todo", "B3-only-the-nearest", "B3-a-pair-once-per-cell")
 SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
 
 

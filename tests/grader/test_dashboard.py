@@ -263,5 +263,6 @@ def test_a_hostile_class_is_quiet_in_the_browser(browser: Any, tmp_path: Path):
     assert shown.complaints == []
 
 
+@pytest.mark.soak
 def test_the_page_of_a_class_is_for_all(browser: Any, tmp_path: Path):
     assert barriers(browser, make_class(tmp_path, 3)) == []

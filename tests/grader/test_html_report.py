@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import pytest
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 from grader.judge.result import CheckResult, Result, TodoResult, Where
@@ -120,6 +121,7 @@ def test_a_browser_shows_the_replay_and_obeys_no_words(tmp_path: Path):
         assert screen.complaints == []
 
 
+@pytest.mark.soak
 def test_a_report_is_for_all_with_the_replay_in_it(tmp_path: Path):
     (tmp_path / "replays").mkdir()
     (tmp_path / "replays" / "2-b.html").write_text(little_replay(), encoding="utf-8")

@@ -646,6 +646,7 @@ def test_pages_of_all_todos_open_without_a_complaint(browser: Any, pages: Path, 
     assert shown.complaints == []
 
 
+@pytest.mark.soak
 def test_a_replay_is_for_all(browser: Any, pages: Path):
     first, *_, last = sorted(pages.glob("*.html"))  # a scene, and an integrator's curve
     assert barriers(browser, first, last) == []
