@@ -182,6 +182,9 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
         Disc(25, 8, 8),
     )
     want_exact(lab, discs)
+    middle = Disc(BOX.x, BOX.y, 8)  # two faces are equally near, and either will do
+    answer = touch(lab, *pair(lab, middle, BOX), middle, BOX, noted=False)
+    want(lab, answer, exact.circle_box(middle, BOX))
 
 
 def a_centre_on_the_edge_counts_as_inside(lab: Lab) -> None:
