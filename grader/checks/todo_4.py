@@ -41,14 +41,19 @@ TARGET = 5.125  # px/s
 
 
 class Setting(NamedTuple):
-    """All else about two discs that touch, on which no friction hangs."""
+    """All else about two discs that touch, on which no friction hangs, and how they are asked.
+
+    Only where it is `framed` a check asks what else is changed: that costs points, but not all.
+    """
 
     place: Pair = (30.3125, -20.6875)  # px, of B
     restitution: Pair = (0.28125, 0.59375)  # which is in the target already
     depth: float = DEPTH  # px, as the contact tells it; so is this
+    dt: float = STEP  # s
+    framed: bool = False
 
 
-USUAL = Setting()
+USUAL, FRAMED = Setting(), Setting(framed=True)
 settings = st.builds(
     Setting,
     place=PLACE["pos"],
@@ -151,13 +156,8 @@ def motion(a: BodyValue, b: BodyValue) -> Motion:
 # ---------------------------------------------------------------- passes
 
 
-def one_pass(
-    lab: Lab, pressed: Pressed, each: Rubbing, dt: float = STEP, framed: bool = False
-) -> float:
-    """The friction impulse on B that one pass adds, along its slip.
-
-    Only some checks ask for the frame: what else is changed costs points, but not all of them.
-    """
+def one_pass(lab: Lab, pressed: Pressed, each: Rubbing, setting: Setting = USUAL) -> float:
+    """The friction impulse on B that one pass adds, along its slip."""
     world, contact, a, b, discs, changes = pressed
     first = at_first(discs, each, TARGET)
     lab.put(contact, jn=each.jn)
@@ -165,10 +165,10 @@ def one_pass(
         lab.put(a, vel=(first.ax, first.ay), omega=first.a_spin)
     if discs.mass[1]:
         lab.put(b, vel=(first.bx, first.by), omega=first.b_spin)
-    looked_at = changes if framed else None
-    lab.tell(world, "solve_contact", contact, dt, changes=looked_at, sees=(a, b))
+    looked_at = changes if setting.framed else None
+    lab.tell(world, "solve_contact", contact, setting.dt, changes=looked_at, sees=(a, b))
     last = motion(lab.state(a), lab.state(b))
-    if framed:
+    if setting.framed:
         want_pressed(lab, contact, each.pressed(discs.k))
     rubbing = rubbed(discs, first, last)
     right = after(discs, first, each.pressed(discs.k) - each.jn, rubbing)
@@ -202,18 +202,13 @@ def say_motion(says: Motion, other: Motion) -> str:
 
 
 def rub(
-    lab: Lab,
-    discs: Discs,
-    passes: list[Rubbing],
-    dt: float = STEP,
-    framed: bool = False,
-    setting: Setting = USUAL,
+    lab: Lab, discs: Discs, passes: list[Rubbing], setting: Setting = USUAL
 ) -> tuple[float, ...]:
     """The friction impulse on B in total after each pass, along its slip."""
     say_what_runs(lab, discs, passes)
     pressed, totals = press(lab, discs, setting=setting), [0.0]
     for each in passes:
-        totals.append(totals[-1] + one_pass(lab, pressed, each, dt, framed))
+        totals.append(totals[-1] + one_pass(lab, pressed, each, setting))
     # A mistake's answer hangs on TODO 2 where they turn, and on rounding where momenta are huge.
     if not discs.turning and momenta(discs, passes) < 1e7:
         lab.saw("friction", (discs.mu, discs.k, tuple(passes)), tuple(totals[1:]))
@@ -241,25 +236,15 @@ def say(totals: tuple[float, ...], other: tuple[float, ...]) -> str:
     return ", then ".join(f"{round(total, n) + 0.0:.12g}" for total in totals) + " kg px/s"
 
 
-def want_exact(
-    lab: Lab,
-    discs: Discs,
-    passes: list[Rubbing],
-    dt: float = STEP,
-    framed: bool = False,
-    setting: Setting = USUAL,
-) -> None:
-    want_totals(lab, discs, passes, rub(lab, discs, passes, dt, framed, setting))
+def want_exact(lab: Lab, discs: Discs, passes: list[Rubbing], setting: Setting = USUAL) -> None:
+    want_totals(lab, discs, passes, rub(lab, discs, passes, setting))
 
 
-def want_about(
-    lab: Lab, discs: Discs, passes: list[Rubbing], dt: float = STEP, framed: bool = False
-) -> None:
+def want_about(lab: Lab, discs: Discs, passes: list[Rubbing], setting: Setting = USUAL) -> None:
     """The same for discs as heavy, as fast and pressed as hard."""
     heavy, fast = lab.about(1.0), lab.about(1.0)
-    want_exact(
-        lab, like(discs, heavy, fast), [hard(each, heavy, fast) for each in passes], dt, framed
-    )
+    hard_passes = [hard(each, heavy, fast) for each in passes]
+    want_exact(lab, like(discs, heavy, fast), hard_passes, setting)
 
 
 def like(discs: Discs, heavy: float, fast: float) -> Discs:
@@ -388,7 +373,7 @@ def within_the_limit_friction_ends_the_slip(lab: Lab) -> None:
     for slip in (30.0, -30.0, 5.0625, -5.0625, 1.5, -0.01):
         for discs in (ON_A_FLOOR, IN_THE_AIR, slow):
             passes = [Rubbing(500.0, slip), Rubbing(500.0, 0.0)]
-            want_about(lab, discs, passes, framed=True)
+            want_about(lab, discs, passes, FRAMED)
 
 
 def nothing_rubs_on_ice_or_without_pressure(lab: Lab) -> None:
@@ -405,7 +390,7 @@ def any_passes_add_up_to_a_friction_within_the_limit(
 ) -> None:
     """Any passes add up to a friction within the limit"""
     passes = sliding(discs, passes) if discs.turning else passes
-    want_exact(lab, discs, passes, dt, framed=True, setting=setting)
+    want_exact(lab, discs, passes, setting._replace(dt=dt, framed=True))
 
 
 @given(

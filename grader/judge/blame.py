@@ -16,9 +16,7 @@ from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
 
 MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
-MOST_ASKED = (
-    60  # times that checks are asked again, so that a tree with many faults is told of soon
-)
+MOST_ASKED = 60  # times that checks are asked again: a tree with many faults is told of soon, too
 
 Key = tuple[str, str]  # the ids of a TODO and a check
 OpenChild = Callable[[int], Child]

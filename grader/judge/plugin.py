@@ -151,10 +151,11 @@ class GradingPlugin:
             told, again = self._attempt(todo, check, function, isolated=False)
         if told.failure is None:
             lab = told
-        self.seen[todo.id, check.id] = self._survey(todo, check, function, told)
+        seen = self.seen[todo.id, check.id] = self._survey(todo, check, function, told)
         of_todo = self.observations.setdefault(todo.id, [])
         of_todo.extend(lab.observations)
-        of_todo.extend(each for each in self.seen[todo.id, check.id] if each not in of_todo)
+        if seen is not lab.observations:
+            of_todo.extend(each for each in seen if each not in of_todo)
         if told.failure is not None:
             self._blame(todo, check, function, told)
             if not told.ended:

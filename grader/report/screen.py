@@ -14,12 +14,14 @@ from grader.report.terminal import (
     STATES,
     STYLES,
     alike,
+    go_on_with,
+    mend_first,
     subject,
     todo_line,
     wrapped,
     write,
 )
-from grader.words import NAMES, clean, command, named_reasons, place_of, task_of, total
+from grader.words import NAMES, clean, command, named_reasons, task_of, total
 
 LINES = 16  # before the prompt
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
@@ -71,6 +73,9 @@ class Screen:
     def wrap(self, words: str, indent: int = 0, whole: bool = False) -> list[str]:
         return wrapped(words, self.console, indent, whole)
 
+    def in_bold(self, words: str) -> list[Line]:
+        return [Line(each, "bold") for each in self.wrap(words, 6)]
+
     # ------------------------------------------------------------ how it stands
 
     def standing(self, result: Result, apart: TodoResult | None) -> list[Line]:
@@ -91,22 +96,14 @@ class Screen:
         """What to begin with, where nothing that was begun fails."""
         if todo is None:
             return []
-        place = next(filter(None, map(place_of, todo.checks)), "")
-        words = f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place)
-        lines = [Line(each, "bold") for each in self.wrap(words, 6)]
-        lines.append(Line(f"  check it alone: {command('check', todo.id)}"))
-        if todo.id != "whole":
-            lines.append(Line(f"  a hint:         {command('hint', todo.id)}"))
-        return lines
+        headline, *commands = go_on_with(todo)
+        return [*self.in_bold(headline), *map(Line, commands)]
 
     def last_lines(self, todo: TodoResult) -> list[Line]:
         """What to type, or what must be mended before anything else can be said."""
         all_of_it = f"All: {command('check', all_of_it=True)}"
-        cannot, _, module = todo.checks[0].ran.partition("import ")
-        if todo.state == "error" and module and not cannot:
-            place = next(filter(None, map(place_of, todo.checks)), "")
-            words = f"Next: mend {place}: nothing in {module} can be checked before"
-            return [Line(each, "bold") for each in self.wrap(words, 6)]
+        if words := mend_first(todo):
+            return self.in_bold(words)
         if todo.id == "whole":
             return [Line(all_of_it)]
         both = f"A hint: {command('hint', todo.id)}   {all_of_it}"

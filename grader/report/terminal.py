@@ -148,15 +148,35 @@ def show_next(result: Result, console: Console) -> None:
     if not left:
         return
     todo = min(left, key=lambda each: (each.id == "whole", each.state == "not started"))
-    place = next(filter(None, map(place_of, todo.checks)), "")
-    cannot, _, module = todo.checks[0].ran.partition("import ")
-    if todo.state == "error" and module and not cannot:
-        say(f"Next: mend {place}: nothing in {module} can be checked before", console, 6, "bold")
+    if words := mend_first(todo):
+        say(words, console, 6, "bold")
         return
-    say(f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place), console, 6, "bold")
-    say(f"  check it alone: {command('check', todo.id)}", console)
+    headline, *commands = go_on_with(todo)
+    say(headline, console, 6, "bold")
+    for line in commands:
+        say(line, console)
+
+
+def mend_first(todo: TodoResult) -> str:
+    """What must be mended before anything else can be said of a TODO; empty where nothing must."""
+    cannot, _, module = todo.checks[0].ran.partition("import ")
+    if todo.state != "error" or not module or cannot:
+        return ""
+    return f"Next: mend {first_place(todo)}: nothing in {module} can be checked before"
+
+
+def go_on_with(todo: TodoResult) -> list[str]:
+    """The TODO to go on with, and what to type for it."""
+    place = first_place(todo)
+    lines = [f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place)]
+    lines.append(f"  check it alone: {command('check', todo.id)}")
     if todo.id != "whole":
-        say(f"  a hint:         {command('hint', todo.id)}", console)
+        lines.append(f"  a hint:         {command('hint', todo.id)}")
+    return lines
+
+
+def first_place(todo: TodoResult) -> str:
+    return next(filter(None, map(place_of, todo.checks)), "")
 
 
 def say(

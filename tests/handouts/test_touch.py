@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from page_readers import Screen, chromium
 
 import integrators
 import mini_engine
@@ -16,7 +17,6 @@ from grader.checks import exact
 from grader.checks.exact import Disc, Lever, Rect, Rod
 from grader.judge.course import FULL
 from grader.maintain.pages import figures_in, write_pages
-from tests.grader.page_readers import Screen, chromium
 
 KIT = Path(__file__).parents[2]
 TOUCH = KIT / "handouts" / "touch"
