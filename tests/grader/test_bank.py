@@ -22,7 +22,12 @@ RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_pat
 MOST = {"wrong": 1, "right": 2, "hostile": 3}  # of a group of this kind
 MOST_OF_ANOTHER = 8
 # Each of these takes as long as ten others.
-TOO_LONG = ("in-every-todo", "B3-only-the-nearest", "B3-a-pair-once-per-cell")
+TOO_LONG = (
+    "in-every-todo",
+    "B3-only-the-nearest",
+    "B3-a-pair-once-per-cell",
+    "2-no-spin-terms",
+)
 SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
 
 

@@ -31,7 +31,6 @@ from grader.words import total
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
-WHOLE = ("6", "7d", "whole")
 RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 tells about a submission
 
 
@@ -43,10 +42,10 @@ def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
 def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) -> Result:
     """The solution as of somebody who did no bonus task.
 
-    Graded again are the TODOs of the whole programs, which bonus code would be run in, if any were.
+    Graded again is the program as a whole, which bonus code would be run in, if any were.
     """
     folder = tmp_path_factory.mktemp("none") / "ann"
-    again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({*WHOLE, *BONUS}))
+    again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({"whole", *BONUS}))
     todos = {todo.id: todo for todo in again.todos}
     return msgspec.structs.replace(
         solution, bonus=again.bonus, todos=[todos.get(each.id, each) for each in solution.todos]

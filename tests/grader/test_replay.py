@@ -46,7 +46,6 @@ from grader.report.files import as_json
 
 MISTAKES = (
     "1-clamp-is-turned-round",
-    "3-bias-has-the-wrong-sign",
     "4-clamps-the-increment",
     "6-no-cap",
     "7b-moment-of-a-ring",
@@ -73,7 +72,7 @@ def mistaken(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def graded(mistaken: Path) -> Result:
-    todos = frozenset({"1", "3", "4", "6", "7b", "7c", "8b"})
+    todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
     folder = mistaken.parent / "pages"
     options = Options(shipped_reference(), only=todos, replays=folder)
     return grade(mistaken, options, shared_worker())
@@ -101,7 +100,7 @@ def line_of_parting(film: dict[str, Any]) -> tuple[int, dict[str, Any]]:
 
 def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pages: Path):
     failed = [(t, c) for t in graded.todos for c in t.checks if c.state == "not yet"]
-    assert len(failed) > 20
+    assert len(failed) > 15
     for todo, check in failed:
         assert check.replay == f"pages/{todo.id}-{check.id}.html"
         assert (pages.parent / check.replay).is_file()
@@ -296,7 +295,6 @@ SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
         r"Vector2\(0, 1\), 5\.0, Vector2\(10, -20\)",
     ),
     ("1-a_world_finds_the_ball_on_its_floor", r"^\[\]$", r"Vector2\(0, 1\), 2\.0"),
-    ("3-a_pendulum_that_starts_above_keeps_its_length", r"\[", r"\["),
     ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
     ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
     ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.44, 207\.3", r"\(1\.44, 103\.6"),
