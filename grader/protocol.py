@@ -181,6 +181,11 @@ class Piece(Struct, frozen=True):
 class Import(Struct, frozen=True, tag="import"):
     module: str
     pieces: list[Piece] = []
+    watched: bool = False  # so that it can be asked what was kept since; see Remembered
+
+
+class Remembered(Struct, frozen=True, tag="remembered"):
+    """Ask for the names in the submission that hold something else than after the import."""
 
 
 class Call(Struct, frozen=True, tag="call"):
@@ -282,7 +287,9 @@ class Play(Struct, frozen=True, tag="play"):
 
 
 Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own
-Request = Import | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
+Request = (
+    Import | Remembered | Call | Get | Set | MakeBody | MakeWorld | Simulate | Integrate | Play
+)
 
 
 class Film(Struct, frozen=True, tag="film"):

@@ -14,6 +14,7 @@ from grader.protocol import (
     Piece,
     Played,
     Raised,
+    Remembered,
     Request,
     Returned,
     Simulated,
@@ -49,6 +50,7 @@ class Connection:
     rested: float = 0.0  # s, in which they could have worked
     heard: int = 0  # bytes of their answers
     over: NotYet | Broke | None = None  # why nothing more can be asked
+    watched: bool = False  # whether the child notes what the submission keeps from call to call
 
     def ask(self, request: Request, ran: str) -> Answer:
         """The answer; raises NotYet or Broke where the submission gave none."""
@@ -62,13 +64,24 @@ class Connection:
         except ChildEnded as error:
             self._stop(ran, str(error))
         try:
-            reply = self._ask(self.child, Import(self.module, self.pieces), ran)
+            reply = self._ask(self.child, Import(self.module, self.pieces, self.watched), ran)
         except (Broke, NotYet) as failure:
             self.over = failure
             raise
         if isinstance(reply, Returned) and isinstance(reply.value, str):
             self.swapped = reply.value.split(",") if reply.value else []
         return self.child
+
+    def remembered(self) -> list[str]:
+        """The names in the submission that hold something else than before the first request."""
+        if self.child is None or self.over is not None or not self.watched:
+            return []
+        try:
+            reply = self._ask(self.child, Remembered(), "")
+        except (Broke, NotYet):
+            return []
+        names = str(reply.value).split(",") if isinstance(reply, Returned) else []
+        return [name for name in names if name.replace(".", "").isidentifier()]
 
     def restart(self) -> None:
         """End a child that still answers, so that the next request opens another one."""

@@ -15,7 +15,7 @@ from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.diagnosis import Diagnosis
-from grader.judge.failures import Broke, NotYet
+from grader.judge.failures import KEPT, MOST_NAMES, REMEMBERS, Broke, NotYet
 from grader.judge.given import Changed, changes, restored
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
@@ -142,6 +142,7 @@ class Grading:
     sandbox: Sandbox
     observations: dict[str, list[Observation]] = field(default_factory=dict)  # answers, by TODO
     blamed: dict[Key, Blamed] = field(default_factory=dict)  # what fails for changed given code
+    remembered: dict[Key, list[str]] = field(default_factory=dict)  # the names that kept something
     surveys_all: bool = False  # ask each check to its end, to have all that it may ask
 
     def run(self) -> Result:
@@ -174,6 +175,7 @@ class Grading:
             for id in {id for id, _ in blame.seen}:
                 answers = [each for key, each in seen.items() if key[0] == id]
                 self.observations[id] = [each for some in answers for each in some]
+        self.remembered = plugin.remembered
         result = self.result(plugin.results, seen)
         folder = self.options.replays
         if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
@@ -260,6 +262,8 @@ class Grading:
             else:
                 asked = {each.id: seen.get((todo.id, each.id), []) for each in checks}
                 checks = told_in_part(todo.id, checks, asked)
+                kept = {each.id: self.remembered.get((todo.id, each.id), []) for each in checks}
+                checks = [with_memory(each, kept[each.id]) for each in checks]
             checks = [self.with_hint(todo, each) for each in checks]
             checks = [
                 self.blamed[todo.id, check.id].told(check)
@@ -323,11 +327,24 @@ def told_in_part(
     """Each failed check with what its own answers tell, unless it says so itself."""
     if not any(check.failed for check in checks):
         return checks
+    if any(check.meaning == REMEMBERS for check in checks):  # then no number means anything
+        return checks
     diagnosis = Diagnosis(todo, [each for answers in asked.values() for each in answers])
     return [
         check if check.meaning else with_meaning(check, diagnosis.of(asked[check.id]))
         for check in checks
     ]
+
+
+def with_memory(check: CheckResult, names: list[str]) -> CheckResult:
+    """A failed check with the names in which something is kept from call to call, if there are any.
+
+    That alone is no mistake, but answers that hang on it are, and look like any others.
+    """
+    if not names or not check.failed:
+        return check
+    shown = ", ".join(name.rpartition(".")[2] for name in names[:MOST_NAMES])
+    return with_meaning(check, f"{check.meaning} {KEPT.format(names=shown)}".strip())
 
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:

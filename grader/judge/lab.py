@@ -80,6 +80,7 @@ class Lab(Decoder):
         self.overstepped: NotYet | None = None
         self.unforeseen = False  # whether the check itself raised an error
         self.numbers = count(OURS)  # for what is made at our word
+        self.remembers: list[str] = []  # the names in which something was kept; see Remembered
         self.played = False  # whether the child has run a program
 
     @property

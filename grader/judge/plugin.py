@@ -13,7 +13,7 @@ from hypothesis.errors import Flaky
 from grader.judge.budget import Budget
 from grader.judge.children import Child
 from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
-from grader.judge.failures import Broke, NotYet
+from grader.judge.failures import REMEMBERS, Broke, NotYet
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
 from grader.judge.reference import Reference
@@ -57,6 +57,7 @@ class GradingPlugin:
     results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
+    remembered: dict[tuple[str, str], list[str]] = field(default_factory=dict)  # by failed check
     functions: dict[tuple[str, str], tuple[Todo, Check, Any]] = field(default_factory=dict)
     surveys_all: bool = False  # whether checks that pass are surveyed as well
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
@@ -158,6 +159,7 @@ class GradingPlugin:
             of_todo.extend(each for each in seen if each not in of_todo)
         if told.failure is not None:
             self._blame(todo, check, function, told)
+            self.remembered[todo.id, check.id] = told.remembers
             if not told.ended:
                 secret = secret_of(self.seed, todo, check)
                 failing = Failing(todo, check, again, told.connection.pieces, secret)
@@ -175,7 +177,9 @@ class GradingPlugin:
         brief = told.connection.cpu < BRIEF and not told.played
         if not wanted or not brief or not told.observations or check.kind == "property":
             return told.observations
-        return self._asked(todo, check, function, isolated=False, surveys=True).observations
+        survey = self._asked(todo, check, function, isolated=False, surveys=True, watched=True)
+        told.remembers = survey.remembers
+        return survey.observations
 
     def _blame(self, todo: Todo, check: Check, function: Any, lab: Lab) -> None:
         """Note a check that the right code fails as well: that is not the submission's fault.
@@ -214,9 +218,32 @@ class GradingPlugin:
                 return lab, example
         with kept_examples(function) as examples, seeded(function, self.seed):
             lab = self._asked(todo, check, function, isolated)
-        if examples and lab.failure is None:
+        if not examples:
+            return lab, function
+        if lab.failure is None:
             passed_before[function, self.seed] = examples
-        return lab, examples[-1] if examples else function
+        elif isinstance(lab.failure, NotYet) and not lab.ended:
+            lab = self._alone(lab, self._asked(todo, check, examples[-1], isolated, watched=True))
+        return lab, examples[-1]
+
+    def _alone(self, lab: Lab, alone: Lab) -> Lab:
+        """The lab to tell of, given what its last example came to in a child asked nothing else.
+
+        Where that differs, the answer hangs on what was asked before, and no number of it means
+        anything.
+        """
+        first, second = lab.failure, alone.failure
+        assert isinstance(first, NotYet)
+        lab.remembers = alone.remembers
+        if alone.ended or (
+            second is not None and (first.ran, first.got) == (second.ran, second.got)
+        ):
+            return lab
+        if isinstance(second, NotYet):
+            second.meaning = REMEMBERS
+            return alone
+        first.meaning = REMEMBERS
+        return lab
 
     def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
         """The lab of a check that failed and is asked once more, of children that others open.
@@ -236,10 +263,12 @@ class GradingPlugin:
         right: bool = False,
         opener: Callable[[int], Child] | None = None,
         surveys: bool = False,
+        watched: bool = False,
     ) -> Lab:
         """A lab in which the check ran, of the reference itself if it is to be the `right` code.
 
-        One that `surveys` goes on where the check fails, and costs the submission no time.
+        One that `surveys` goes on where the check fails, and costs the submission no time. One that
+        is `watched` says what the submission remembers.
         """
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
@@ -248,7 +277,7 @@ class GradingPlugin:
         lab = Lab(
             module, lambda: self._child_for(todo, check, right, opener), pieces, secret=secret
         )
-        lab.surveys = surveys
+        lab.surveys, lab.connection.watched = surveys, watched
         little = self.budget.why_little(todo.id)
         with lab.opened():
             try:
@@ -262,6 +291,7 @@ class GradingPlugin:
                 name = type(error).__name__
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
+            lab.remembers = lab.connection.remembered()
         if right or surveys:
             return lab
         self.budget.charge(todo.id, lab.connection)

@@ -39,6 +39,7 @@ from grader.protocol import (
     ProtocolError,
     Ready,
     Ref,
+    Remembered,
     Reply,
     Request,
     Returned,
@@ -52,6 +53,7 @@ from grader.worker.filter import refuse_system_calls
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
 from grader.worker.lines import LineCounter
+from grader.worker.memory import Memory
 from grader.worker.output import Output
 from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import ScriptedClock
@@ -134,8 +136,13 @@ def answer(
 ) -> Reply:
     """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
-        case Import(module, pieces):
-            return Returned(",".join(subject.load(module, pieces)))
+        case Import(module, pieces, watched):
+            swapped = subject.load(module, pieces)
+            subject.memory = Memory(str(subject.folder)) if watched else None
+            return Returned(",".join(swapped))
+        case Remembered():
+            names = subject.memory.changed() if subject.memory else []
+            return Returned(cut(",".join(names), MAX_TEXT))
         case Call():
             return call(subject, request)
         case Get(ref, name):

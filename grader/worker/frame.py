@@ -12,10 +12,8 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
-import pygame
-import pymunk
-
 from grader.protocol import Change
+from grader.worker.memory import PAIRS, PLAIN
 from grader.worker.subject import Subject
 
 LATEST = 12  # objects that are looked at beside those that a call is given
@@ -46,8 +44,6 @@ FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
         *("bodies", "joints", "contacts", "springs", "sleeping", "grid"),
     ),
 }
-PLAIN = {float, int, bool, type(None)}
-PAIRS = {pygame.Vector2, pymunk.Vec2d}
 Numbers = tuple[Any, ...]
 
 

@@ -45,6 +45,7 @@ from grader.protocol import (
     Vec,
     cut,
 )
+from grader.worker.memory import Memory
 from grader.worker.standin import fitted, plain_function, put_in_place
 
 MAX_ITEMS = 1000  # entries of a returned list
@@ -70,6 +71,7 @@ class Subject:
         self.folder = folder
         self.objects: dict[int, Any] = {}  # by reference number, in the order they came up
         self.refs: dict[int, int] = {}  # reference numbers by id() of the object
+        self.memory: Memory | None = None  # of how it was after the import
         self.counters: dict[type, Any] = {}  # of the steps of worlds that are not to be run
         # What the submission's functions take for a pair of numbers.
         self.pair_type: Callable[[float, float], Any] = pygame.Vector2
