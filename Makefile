@@ -44,7 +44,7 @@ for path in map(Path, sys.argv[1:]):
 endef
 export PLAIN_VERSIONS
 
-.PHONY: help setup grade contained run dials accuracy effects cases compiled wheels handouts \
+.PHONY: help setup grade contained run dials accuracy effects cases compiled wheels films handouts \
 	release dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
@@ -106,6 +106,9 @@ wheels: $(DEV) ## Make a wheel of it for this system; the workflow of that name 
 
 release: $(CORE) ## Make what students get, in build/release, once verify has no complaint
 	@$(PY) -m grader release $(if $(FRESH),--fresh)
+
+films: $(CORE) ## Record the films of the handouts anew, once an engine has changed
+	@$(PY) handouts/make_films.py
 
 handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 	@$(PY) handouts/make_hints.py

@@ -21,6 +21,7 @@ from make_hints import page as hints_page
 
 from grader.judge.course import FULL, WrongCourse, read_course
 from grader.maintain.handouts import handouts_of
+from grader.maintain.pages import lay_out_touch
 
 HERE = Path(__file__).resolve().parent
 BUILD = HERE.parent / "build" / "handouts"
@@ -39,7 +40,7 @@ def sources(folder, instructors, course):
     for name, text in texts.items():
         (pages / name).write_text(text, encoding="utf-8")
     shutil.copytree(HERE / "figures", pages / "figures")
-    shutil.copytree(HERE / "touch", pages / "touch")
+    lay_out_touch(HERE, pages)
     shutil.copytree(OURS, pages / "site", ignore=shutil.ignore_patterns("*.yml"))
     if instructors:
         only_pages = shutil.ignore_patterns("*.py", "*.toml", "__pycache__")

@@ -11,8 +11,11 @@ from markdown_it.token import Token
 
 from grader.judge.course import FULL, Course
 from grader.maintain.handouts import handouts_of
+from grader.player.page import TEMPLATES
 
-SHARED = ("touch", "laws")  # of all movable figures
+STAGE = TEMPLATES / "stage.js"
+
+SHARED = ("touch", "laws", "stage", "films")  # of all movable figures
 START = "index.md"  # its links are in the order in which the pages are read
 FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
@@ -61,7 +64,13 @@ def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
         target.write_text(page, encoding="utf-8", newline="\n")
         for figure in figures_in(text):
             shutil.copyfile(handouts / figure, folder / figure)
+    lay_out_touch(handouts, folder)
+
+
+def lay_out_touch(handouts: Path, folder: Path) -> None:
+    """The scripts and films of movable figures, with the stage that replays are played on."""
     shutil.copytree(handouts / "touch", folder / "touch")
+    shutil.copyfile(STAGE, folder / "touch" / STAGE.name)
 
 
 def figures_in(text: str) -> list[str]:
@@ -71,7 +80,8 @@ def figures_in(text: str) -> list[str]:
 def scripts_of(text: str, handouts: Path) -> str:
     """What a page loads to make those of its figures movable that have a script in touch/."""
     names = [Path(figure).stem for figure in figures_in(text)]
-    movable = [name for name in names if (handouts / "touch" / f"{name}.js").is_file()]
+    kinds = dict.fromkeys(each for name in names for each in (name, name.partition("-")[0]))
+    movable = [name for name in kinds if (handouts / "touch" / f"{name}.js").is_file()]
     if not movable:
         return ""
     tags = [f'<script defer src="touch/{name}.js"></script>' for name in [*SHARED, *movable]]

@@ -19,7 +19,7 @@ MAX_WORDS = 1000  # characters of a submission in one line: a page has more room
 
 def page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
     """The page of one failed check; `words` say why it failed, `script` asks the same again."""
-    player = read("player.js")
+    player = script_of_player()
     return filled(
         TEMPLATES / "player.html",
         read("player.css"),
@@ -81,7 +81,11 @@ def read(name: str) -> str:
 
 def hashes() -> tuple[str, str]:
     """The style and the script of a replay, as the policy of a page around it names them."""
-    return allowed(theme() + read("player.css")), allowed(read("player.js"))
+    return allowed(theme() + read("player.css")), allowed(script_of_player())
+
+
+def script_of_player() -> str:
+    return read("stage.js") + read("player.js")
 
 
 def allowed(content: str) -> str:

@@ -1,17 +1,18 @@
 // Figures that can be moved.
 //
 // A page holds a still picture, figures/NAME.svg. A script beside this one makes the figure of that
-// name: it replaces the picture on the screen, by a drawing with handles, sliders and a sentence that
+// name, or all of a kind (figures/KIND-NAME.svg): it replaces the picture on the screen, by a drawing with handles, sliders and a sentence that
 // says what is seen. The picture stays for paper, and for readers whose browser runs no script.
 //
 // Drawings are in px, y grows down. All is drawn anew at each change, as wide as the page is.
 "use strict";
 
 const touch = {
-  /** Make all figures of this name; `build(figure)` adds the parts and returns what draws them. */
-  figure(name, build) {
-    for (const still of document.querySelectorAll(`img[src$="figures/${name}.svg"]`)) {
-      new Figure(name, still, build);
+  /** Make all figures of this name or kind; `build(figure)` adds parts and returns what draws them. */
+  figure(kind, build) {
+    const ones = `img[src$="figures/${kind}.svg"], img[src*="figures/${kind}-"][src$=".svg"]`;
+    for (const still of document.querySelectorAll(ones)) {
+      new Figure(still.src.replace(/^.*figures\/(.*)\.svg$/, "$1"), still, build);
     }
   },
 
@@ -35,6 +36,7 @@ const touch = {
 class Figure {
   constructor(name, still, build) {
     const { element } = touch;
+    this.name = name;
     this.paint = element("svg:g");
     this.grips = element("svg:g");
     this.picture = element("svg:svg", { role: "group", "aria-label": still.alt });

@@ -1,0 +1,338 @@
+// The stage: draws one scene of a film on a canvas, frame by frame. It knows no page around it.
+//
+// A scene has `yours` and `expected`, both lists of frames, and the looks of the bodies in each. Where
+// nothing is expected, that list is empty.
+"use strict";
+
+function stageOn(canvas) {
+  const digits = (value, count = 6) =>
+    value === undefined ? "" : value === null ? "not finite" : String(Number(value.toPrecision(count)));
+  const pen = canvas.getContext("2d");
+
+  // ---------------------------------------------------------------- frames
+
+  // A frame tells only what changed: [time, steps, bodies, touches, rods, gone].
+  function unfold(frames) {
+    let bodies = new Map(), touches = [], rods = [];
+    return frames.map(([time, steps, changed, newTouches, newRods, gone]) => {
+      bodies = new Map(bodies);
+      for (const number of gone) bodies.delete(number);
+      for (const [number, ...state] of changed) bodies.set(number, state);
+      touches = newTouches ?? touches;
+      rods = newRods ?? rods;
+      return { time, steps, bodies, touches, rods };
+    });
+  }
+
+  // The frames of both runs as they are drawn, and what is in view.
+  function prepare(scene) {
+    scene.mine = unfold(scene.yours);
+    scene.right = unfold(scene.expected);
+    scene.view ??= scene.curve ? curveView(scene) : viewOf(scene);
+    return scene;
+  }
+
+  // ---------------------------------------------------------------- what is in view
+
+  const NOTHING = [Infinity, Infinity, -Infinity, -Infinity];
+  const isFinitePlace = (state) => Number.isFinite(state[0]) && Number.isFinite(state[1]);
+  const reach = (look) => Math.max(0, ...(look?.shapes ?? []).flatMap(
+    ([points, radius]) => points.map(([x, y]) => Math.hypot(x, y) + radius)));
+
+  // How far a body reaches in each direction: left, up, right, down.
+  function extent(look) {
+    if (look?.mass !== null) return [reach(look), reach(look), reach(look), reach(look)];
+    let box = NOTHING;
+    for (const [points, radius] of look.shapes) for (const [x, y] of points) box = around(box, x, y, radius);
+    return [-box[0], -box[1], box[2], box[3]];
+  }
+
+  function around(box, x, y, r) {
+    return [Math.min(box[0], x - r), Math.min(box[1], y - r), Math.max(box[2], x + r), Math.max(box[3], y + r)];
+  }
+  function boundsOf(frames, looks, wanted) {
+    let box = NOTHING;
+    for (const frame of frames) {
+      for (const [number, state] of frame.bodies) {
+        const look = looks[number];
+        if (!isFinitePlace(state) || !wanted(look)) continue;
+        const [left, up, right, down] = extent(look);
+        box = [Math.min(box[0], state[0] - left), Math.min(box[1], state[1] - up), Math.max(box[2], state[0] + right), Math.max(box[3], state[1] + down)];
+      }
+    }
+    return box;
+  }
+
+  // All that moves and what is no larger than that; of the rest what lies near.
+  function viewOf(scene) {
+    const both = [[scene.mine, scene.looks], [scene.right, scene.expected_looks]];
+    const moves = (look) => look && look.mass !== null;
+    const join = (wanted) => both.reduce((box, [frames, looks]) => {
+      const other = boundsOf(frames, looks, wanted);
+      return [Math.min(box[0], other[0]), Math.min(box[1], other[1]), Math.max(box[2], other[2]), Math.max(box[3], other[3])];
+    }, NOTHING);
+    let core = scene.right.length ? boundsOf(scene.right, scene.expected_looks, moves) : NOTHING;
+    if (core[0] > core[2]) core = boundsOf(scene.mine, scene.looks, moves);
+    if (core[0] > core[2]) core = join(() => true);
+    if (core[0] > core[2]) core = [-50, -50, 50, 50];
+    const size = Math.max(core[2] - core[0], core[3] - core[1], 2);
+    const most = 1.5 * size;
+    const limit = [core[0] - most, core[1] - most, core[2] + most, core[3] + most];
+    const small = (look) => {
+      const [left, up, right, down] = extent(look);
+      return Math.max(left + right, up + down) <= 5 * size;
+    };
+    const near = join((look) => !moves(look) && small(look)), far = join(() => true);
+    core = [0, 1, 2, 3].map((side) => {
+      const outer = side < 2 ? Math.min : Math.max, inner = side < 2 ? Math.max : Math.min;
+      const rim = core[side] + (side < 2 ? -size : size) / 3;
+      return outer(core[side], inner(near[side], limit[side]), inner(far[side], rim));
+    });
+    const rim = Math.max(core[2] - core[0], core[3] - core[1]) * 0.06;
+    return [core[0] - rim, core[1] - rim, core[2] + rim, core[3] + rim];
+  }
+
+  function curveView(scene) {
+    let box = NOTHING;
+    for (const frames of [scene.mine, scene.right]) {
+      for (const frame of frames) {
+        const state = frame.bodies.get(1);
+        if (state && Number.isFinite(state[0])) box = around(box, frame.time, state[0], 0);
+      }
+    }
+    if (box[0] > box[2]) return [0, -1, 1, 1];
+    const tall = (box[3] - box[1] || 1) * 0.08, wide = (box[2] - box[0] || 1) * 0.04;
+    return [box[0] - wide, box[1] - tall, box[2] + wide, box[3] + tall];
+  }
+
+  // ---------------------------------------------------------------- drawing
+
+  let colours = {}, scale = 1, offset = [0, 0];
+
+  function readColours() {
+    const style = getComputedStyle(canvas);
+    for (const name of ["paper", "ink", "soft", "line", "yours", "expected", "fixed", "wrong"]) {
+      colours[name] = style.getPropertyValue(`--${name}`).trim();
+    }
+  }
+
+  const toX = (x) => offset[0] + x * scale, toY = (y) => offset[1] + y * scale;
+
+  function fit(scene) {
+    const wide = canvas.clientWidth || 800;
+    const [left, top, right, bottom] = scene.view;
+    const aspect = scene.curve ? 0.5 : Math.min(0.75, Math.max(0.3, (bottom - top) / (right - left)));
+    const tall = Math.min(420, Math.round(wide * aspect)), dots = window.devicePixelRatio || 1;
+    canvas.style.height = `${tall}px`;
+    if (canvas.width !== Math.round(wide * dots) || canvas.height !== Math.round(tall * dots)) {
+      canvas.width = Math.round(wide * dots);
+      canvas.height = Math.round(tall * dots);
+    }
+    pen.setTransform(dots, 0, 0, dots, 0, 0);
+    scale = Math.min(wide / (right - left), tall / (bottom - top));
+    offset = [(wide - scale * (left + right)) / 2, (tall - scale * (top + bottom)) / 2];
+    return [wide, tall];
+  }
+
+  function outline(state, look) {
+    const turn = Number.isFinite(state[4]) ? state[4] : 0, cos = Math.cos(turn), sin = Math.sin(turn);
+    const place = ([x, y]) => [toX(state[0] + x * cos - y * sin), toY(state[1] + x * sin + y * cos)];
+    pen.beginPath();
+    for (const [points, radius] of look.shapes) {
+      const corners = points.map(place);
+      if (corners.length === 1) {
+        pen.moveTo(corners[0][0] + radius * scale, corners[0][1]);
+        pen.arc(...corners[0], radius * scale, 0, 2 * Math.PI);
+      } else if (corners.length) {
+        corners.forEach(([x, y], index) => (index ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+        pen.closePath();
+      }
+    }
+    return look.shapes.length === 1 && look.shapes[0][0].length === 1 ? look.shapes[0][1] : 0;
+  }
+
+  function spoke(state, radius) {
+    if (!radius || !Number.isFinite(state[4])) return;
+    pen.beginPath();
+    pen.moveTo(toX(state[0]), toY(state[1]));
+    pen.lineTo(toX(state[0] + radius * Math.cos(state[4])), toY(state[1] + radius * Math.sin(state[4])));
+    pen.stroke();
+  }
+
+  function arrow(x, y, dx, dy) {
+    const length = Math.hypot(dx, dy);
+    if (!(length > 2)) return;
+    const head = Math.min(8, length / 2), ux = dx / length, uy = dy / length;
+    pen.beginPath();
+    pen.moveTo(x, y);
+    pen.lineTo(x + dx, y + dy);
+    pen.moveTo(x + dx - head * (ux + 0.5 * uy), y + dy - head * (uy - 0.5 * ux));
+    pen.lineTo(x + dx, y + dy);
+    pen.lineTo(x + dx - head * (ux - 0.5 * uy), y + dy - head * (uy + 0.5 * ux));
+    pen.stroke();
+  }
+
+  function rods(frame, colour) {
+    pen.strokeStyle = colour;
+    pen.lineWidth = 2.5;
+    for (const [ax, ay, bx, by] of frame.rods) {
+      pen.beginPath();
+      pen.moveTo(toX(ax), toY(ay));
+      pen.lineTo(toX(bx), toY(by));
+      pen.stroke();
+    }
+  }
+
+  function touches(frame, colour) {
+    pen.strokeStyle = pen.fillStyle = colour;
+    pen.lineWidth = 2;
+    for (const [x, y, nx, ny] of frame.touches) {
+      pen.beginPath();
+      pen.arc(toX(x), toY(y), 3, 0, 2 * Math.PI);
+      pen.fill();
+      const length = frame.touches.length > 3 ? 14 : 26;
+      arrow(toX(x), toY(y), length * nx, length * ny);
+    }
+  }
+
+  function drawYours(scene, frame, speedScale, chosen) {
+    rods(frame, colours.ink);
+    for (const [number, state] of frame.bodies) {
+      const look = scene.looks[number];
+      if (!look || !isFinitePlace(state)) continue;
+      const moves = look.mass !== null, radius = outline(state, look);
+      pen.globalAlpha = moves ? 0.75 : 0.55;
+      pen.fillStyle = moves ? colours.yours : colours.fixed;
+      pen.fill();
+      pen.globalAlpha = 1;
+      if (number === chosen) {
+        pen.strokeStyle = colours.ink;
+        pen.lineWidth = 2;
+        pen.stroke();
+      }
+      if (moves) {
+        pen.strokeStyle = colours.paper;
+        pen.lineWidth = 2;
+        spoke(state, radius);
+        pen.strokeStyle = colours.yours;
+        arrow(toX(state[0]), toY(state[1]), state[2] * speedScale, state[3] * speedScale);
+      }
+    }
+    touches(frame, colours.ink);
+  }
+
+  function drawExpected(scene, frame, speedScale) {
+    pen.setLineDash([5, 4]);
+    for (const [number, state] of frame.bodies) {
+      const look = scene.expected_looks[number] ?? scene.looks[number];
+      if (!look || !isFinitePlace(state) || look.mass === null) continue;
+      pen.strokeStyle = colours.expected;
+      pen.lineWidth = 2;
+      const radius = outline(state, look);
+      pen.stroke();
+      spoke(state, radius);
+      pen.setLineDash([]);
+      arrow(toX(state[0]), toY(state[1]), state[2] * speedScale, state[3] * speedScale);
+      pen.setLineDash([5, 4]);
+    }
+    rods(frame, colours.expected);
+    pen.setLineDash([]);
+    touches(frame, colours.expected);
+  }
+
+  function drawGap(mine, right) {
+    pen.strokeStyle = colours.wrong;
+    pen.lineWidth = 2;
+    for (const [number, state] of mine.bodies) {
+      const other = right.bodies.get(number);
+      if (!other || !isFinitePlace(state) || !isFinitePlace(other)) continue;
+      if (Math.hypot(state[0] - other[0], state[1] - other[1]) <= 0.5) continue;
+      pen.beginPath();
+      pen.moveTo(toX(state[0]), toY(state[1]));
+      pen.lineTo(toX(other[0]), toY(other[1]));
+      pen.stroke();
+    }
+  }
+
+  // The fastest body's arrow takes an eighth of the picture.
+  function arrowScale(scene, wide) {
+    let fastest = 0;
+    for (const frame of [...scene.mine, ...scene.right]) {
+      for (const [, state] of frame.bodies) {
+        const speed = Math.hypot(state[2], state[3]);
+        if (Number.isFinite(speed)) fastest = Math.max(fastest, speed);
+      }
+    }
+    return fastest ? wide / 8 / fastest : 0;
+  }
+
+  function drawCurve(scene, now, wide, tall) {
+    const [left, low, right, high] = scene.view;
+    const x = (time) => 48 + (time - left) / (right - left) * (wide - 60);
+    const y = (value) => tall - 28 - (value - low) / (high - low) * (tall - 40);
+    pen.strokeStyle = colours.line;
+    pen.fillStyle = colours.soft;
+    pen.font = "12px system-ui, sans-serif";
+    pen.lineWidth = 1;
+    for (let mark = 0; mark <= 4; mark += 1) {
+      const value = low + (high - low) * mark / 4, time = left + (right - left) * mark / 4;
+      pen.beginPath();
+      pen.moveTo(48, y(value));
+      pen.lineTo(wide - 12, y(value));
+      pen.stroke();
+      pen.fillText(digits(value, 3), 4, y(value) + 4);
+      pen.textAlign = mark === 4 ? "right" : "center";
+      pen.fillText(`${digits(Math.max(time, 0), 2)} s`, x(time), tall - 8);
+      pen.textAlign = "left";
+    }
+    const trace = (frames, colour, dash) => {
+      pen.strokeStyle = colour;
+      pen.lineWidth = 2;
+      pen.setLineDash(dash);
+      pen.beginPath();
+      frames.forEach((frame, index) => {
+        const state = frame.bodies.get(1), time = scene.mine[index]?.time ?? frame.time;
+        if (!state || !Number.isFinite(state[0])) return;
+        if (index && time > scene.mine[index - 1].time) pen.lineTo(x(time), y(state[0]));
+        else pen.moveTo(x(time), y(state[0]));
+      });
+      pen.stroke();
+      pen.setLineDash([]);
+    };
+    trace(scene.mine, colours.yours, []);
+    trace(scene.right, colours.expected, [6, 4]);
+    for (const [frame, colour] of [[now.right, colours.expected], [now.mine, colours.yours]]) {
+      const state = frame?.bodies.get(1);
+      if (!state || !Number.isFinite(state[0])) continue;
+      pen.fillStyle = colour;
+      pen.beginPath();
+      pen.arc(x(now.mine.time), y(state[0]), 5, 0, 2 * Math.PI);
+      pen.fill();
+    }
+  }
+
+  // `now` has a scene and its frames `mine` and `right`; the outline of a body can be picked out.
+  function draw(now, chosen = null) {
+    const { scene } = now;
+    const [wide, tall] = fit(scene);
+    pen.clearRect(0, 0, wide, tall);
+    if (scene.curve) {
+      drawCurve(scene, now, wide, tall);
+      return;
+    }
+    scene.arrows ??= arrowScale(scene, wide);
+    drawYours(scene, now.mine, scene.arrows, chosen);
+    if (now.right) {
+      drawExpected(scene, now.right, scene.arrows);
+      drawGap(now.mine, now.right);
+    }
+  }
+
+  // Where in the scene a point of the page is, px, and how many px of the scene a px of the page is.
+  function place(event) {
+    const box = canvas.getBoundingClientRect();
+    return { x: (event.clientX - box.left - offset[0]) / scale, y: (event.clientY - box.top - offset[1]) / scale, px: 1 / scale };
+  }
+
+  return { prepare, draw, place, readColours, reach, isFinitePlace, digits };
+}

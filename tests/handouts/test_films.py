@@ -1,0 +1,195 @@
+"""The films of the handouts: made of the engines as they are, light, played by pointer and keys."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from page_readers import Screen, chromium
+
+from grader.judge.course import FULL
+from grader.judge.rubric import load_rubric
+from grader.maintain.pages import write_pages
+
+KIT = Path(__file__).parents[2]
+HANDOUTS = KIT / "handouts"
+FILMS = HANDOUTS / "touch" / "films"
+PREDICTIONS = tomllib.loads((HANDOUTS / "predictions.toml").read_text("utf-8"))
+SHEET = (HANDOUTS / "lab-sheet.md").read_text("utf-8")
+
+
+def film(name: str) -> dict[str, Any]:
+    text = (FILMS / f"{name}.js").read_text("utf-8")
+    found = re.fullmatch(r"touch\.film\(\"(.*?)\", (.*)\);\n", text, re.DOTALL)
+    assert found and found[1] == name
+    data: dict[str, Any] = json.loads(found[2])
+    return data
+
+
+def make(folder: Path, *options: str) -> None:
+    command = [sys.executable, str(HANDOUTS / "make_films.py"), "--out", str(folder), *options]
+    subprocess.run(command, check=True, capture_output=True)
+
+
+def test_no_engine_has_changed_since_they_were_made(tmp_path: Path) -> None:
+    """Else `make films` makes them anew; here one of them shows that the same comes out."""
+    make(tmp_path, "--only", "predict-7a")
+    for name in ("predict-7a.js", "made-of.txt"):
+        assert (tmp_path / name).read_bytes() == (FILMS / name).read_bytes(), "run make films"
+
+
+@pytest.mark.soak
+def test_each_is_the_same_bit_for_bit_when_it_is_made_again(tmp_path: Path) -> None:
+    make(tmp_path)
+    made = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert made == {path.name: path.read_bytes() for path in FILMS.iterdir()}
+
+
+def test_before_each_todo_something_is_to_be_predicted() -> None:
+    todos = [todo.id for todo in load_rubric().counted if todo.function]
+    assert list(PREDICTIONS) == todos
+    for todo in todos:
+        section = SHEET.partition(f"## TODO {todo}:")[2].partition("\n## ")[0]
+        question, _, task = section.partition("**What.**")
+        assert "**Predict.**" in question and "**Predict.**" not in task
+        assert f"(figures/predict-{todo}.svg)" in question
+        answer = re.search(r"<strong>([ABC])\.</strong>(.*?)</p>", question, re.DOTALL)
+        assert answer and answer[1] == PREDICTIONS[todo]["right"]
+        said = " ".join(answer[2].split())
+        assert all(each["says"] in said for each in PREDICTIONS[todo]["mistake"])
+
+
+def test_no_letter_is_the_usual_one() -> None:
+    letters = [each["right"] for each in PREDICTIONS.values()]
+    assert all(letters.count(letter) >= 3 for letter in "ABC")
+
+
+def last_places(scene: dict[str, Any]) -> list[list[float]]:
+    """Where what moves is in each third of a film: x, y and the angle."""
+    rows: dict[int, list[float]] = {}
+    places, frames = [], scene["yours"]
+    for number, frame in enumerate(frames, 1):
+        rows |= {row[0]: row[1:] for row in frame[2]}
+        if 3 * number % len(frames) < 3:
+            moving = [n for n in rows if scene["looks"][str(n)]["mass"] is not None]
+            places.append([rows[n][at] for n in moving for at in (0, 1, 4)])
+    return places
+
+
+@pytest.mark.parametrize("todo", PREDICTIONS)
+def test_the_three_films_can_be_told_apart(todo: str) -> None:
+    """By ten px, or half a turn, at least once in each pair."""
+    data = film(f"predict-{todo}")
+    assert data["right"] == "ABC".index(PREDICTIONS[todo]["right"]) and len(data["films"]) == 3
+    seen = [last_places(each["scene"]) for each in data["films"]]
+    for one, other in ((0, 1), (0, 2), (1, 2)):
+        gaps = [
+            abs(a - b) / (10 if at % 3 < 2 else 3)
+            for here, there in zip(seen[one], seen[other], strict=True)
+            for at, (a, b) in enumerate(zip(here, there, strict=True))
+        ]
+        assert max(gaps) > 1, (todo, one, other)
+
+
+def test_the_tower_sinks_less_for_more_work() -> None:
+    """In the lesson's engine and in pymunk: more passes or substeps help, whatever the step."""
+    films = film("tower")["films"]
+    assert len(films) == 42
+    for engine in ("lesson", "pymunk"):
+        for rate in (30, 60, 120):
+            few, usual, many = (films[f"{engine}/{passes}/1/{rate}"] for passes in (2, 8, 30))
+            assert few["sink"] > usual["sink"] > many["sink"] or engine == "pymunk"
+            assert few["work"] < usual["work"] < many["work"]
+
+
+def test_they_are_light() -> None:
+    sizes = {path.name: path.stat().st_size for path in FILMS.iterdir()}
+    assert sum(sizes.values()) < 500_000 and max(sizes.values()) < 300_000
+
+
+# ---------------------------------------------------------------- in a browser
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("pages")
+    write_pages(HANDOUTS, folder, FULL)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as browser:
+        yield browser
+
+
+def shown(screen: Screen, name: str) -> Any:
+    figure = screen.page.locator(f'figure[data-figure="{name}"]')
+    figure.scroll_into_view_if_needed()
+    figure.locator("canvas[data-frame]").first.wait_for()
+    return figure
+
+
+def test_no_page_waits_for_films(browser: Any, pages: Path) -> None:
+    screen = Screen(browser, pages / "lesson.html")
+    assert "films/" not in screen.page.content().partition("</head>")[0]
+    screen.page.close()
+
+
+def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, pages: Path) -> None:
+    screen = Screen(browser, pages / "lab-sheet.html")
+    for way in ("keys", "pointer"):
+        figure = shown(screen, {"keys": "predict-3", "pointer": "predict-1"}[way])
+        words = figure.locator("output")
+        assert words.inner_text().startswith("Which one will it be?")
+        buttons = figure.get_by_role("button")
+        assert buttons.all_inner_texts() == ["A", "B", "C"]
+        if way == "keys":
+            buttons.nth(0).focus()
+            screen.page.keyboard.press("Enter")
+            assert (
+                words.inner_text()
+                == "No: A cuts the corner: a rope pulls and cannot push. It is C."
+            )
+        else:
+            buttons.nth(1).click()
+            assert words.inner_text() == "Yes, B."
+            assert "right" in (buttons.nth(1).get_attribute("class") or "")
+        before = figure.locator("canvas").first.get_attribute("data-frame")
+        screen.page.wait_for_function(
+            "([figure, before]) => figure.querySelector('canvas').dataset.frame !== before",
+            arg=[figure.element_handle(), before],
+        )
+    assert screen.complaints == []
+    screen.page.close()
+
+
+def test_the_tower_tells_what_was_recorded(browser: Any, pages: Path) -> None:
+    screen = Screen(browser, pages / "lesson.html")
+    figure, films = shown(screen, "tower"), film("tower")["films"]
+    words = figure.locator("output")
+    assert f"{films['lesson/8/1/60']['sink']:.1f} px" in words.inner_text()
+    engine, passes, substeps, rate = figure.locator("select").all()
+    passes.focus()
+    screen.page.keyboard.press("End")
+    assert f"{films['lesson/30/1/60']['sink']:.1f} px" in words.inner_text()
+    rate.select_option("120")
+    substeps.select_option("4")
+    wanted = films["lesson/30/4/120"]
+    assert f"{wanted['sink']:.1f} px" in words.inner_text()
+    assert f"{wanted['work']:,} times" in words.inner_text()
+    engine.select_option("stable")
+    assert passes.is_disabled()
+    assert f"{films['stable/1/4/120']['sink']:.1f} px" in words.inner_text()
+    figure.get_by_role("button", name="Play").click()
+    canvas = figure.locator("canvas")
+    screen.page.wait_for_function(
+        "canvas => canvas.dataset.frame === '5'", arg=canvas.element_handle(), polling="raf"
+    )
+    assert screen.complaints == []
+    screen.page.close()
