@@ -1,7 +1,9 @@
 """One builder per engine. All of them then answer to the same few names. Box2D is optional.
 
 An engine here is a scene in motion: step(dt) advances it by dt seconds, read(i) tells the state of
-the body at place i of the scene's list, and contacts() and asleep() count.
+the body at place i of the scene's list, and contacts() and asleep() count. For a person at the
+window throw(i, velocity) gives a body another velocity, drop(ball) adds one, and touches() tells
+where bodies touch.
 """
 
 import math
@@ -28,9 +30,21 @@ BOX2D_PASSES = 8  # what it advises
 
 STATIC = pymunk.Body.STATIC
 State = namedtuple("State", "x y vx vy angle omega")
+# A contact: its point, the unit normal towards the second body, and the impulse (kg px/s) of the
+# latest step along it; None where the engine does not tell.
+Touch = namedtuple("Touch", "x y nx ny impulse")
 
 
-class Undeclaring:
+class Built:
+    """What all builders share."""
+
+    def drop(self, ball):
+        """Add a ball while the scene runs."""
+        self.scene.bodies.append(ball)
+        self.bodies.append(self.add(ball))
+
+
+class Undeclaring(Built):
     """A builder for an engine in which nothing is declared: it knows no effects by name."""
 
     @property
@@ -49,10 +63,13 @@ class Lesson(Undeclaring):
         rates = scene.damping if "Damping" in scene.effects else (0.0, 0.0)
         self.world = EditedWorld(edits, scene.gravity, *rates)
         self.world.iterations = passes
-        self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
+        self.bodies = [self.add(data) for data in scene.bodies]
         rod = AimedRod if "rods" in edits else mini_engine.DistanceJoint
         if "Rods" in scene.effects:
             self.world.joints += [rod(self.bodies[a], self.bodies[b]) for a, b in scene.rods]
+
+    def add(self, data):
+        return self.world.add(self.body(data))
 
     def body(self, data):
         effects = self.scene.effects
@@ -74,6 +91,12 @@ class Lesson(Undeclaring):
         body = self.bodies[i]
         return State(*body.pos, *body.vel, body.angle, body.omega)
 
+    def throw(self, i, velocity):
+        self.bodies[i].vel = Vector2(velocity)
+
+    def touches(self):
+        return [Touch(*c.point, *c.normal, c.jn) for c in self.world.contacts]
+
     def lag(self, dt):
         """How long (s) velocities lag behind places: half a step of semi-implicit Euler."""
         return dt / self.substeps / 2
@@ -85,7 +108,7 @@ class Lesson(Undeclaring):
         return 0
 
 
-class Stable:
+class Stable(Built):
     """The stable engine, with the effects the scene calls for."""
 
     name = "stable"
@@ -95,7 +118,7 @@ class Stable:
         self.scene, self.substeps = scene, substeps
         effects = [self.effect(name) for name in scene.effects]
         self.world = self.package.World(scene.gravity, substeps, effects)
-        self.bodies = [self.world.add(self.body(data)) for data in scene.bodies]
+        self.bodies = [self.add(data) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
                 self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
@@ -108,6 +131,9 @@ class Stable:
     def effect(self, name):
         make = getattr(self.package, name)
         return make(*self.scene.damping) if name == "Damping" else make()
+
+    def add(self, data):
+        return self.world.add(self.body(data))
 
     def body(self, data):
         surface = {"restitution": data.restitution, "friction": data.friction}
@@ -125,6 +151,20 @@ class Stable:
     def read(self, i):
         body = self.bodies[i]
         return State(body.x, body.y, body.vx, body.vy, body.angle, body.w)
+
+    def throw(self, i, velocity):
+        self.bodies[i].vel = velocity
+
+    def touches(self):
+        """A contact's first body is a ball, on whose rim the point lies. Impulses are those of the
+        latest substep, times as many as there are in a step.
+        """
+        effect = self.world.effects.get("Contacts")
+        found = []
+        for c in effect.touching if effect else ():
+            x, y = (place + c.a.shape.radius * n for place, n in ((c.a.x, c.nx), (c.a.y, c.ny)))
+            found.append(Touch(x, y, c.nx, c.ny, c.jn * self.substeps))
+        return found
 
     def lag(self, dt):
         return dt / self.substeps / 2
@@ -156,7 +196,7 @@ class Pymunk(Undeclaring):
             self.space.collision_slop = slop  # px, the overlap that it leaves alone
         if "Damping" in scene.effects:
             self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
-        self.bodies = [self.body(data) for data in scene.bodies]
+        self.bodies = [self.add(data) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
                 self.tie(pymunk.PinJoint(self.bodies[a], self.bodies[b]))
@@ -165,7 +205,7 @@ class Pymunk(Undeclaring):
                 ends = self.bodies[s.a], self.bodies[s.b], (0, 0), (0, 0)
                 self.tie(pymunk.DampedSpring(*ends, s.length, s.stiffness, s.damping))
 
-    def body(self, data):
+    def add(self, data):
         if isinstance(data, Ball) and data.mass > 0:
             disc = 0.5 * data.radius**2  # px²: moment of inertia per kg
             body = pymunk.Body(data.mass, data.mass * disc)
@@ -197,6 +237,25 @@ class Pymunk(Undeclaring):
     def read(self, i):
         body = self.bodies[i]
         return State(*body.position, *body.velocity, body.angle, body.angular_velocity)
+
+    def throw(self, i, velocity):
+        self.bodies[i].velocity = tuple(velocity)
+
+    def touches(self):
+        found = {}
+
+        def look(arbiter):
+            points = arbiter.contact_point_set
+            first, second = arbiter.bodies
+            for point in points.points:
+                place = (point.point_a + point.point_b) / 2
+                share = arbiter.total_impulse.length / len(points.points)
+                found[first.id, second.id, place] = Touch(*place, *points.normal, share)
+
+        for body in self.bodies:
+            if body.body_type != STATIC:
+                body.each_arbiter(look)
+        return list(found.values())
 
     def lag(self, dt):
         """pymunk moves first and changes velocities then: they run half a step ahead."""
@@ -231,7 +290,7 @@ class Box2d(Undeclaring):
         self.scene, self.passes, self.substeps = scene, passes, substeps
         gravity = (scene.gravity[0] / PX_PER_M, scene.gravity[1] / PX_PER_M)
         self.world = Box2D.b2World(gravity)
-        self.bodies = [self.body(data) for data in scene.bodies]
+        self.bodies = [self.add(data) for data in scene.bodies]
         if "Rods" in scene.effects:
             for a, b in scene.rods:
                 self.tie(a, b, math.dist(scene.bodies[a].pos, scene.bodies[b].pos))
@@ -239,7 +298,7 @@ class Box2d(Undeclaring):
             for s in scene.springs:
                 self.spring(s)
 
-    def body(self, data):
+    def add(self, data):
         effects = self.scene.effects
         metres = {"position": (data.pos[0] / PX_PER_M, data.pos[1] / PX_PER_M)}
         surface = {
@@ -294,6 +353,19 @@ class Box2d(Undeclaring):
         (x, y), (vx, vy) = body.position, body.linearVelocity
         metres = [PX_PER_M * number for number in (x, y, vx, vy)]
         return State(*metres, body.angle, body.angularVelocity)
+
+    def throw(self, i, velocity):
+        self.bodies[i].linearVelocity = [number / PX_PER_M for number in velocity]
+        self.bodies[i].awake = True
+
+    def touches(self):
+        """Box2D tells impulses only to whoever listens to every step: none are told here."""
+        found = []
+        for contact in self.world.contacts:
+            if contact.touching:
+                (x, y), (nx, ny) = contact.worldManifold.points[0], contact.worldManifold.normal
+                found.append(Touch(PX_PER_M * x, PX_PER_M * y, nx, ny, None))
+        return found
 
     def lag(self, dt):
         return dt / self.substeps / 2
