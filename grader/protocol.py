@@ -404,7 +404,10 @@ class BodyRow(Struct, frozen=True, array_like=True):
 
 
 class TouchRow(Struct, frozen=True, array_like=True):
-    """A contact: its point, the unit normal from A to B, the overlap in px, the impulses so far."""
+    """A contact: its point, the unit normal from A to B, the overlap in px, the impulses so far.
+
+    `limit` is what friction may come to, kg px/s.
+    """
 
     x: float
     y: float
@@ -413,6 +416,7 @@ class TouchRow(Struct, frozen=True, array_like=True):
     depth: float
     jn: float
     jt: float
+    limit: float = 0.0
 
 
 class Shot(Struct, frozen=True, array_like=True):

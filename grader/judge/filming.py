@@ -13,7 +13,7 @@ import msgspec
 from grader.judge.children import Child
 from grader.judge.lab import Lab
 from grader.judge.plugin import Failing
-from grader.player.film import Line, Take, in_words
+from grader.player.film import Line, Mark, Take, in_words
 from grader.player.script import Step, Translator, sign
 from grader.protocol import (
     MAX_BODIES,
@@ -34,6 +34,7 @@ from grader.protocol import (
     Missing,
     Piece,
     Play,
+    Ref,
     Reply,
     Request,
     Returned,
@@ -42,6 +43,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
+from grader.words import digits
 
 MOST_PER_REQUEST = 200  # shots
 MOST_SHOTS = 1200  # of one check
@@ -115,16 +117,29 @@ class Recorder:
             answer = in_words(Returned(answers[-1]) if answers else filmed.reply)
         for number, look in islice(filmed.looks.items(), MAX_BODIES):
             take.looks[number] = look
-            name = self.translator.names.get(look.ref, "")
-            take.names[number] = name if name.isidentifier() else called(look, number)
+            take.names[number] = called(look, number)
         self._taken += len(shots)
         if sets_up(request) and take.lines and take.lines[-1].sets_up:
             take.lines[-1] = msgspec.structs.replace(take.lines[-1], shots=[])
         take.lines.append(
-            Line(sign(request), answer, shots, sets_up(request), "\n".join(step.code))
+            Line(
+                sign(request),
+                answer,
+                shots,
+                sets_up(request),
+                "\n".join(step.code),
+                marks_of(request, take),
+                isinstance(request, Call) and request.work,
+            )
         )
         if shots:
-            step.bodies = {take.names.get(row.number, ""): row for row in shots[-1].bodies}
+            step.bodies = {self._named(take, row.number): row for row in shots[-1].bodies}
+
+    def _named(self, take: Take, number: int) -> str:
+        """What a script calls a body; one that it does not name is called as on the page."""
+        ref = take.looks[number].ref if number in take.looks else 0
+        name = self.translator.names.get(ref, "")
+        return name if name.isidentifier() else take.names.get(number, "")
 
     def _note(self, request: Request, answered: Answered) -> Step:
         reply = answered.reply
@@ -183,10 +198,24 @@ def bounded(shots: list[Shot]) -> list[Shot]:
 
 
 def called(look: BodyLook, number: int) -> str:
-    """The name of a body that no request names."""
+    """What a body is called on the page: what it is, a number, and what it weighs."""
     corners = [len(shape.points) for shape in look.shapes]
     kind = "ball" if corners == [1] else "box" if corners == [4] else "body"
-    return f"{kind} {number}"
+    return f"{kind} {number}, {'static' if look.mass is None else f'{digits(look.mass)} kg'}"
+
+
+def marks_of(request: Request, take: Take) -> list[Mark]:
+    """The arms and the axis that a question about the effective mass is asked with."""
+    match request:
+        case Call(target, [Ref(id=a), Ref(id=b), Vec() as ra, Vec() as rb, Vec() as axis]):
+            if not target.endswith(":effective_mass"):
+                return []
+            numbers = {look.ref: number for number, look in take.looks.items()}
+            arms = [
+                (numbers[ref], *arm, *axis) for ref, arm in ((a, ra), (b, rb)) if ref in numbers
+            ]
+            return [Mark(*each) for each in arms]
+    return []
 
 
 def sets_up(request: Request) -> bool:

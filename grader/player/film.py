@@ -29,6 +29,16 @@ MAX_ANSWER = 160  # characters
 Frame = list[Any]  # as the page reads it: time, steps, bodies that changed, touches, rods, gone
 
 
+class Mark(Struct, frozen=True, array_like=True):
+    """An arm of a body and the axis along which an impulse acts at its end; px from its centre."""
+
+    body: int  # its number
+    x: float
+    y: float
+    axis_x: float
+    axis_y: float
+
+
 class Line(Struct, frozen=True, omit_defaults=True):
     """One request: what it was, what came back, and what was to be seen then."""
 
@@ -37,6 +47,8 @@ class Line(Struct, frozen=True, omit_defaults=True):
     shots: list[Shot]
     sets_up: bool = False  # puts something in its place
     code: str = ""
+    marks: list[Mark] = []
+    counted: bool = False  # what was asked is how many lines run
 
 
 class Take(Struct, omit_defaults=True):
@@ -57,6 +69,7 @@ class Both(Struct, frozen=True):
     expected: str
     at: int  # its first frame
     count: int
+    marks: list[Mark] = []
 
 
 class Scene(Struct, frozen=True):
@@ -85,6 +98,7 @@ class Replay(Struct, frozen=True):
     scenes: list[Scene]
     parting: Parting | None
     compared: bool  # whether any of it is held against the right run
+    told: str = ""  # in place of what is said of the right run
 
 
 # ---------------------------------------------------------------- frames

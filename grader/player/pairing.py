@@ -13,6 +13,8 @@ VISIBLE = 0.5  # px, and px/s where nothing has moved yet
 A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass
 ROUNDING = 1e-6  # of the fastest speed, and of a mass; px
 
+COUNTED = "Nothing is off to be seen: what is asked here is how much work it takes."
+
 Moment = tuple[Shot, Shot | None]  # yours, and what should be
 
 
@@ -54,7 +56,9 @@ def replay(yours: Sequence[Take], expected: Sequence[Take], exact: bool = True) 
             for number, (pair, each) in enumerate(zip(takes, rows, strict=True))
         )
         parting = parting or next(filter(None, found), None)
-    return Replay(scenes, parting, any(each.expected for each in scenes))
+    counted = any(line.counted for mine in yours for line in mine.lines)
+    told = COUNTED if counted and parting is None else ""
+    return Replay(scenes, parting, any(each.expected for each in scenes), told)
 
 
 def paired_requests(mine: Take, right: Take) -> Iterator[PairedRequest]:
@@ -77,7 +81,8 @@ def scene(mine: Take, right: Take, rows: Sequence[PairedRequest]) -> Scene:
     lines: list[Both] = []
     moments: list[Moment] = []
     for row in rows:
-        lines.append(Both(row.line.code, *row.answers, len(moments), len(row.moments)))
+        place = len(moments), len(row.moments)
+        lines.append(Both(row.line.code, *row.answers, *place, row.line.marks))
         moments += row.moments
     return Scene(
         mine.said,

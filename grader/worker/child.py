@@ -38,7 +38,6 @@ from grader.protocol import (
     Play,
     ProtocolError,
     Ready,
-    Ref,
     Remembered,
     Reply,
     Request,
@@ -57,7 +56,7 @@ from grader.worker.memory import Memory
 from grader.worker.output import Output
 from grader.worker.play import call_stepping, play, simulate
 from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import ContractError, Subject
+from grader.worker.subject import ContractError, Subject, refs_in
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
 
@@ -194,13 +193,6 @@ def call(subject: Subject, request: Call) -> Returned:
         if hasattr(type(result), "__next__"):  # a generator has done nothing yet
             result = list(result)
     return Returned(subject.encode(result), counter.answer())
-
-
-def refs_in(request: Call) -> list[int]:
-    """The objects that a call is given, its own among them."""
-    given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
-    own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
-    return [*given, *([int(own)] if own else [])]
 
 
 NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)

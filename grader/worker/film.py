@@ -10,6 +10,7 @@ from contextlib import suppress
 from itertools import islice
 from typing import Any
 
+import msgspec
 import pymunk
 
 from grader.protocol import (
@@ -18,6 +19,7 @@ from grader.protocol import (
     MAX_TOUCHES,
     BodyLook,
     BodyRow,
+    Call,
     Film,
     Filmed,
     Reply,
@@ -25,7 +27,7 @@ from grader.protocol import (
     Shot,
     TouchRow,
 )
-from grader.worker.subject import Subject, field, field_number, field_pair, shape_order
+from grader.worker.subject import Subject, field, field_number, field_pair, refs_in, shape_order
 
 MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
 
@@ -52,6 +54,7 @@ class Camera:
         self.bodies: dict[int, Any] = {}  # the bodies by number
         self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
         self.hidden = 0  # so many objects belong to an earlier scene
+        self.given: list[int] = []  # the objects that the request is about
         self.world: Any = None  # of the program that runs, if one does
         self.owner: type | None = None
         self._reset(None)
@@ -60,6 +63,7 @@ class Camera:
 
     def start(self, film: Film) -> None:
         """Get ready to film one request."""
+        self.given = refs_in(film.request) if isinstance(film.request, Call) else []
         if film.cut:
             self.hidden = len(self.subject.objects)
             self.bodies.clear()
@@ -128,10 +132,11 @@ class Camera:
         self.shots.append(shot)
 
     def _visible(self) -> list[Any]:
-        """What to show: the running program's world, or what this scene has made so far."""
+        """What to show: the running program's world, or what this scene has made and is given."""
         if self.world is not None:
             return [self.world]
-        return list(self.subject.objects.values())[self.hidden :]
+        given = [self.subject.objects[ref] for ref in self.given if ref in self.subject.objects]
+        return [*given, *list(self.subject.objects.values())[self.hidden :]]
 
     def _add_visible(self, thing: Any, shot: Shot) -> None:
         """Add a world or space with all in it, or one thing alone."""
@@ -219,7 +224,12 @@ def touch(contact: Any) -> TouchRow:
     """A contact of the lesson's engine."""
     point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
     rest = (field_number(contact, name) for name in ("depth", "jn", "jt"))
-    return TouchRow(point.x, point.y, normal.x, normal.y, *rest)
+    row = TouchRow(point.x, point.y, normal.x, normal.y, *rest)
+    with suppress(Exception):  # what two surfaces have is not always there
+        ends = field(contact, "a"), field(contact, "b")
+        friction = math.sqrt(math.prod(field_number(each, "friction") for each in ends))
+        row = msgspec.structs.replace(row, limit=friction * row.jn)
+    return row
 
 
 def lesson_rod(joint: Any) -> Ends:

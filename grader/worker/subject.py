@@ -27,6 +27,7 @@ from grader.protocol import (
     MAX_TEXT,
     Argument,
     BodyValue,
+    Call,
     CodeLine,
     ContactValue,
     Integrate,
@@ -396,6 +397,13 @@ def noting(accel: Callable[..., float], places: list[Value]) -> Callable[..., fl
         return accel(x, *others)
 
     return noted
+
+
+def refs_in(request: Call) -> list[int]:
+    """The objects that a call is given, its own among them."""
+    given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
+    own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
+    return [*given, *([int(own)] if own else [])]
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:

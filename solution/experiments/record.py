@@ -86,7 +86,12 @@ class Recorder:
         if not scenes:
             return f"Nothing was recorded: the window was open for less than {EVERY} frames."
         said = [("Recorded", ", ".join(words for words, _, _ in self.reels.values()))]
-        text = page("What the engines did", said, Replay(scenes, None, False), self.script)
+        text = page(
+            "What the engines did",
+            said,
+            Replay(scenes, None, False, "Recorded from the window with dials."),
+            self.script,
+        )
         path.write_text(text, encoding="utf-8", newline="\n")
         full = " The film ends after a minute." if self.shots >= MOST else ""
         return f"The film is in {path}: open it in a browser.{full}"

@@ -17,7 +17,7 @@ from conftest import only_some
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 import grader.judge.replay as replays
-from grader.checks import todo_3, todo_4, todo_7, todo_8, whole
+from grader.checks import todo_2, todo_3, todo_4, todo_7, todo_8, whole
 from grader.judge.children import ChildEnded, start_worker
 from grader.judge.filming import MOST_SHOTS, FilmingLab, filmed
 from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
@@ -27,7 +27,7 @@ from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Member, members, patch
 from grader.maintain.verify import shared_worker
-from grader.player.film import Line, Take
+from grader.player.film import Line, Replay, Take
 from grader.player.page import page
 from grader.player.pairing import replay
 from grader.player.script import polynomial
@@ -553,11 +553,42 @@ def screen(browser: Any, pages: Path) -> Iterator[Screen]:
     assert shown.complaints == []
 
 
-def test_the_player_steps_scrubs_and_finds_the_parting(screen: Screen, pages: Path):
+def gaps(scene: dict[str, Any]) -> list[float]:
+    """How far apart bodies of the two runs are, frame by frame, px."""
+    found: list[float] = []
+    here: dict[int, list[float]] = {}
+    there: dict[int, list[float]] = {}
+    for mine, right in zip(scene["yours"], scene["expected"], strict=True):
+        for frame, places in ((mine, here), (right, there)):
+            places |= {number: state for number, *state in frame[2]}
+        found.append(max(math.dist(here[each][:2], there[each][:2]) for each in here))
+    return found
+
+
+def test_the_player_finds_where_one_sees_the_parting_and_where_it_is_largest(
+    screen: Screen, pages: Path
+):
     film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
-    count, parting = len(film["scenes"][0]["yours"]), film["parting"]["frame"]
+    apart, first = gaps(film["scenes"][0]), film["parting"]["frame"]
+    largest = apart.index(max(apart))
+    seen = screen.position  # it opens there
+    assert first < seen < largest
+    assert apart[seen] > max(apart[:seen]) and apart[seen - 1] < apart[largest] / 4
+    words = screen.page.locator("#parting").inner_text()
+    assert f"part in frame {first + 1} of" in words
+    assert f"One sees it from frame {seen + 1} on; it is largest in frame {largest + 1}." in words
+    screen.page.keyboard.press("l")
+    assert screen.position == largest
+    screen.page.keyboard.press("p")
+    assert screen.position == seen
+    screen.page.get_by_role("button", name="Largest gap").click()
+    assert screen.position == largest
+
+
+def test_the_player_steps_and_scrubs(screen: Screen, pages: Path):
+    film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    count, parting = len(film["scenes"][0]["yours"]), screen.position
     keys = screen.page.keyboard
-    assert screen.position == parting  # it opens where the runs part
     keys.press("Home")
     assert screen.position == 0
     keys.press("ArrowRight")
@@ -611,7 +642,7 @@ def test_the_picture_changes_and_tells_the_numbers_under_the_mouse(screen: Scree
     for _ in range(4):
         screen.page.keyboard.press("b")
         names.add(screen.page.locator("#who").inner_text())
-    assert names == {"ball", "ball2", "ball3", "ball4"}
+    assert names == {"ball 1, static", "ball 2, 1 kg", "ball 3, 3 kg", "ball 4, 2 kg"}
     cells = screen.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
     assert cells[0] == cells[1] != ""
 
@@ -625,7 +656,7 @@ def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Pat
         shown.page.mouse.move(box["x"] + box["width"] * share / 20, box["y"] + box["height"] / 3)
         if shown.page.locator("#who").inner_text() != other:
             break
-    assert shown.page.locator("#who").inner_text() == "ball"
+    assert shown.page.locator("#who").inner_text() == "ball 1, 1 kg"
     row = shown.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
     assert row == ["10", "10"]
     assert shown.complaints == []
@@ -705,3 +736,50 @@ def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tm
             if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
                 done = run_script(script, tree)
                 assert done.returncode == 0 and done.stdout.strip(), (check.id, done.stderr)
+
+
+@pytest.fixture(scope="module")
+def arms() -> Replay:
+    """The last question about an effective mass, whose bodies were made for the first one."""
+    (todo,) = (todo for todo in load_rubric().todos if todo.id == "2")
+    function = todo_2.only_the_part_of_an_arm_across_the_axis_counts
+    check = next(each for each in todo.checks if each.id == function.__name__)
+    with opened(KIT / "solution") as children:
+        recorder = filmed(Failing(todo, check, function, []), children, []).recorder
+    assert len(recorder.scenes) > 1
+    return replay(recorder.scenes[-1], recorder.scenes[-1])
+
+
+def test_a_question_about_the_effective_mass_shows_its_arms_and_axis(arms: Replay):
+    (scene,) = arms.scenes
+    (line,) = (each for each in scene.lines if each.marks)
+    assert len(line.marks) == 2 and len({(each.axis_x, each.axis_y) for each in line.marks}) == 1
+    seen = {row[0] for frame in scene.yours for row in frame[2]}
+    assert {mark.body for mark in line.marks} <= seen
+    assert all(name.endswith(" kg") for name in scene.names.values())
+
+
+def test_friction_is_drawn_with_its_limit(pages: Path):
+    film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    rows = [row for frame in film["scenes"][0]["expected"] for row in frame[3] or ()]
+    beyond = [row for row in rows if abs(row[6]) > row[7] * (1 + 1e-4) + 1e-4]
+    assert rows and not beyond and any(row[7] > 0 for row in rows)
+    rows = [row for frame in film["scenes"][0]["yours"] for row in frame[3] or ()]
+    assert any(abs(row[6]) > row[7] + 0.01 for row in rows), "that is the mistake"
+
+
+def test_lines_in_the_picture_are_named(browser: Any, arms: Replay, screen: Screen, tmp_path: Path):
+    screen.page.keyboard.press("End")
+    assert "how far friction may turn it" in screen.page.locator("#legend").inner_text()
+    (tmp_path / "arms.html").write_text(page("Arms", [], arms, ""), encoding="utf-8")
+    shown = Screen(browser, tmp_path / "arms.html")
+    assert shown.page.locator("#legend").inner_text().startswith("Dashed: the arm. Grey: the axis.")
+    assert shown.complaints == []
+    shown.page.close()
+
+
+def test_where_only_the_work_differs_it_says_that_there_is_nothing_to_see():
+    take = Take("", [Line("call", "", [Shot(0.0, 0, [], [], [])], counted=True)])
+    both = replay([take], [take])
+    assert both.parting is None and "how much work" in both.told
+    assert replay([Take("", [Line("call", "", [])])], []).told == ""

@@ -26,9 +26,28 @@
     return { scene, number, frame, line, mine: scene.mine[frame], right: scene.right[frame] };
   }
 
+  // How far apart the runs are in a frame, in px of the picture; a body that one of them lacks is.
+  function apart(position) {
+    const { scene, mine, right } = at(position);
+    if (!right || scene.curve) return 0;
+    let most = 0;
+    for (const [number, state] of mine.bodies) {
+      const other = right.bodies.get(number);
+      if (!other) return Infinity;
+      const away = Math.hypot(state[0] - other[0], state[1] - other[1]);
+      if (Number.isFinite(away)) most = Math.max(most, away * scene.scale);
+    }
+    return most;
+  }
+
+  const SEEN = 2; // px of the picture
+  for (const scene of film.scenes) scene.scale = stage.scaleOf(scene);
+  const gaps = Array.from({ length: count }, (_, position) => apart(position));
+  const seenAt = gaps.findIndex((gap) => gap >= SEEN);
+  const largestAt = gaps.reduce((best, gap, position) => (gap > gaps[best] ? position : best), 0);
   // ---------------------------------------------------------------- words and numbers
 
-  let position = partAt ?? 0, chosen = film.parting?.body || null;
+  let position = seenAt < 0 ? partAt ?? 0 : seenAt, chosen = film.parting?.body || null;
 
   function showValues(now) {
     const { scene } = now;
@@ -72,7 +91,7 @@
     for (let index = 0; index < Math.min(4, Math.max(mine.length, right.length)); index += 1) {
       for (const [name, place, unit] of [["depth", 4, "px"], ["jn", 5, "kg px/s"], ["jt", 6, "kg px/s"]]) {
         const own = mine[index]?.[place], other = right[index]?.[place], row = document.createElement("tr");
-        row.append(cell("th", `${name} ${index + 1} (${unit})`), cell("td", digits(own)), cell("td", digits(other)));
+        row.append(cell("th", `contact ${index + 1}: ${name} (${unit})`), cell("td", digits(own)), cell("td", digits(other)));
         if (now.right && own !== other && !(Math.abs(own - other) <= 1e-3 * Math.max(1e-3, Math.abs(other)))) row.className = "off";
         rows.push(row);
       }
@@ -81,12 +100,20 @@
     byId("touches").tBodies[0].replaceChildren(...rows);
   }
 
+  // What the lines in the picture are, where there are some that need words.
+  function legend(now) {
+    if (now.line?.marks.length) return "Dashed: the arm. Grey: the axis. Red: the velocity that an impulse along it gives that point.";
+    const pushed = now.mine.touches.some(([, , , , , jn, , limit]) => jn > 0 && limit > 0);
+    return pushed ? "Arrow at a contact: its impulse. Dashed: how far friction may turn it." : "";
+  }
+
   function showWords(now) {
     const steps = now.mine.steps > 1 || now.right?.steps > 1
       ? ` · ${now.mine.steps} steps${now.right && now.right.steps !== now.mine.steps ? ` (expected ${now.right.steps})` : ""}` : "";
     const time = now.mine.time ? ` · ${now.mine.time.toFixed(3)} s` : "";
     byId("moment").textContent = `frame ${position + 1} of ${count}${time}${steps}`;
     slider.setAttribute("aria-valuetext", byId("moment").textContent);
+    byId("legend").textContent = legend(now);
     byId("said").textContent = now.scene.said;
     byId("said").hidden = film.scenes.length === 1;
     byId("code").textContent = now.line?.code ?? "";
@@ -165,12 +192,14 @@
     go(position + by);
   }
 
-  function toParting() {
+  function toParting(to) {
     if (partAt === null) return;
     if (timer !== null) stop();
     if (film.parting.body) chosen = film.parting.body;
-    go(partAt);
+    go(to);
   }
+  const toSeen = () => toParting(seenAt < 0 ? partAt : seenAt);
+  const toLargest = () => toParting(seenAt < 0 ? partAt : largestAt);
 
   function nextBody() {
     const now = at(position), all = [...now.mine.bodies.keys()];
@@ -182,7 +211,7 @@
 
   const KEYS = {
     " ": toggle, ArrowLeft: () => step(-1), ArrowRight: () => step(1),
-    Home: () => step(-count), End: () => step(count), p: toParting, P: toParting, b: nextBody, B: nextBody,
+    Home: () => step(-count), End: () => step(count), p: toSeen, P: toSeen, l: toLargest, L: toLargest, b: nextBody, B: nextBody,
   };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || !(event.key in KEYS)) return;
@@ -194,7 +223,8 @@
   byId("play").addEventListener("click", toggle);
   byId("back").addEventListener("click", () => step(-1));
   byId("on").addEventListener("click", () => step(1));
-  byId("part").addEventListener("click", toParting);
+  byId("part").addEventListener("click", toSeen);
+  byId("largest").addEventListener("click", toLargest);
   slider.addEventListener("input", () => {
     if (timer !== null) stop();
     go(Number(slider.value));
@@ -247,11 +277,19 @@
 
   const words = byId("parting");
   if (film.parting) {
-    words.textContent = `The runs part in frame ${partAt + 1} of ${count}: ${film.parting.words}.`;
+    const seen = seenAt < 0
+      ? film.parting.body ? " Their places are never so far apart that one could see it." : ""
+      : ` One sees it from frame ${seenAt + 1} on; it is largest in frame ${largestAt + 1}.`;
+    const curve = film.scenes[film.parting.scene].curve;
+    words.textContent = `The runs part in frame ${partAt + 1} of ${count}: ${film.parting.words}.${curve ? "" : seen}`;
     words.className = "parting apart";
-    const mark = byId("mark"), share = count > 1 ? partAt / (count - 1) : 0;
+    const mark = byId("mark"), share = count > 1 ? position / (count - 1) : 0;
     mark.hidden = false;
     mark.style.left = `calc(${100 * share}% + ${0.5 - share}rem)`;
+  } else if (film.told) {
+    words.textContent = film.told;
+    byId("key-expected").hidden = !film.compared;
+    for (const each of document.querySelectorAll(".right")) each.hidden = !film.compared;
   } else if (film.compared) {
     words.textContent = "Nothing is visibly off: the difference is in the numbers named above.";
   } else {
@@ -259,7 +297,7 @@
     byId("key-expected").hidden = true;
     for (const each of document.querySelectorAll(".right")) each.hidden = true;
   }
-  byId("part").disabled = partAt === null;
+  byId("part").disabled = byId("largest").disabled = partAt === null;
   slider.max = count - 1;
   if (window !== window.top) document.body.className = "framed";
   stage.readColours();

@@ -183,16 +183,79 @@ function stageOn(canvas) {
     }
   }
 
+  // Points and normals. Where impulses are known, an arrow shows the one on the second body, and the
+  // two lines of a cone how far friction may turn it from the normal.
   function touches(frame, colour) {
     pen.strokeStyle = pen.fillStyle = colour;
-    pen.lineWidth = 2;
-    for (const [x, y, nx, ny] of frame.touches) {
+    const largest = Math.max(...frame.touches.map(([, , , , , jn, jt]) => Math.hypot(jn, jt)), 0);
+    for (const [x, y, nx, ny, , jn, jt, limit] of frame.touches) {
+      const px = toX(x), py = toY(y), length = frame.touches.length > 3 ? 14 : 26;
+      pen.lineWidth = 2;
       pen.beginPath();
-      pen.arc(toX(x), toY(y), 3, 0, 2 * Math.PI);
+      pen.arc(px, py, 3, 0, 2 * Math.PI);
       pen.fill();
-      const length = frame.touches.length > 3 ? 14 : 26;
-      arrow(toX(x), toY(y), length * nx, length * ny);
+      if (!(largest > 0) || !Number.isFinite(largest)) {
+        arrow(px, py, length * nx, length * ny);
+        continue;
+      }
+      const unit = 2.5 * length / largest;
+      arrow(px, py, unit * (jn * nx - jt * ny), unit * (jn * ny + jt * nx));
+      if (!(limit > 0 && jn > 0)) continue;
+      pen.lineWidth = 1;
+      pen.setLineDash([3, 3]);
+      for (const side of [-limit, limit]) {
+        pen.beginPath();
+        pen.moveTo(px, py);
+        pen.lineTo(px + 1.2 * unit * (jn * nx - side * ny), py + 1.2 * unit * (jn * ny + side * nx));
+        pen.stroke();
+      }
+      pen.setLineDash([]);
     }
+  }
+
+  // Arms, the axis of an impulse at their ends, and the velocity that a unit of it gives each end.
+  function drawMarks(scene, frame, marks) {
+    const ends = [];
+    for (const [number, x, y, axisX, axisY] of marks) {
+      const state = frame.bodies.get(number), look = scene.looks[number];
+      if (!state || !look) continue;
+      const perMass = look.mass ? 1 / look.mass : 0, perMoment = look.moment ? 1 / look.moment : 0;
+      const spin = (x * axisY - y * axisX) * perMoment;
+      ends.push({ state, x, y, axisX, axisY, vx: axisX * perMass - spin * y, vy: axisY * perMass + spin * x });
+    }
+    const fastest = Math.max(...ends.map(({ vx, vy }) => Math.hypot(vx, vy)), 0);
+    for (const { state, x, y, axisX, axisY, vx, vy } of ends) {
+      const px = toX(state[0] + x), py = toY(state[1] + y);
+      pen.strokeStyle = colours.ink;
+      pen.lineWidth = 2;
+      pen.setLineDash([4, 3]);
+      pen.beginPath();
+      pen.moveTo(toX(state[0]), toY(state[1]));
+      pen.lineTo(px, py);
+      pen.stroke();
+      pen.setLineDash([]);
+      pen.strokeStyle = colours.soft;
+      arrow(px, py, 34 * axisX, 34 * axisY);
+      pen.strokeStyle = colours.wrong;
+      pen.lineWidth = 3;
+      if (fastest) arrow(px, py, 60 * vx / fastest, 60 * vy / fastest);
+    }
+  }
+
+  // How long a round number of px is in this picture.
+  function drawScale(wide, tall) {
+    const most = wide / 5 / scale, power = 10 ** Math.floor(Math.log10(most));
+    const length = [5, 2, 1].map((each) => each * power).find((each) => each <= most);
+    pen.strokeStyle = pen.fillStyle = colours.soft;
+    pen.lineWidth = 2;
+    pen.beginPath();
+    pen.moveTo(wide - 10 - length * scale, tall - 8);
+    pen.lineTo(wide - 10, tall - 8);
+    pen.stroke();
+    pen.font = "12px system-ui, sans-serif";
+    pen.textAlign = "right";
+    pen.fillText(`${length >= 1 ? length : length.toPrecision(1)} px`, wide - 10, tall - 13);
+    pen.textAlign = "left";
   }
 
   function drawYours(scene, frame, speedScale, chosen) {
@@ -326,6 +389,14 @@ function stageOn(canvas) {
       drawExpected(scene, now.right, scene.arrows);
       drawGap(now.mine, now.right);
     }
+    drawMarks(scene, now.mine, now.line?.marks ?? []);
+    drawScale(wide, tall);
+  }
+
+  // How many px of the picture a px of a scene is.
+  function scaleOf(scene) {
+    fit(scene);
+    return scale;
   }
 
   // Where in the scene a point of the page is, px, and how many px of the scene a px of the page is.
@@ -334,5 +405,5 @@ function stageOn(canvas) {
     return { x: (event.clientX - box.left - offset[0]) / scale, y: (event.clientY - box.top - offset[1]) / scale, px: 1 / scale };
   }
 
-  return { prepare, draw, place, readColours, reach, isFinitePlace, digits };
+  return { prepare, draw, place, scaleOf, readColours, reach, isFinitePlace, digits };
 }
