@@ -25,6 +25,10 @@ html { background: Canvas; color: CanvasText }
 body { font: 1.05rem/1.55 system-ui, sans-serif; margin: 2rem auto }
 body { max-width: 52rem; padding: 0 1rem }
 img { max-width: 100%; background: white }
+@media screen and (prefers-color-scheme: dark) {
+  /* drawings are on white paper: turned round, their black is that of the page */
+  img[src$=".svg"] { filter: invert(1) hue-rotate(180deg); mix-blend-mode: screen }
+}
 .wide { overflow-x: auto }
 table { border-collapse: collapse }
 td, th { border: 1px solid #8888; padding: .3rem .6rem; text-align: left; vertical-align: top }

@@ -1,5 +1,6 @@
 """The films of the handouts: made of the engines as they are, light, played by pointer and keys."""
 
+import io
 import json
 import re
 import subprocess
@@ -9,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import pygame
 import pytest
 from page_readers import Screen, chromium
 
@@ -192,4 +194,19 @@ def test_the_tower_tells_what_was_recorded(browser: Any, pages: Path) -> None:
         "canvas => canvas.dataset.frame === '5'", arg=canvas.element_handle(), polling="raf"
     )
     assert screen.complaints == []
+    screen.page.close()
+
+
+def test_drawings_are_no_white_slabs_in_the_dark(browser: Any, pages: Path) -> None:
+    """White paper comes out as dark as the page; what is drawn in black, bright."""
+    screen = Screen(browser, pages / "accuracy.html")
+    screen.page.emulate_media(color_scheme="dark")
+    drawing = screen.page.locator('img[src$=".svg"]').first
+    drawing.scroll_into_view_if_needed()
+    box = drawing.bounding_box()
+    shot = screen.page.screenshot()
+    picture = pygame.image.load(io.BytesIO(shot))
+    paper = picture.get_at((int(box["x"] + 3), int(box["y"] + 3)))[:3]
+    page = picture.get_at((3, int(box["y"] + 3)))[:3]
+    assert max(page) < 60 and max(abs(a - b) for a, b in zip(paper, page, strict=True)) < 8
     screen.page.close()
