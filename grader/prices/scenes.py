@@ -1,0 +1,245 @@
+"""Three scenes whose answer is known, and the settings of each: the truth never leaves the judge.
+
+Lengths in px, times in s, masses in kg, y down. A cost is opcodes per simulated second; an error is
+in px, at the worst moment that was looked at.
+"""
+
+import math
+import random
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Protocol
+
+from grader.judge.decode import Pair, Thing
+from grader.judge.lab import Lab, Moment
+
+G = 980.0  # px/s²
+RATE = 120  # steps per second, of the lesson
+PASSES = 8  # of the solver, the lesson's
+LOOKS = 60  # per second, at which bodies are looked at
+AWAY = 0.25  # s that a tower has to fall in, once its floor is gone
+FINE = 160  # steps of the judge's own between two looks
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Where the dials of an engine stand."""
+
+    rate: int = RATE  # steps per second
+    passes: int = PASSES
+    words: str = field(default="", compare=False)  # what is told of it
+
+
+@dataclass(frozen=True)
+class Built:
+    """A scene in the child: its world, the bodies to look at, and the floor under them."""
+
+    world: Thing
+    watched: list[Thing]
+    floor: Thing | None = None
+
+
+class Path(Protocol):
+    """Where bodies should be at a moment, in the order in which they are looked at."""
+
+    def __call__(self, seconds: float) -> Sequence[Pair]: ...
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One scene: what an engine needs for it, how it is built, and where its bodies should be."""
+
+    id: str
+    title: str
+    error: str  # what the error is
+    needs: tuple[str, ...]  # TODOs
+    seconds: float
+    settings: tuple[Setting, ...]
+    build: "Builder"
+    exact: Path
+
+    def worst(self, moments: Sequence[Sequence[Moment]]) -> float:
+        """How far (px) any body is from where it should be, at the worst of the moments."""
+        rows = zip(*moments, strict=True)
+        return max(
+            math.hypot(now.x - x, now.y - y)
+            for number, row in enumerate(rows, 1)
+            for now, (x, y) in zip(row, self.exact(number / LOOKS), strict=True)
+        )
+
+
+class Builder(Protocol):
+    """Makes a scene in the child."""
+
+    def __call__(self, lab: Lab) -> Built: ...
+
+
+def by_passes(counts: Iterable[int]) -> tuple[Setting, ...]:
+    return tuple(Setting(passes=n, words=f"{n} passes") for n in counts)
+
+
+def by_step(rates: Iterable[int]) -> tuple[Setting, ...]:
+    return tuple(Setting(rate=n, words=f"steps of 1/{n} s") for n in rates)
+
+
+def scenes(seed: int | None = None) -> tuple[Scene, ...]:
+    """The three scenes; under an instructor's secret seed with other sizes, masses and speeds."""
+    drawn = random.Random(f"{seed} prices") if seed is not None else None
+
+    def about(number: float) -> float:
+        """The number, or one that is off by up to an eighth of it, in whole steps of a 64th."""
+        return number if drawn is None else number * (1 + drawn.randint(-8, 8) / 64)
+
+    rates = by_step((60, 120, 240, 480))
+    tower, swing, slide = (
+        Tower(10, about(10.0), about(1.0)),
+        Swing(about(140.0), about(90.0), about(6.0)),
+        Slide(about(10.0), about(300.0), 0.6),
+    )
+    return (
+        Scene(
+            "tower",
+            f"A tower of {tower.count} balls at rest",
+            "how far a ball leaves its place at most",
+            ("1", "2", "4"),
+            1.0,
+            by_passes((2, 4, 8, 16, 32)),
+            tower.build,
+            tower.exact,
+        ),
+        Scene(
+            "pendulum",
+            f"A pendulum, let go at {swing.degrees:.3g}°",
+            "how far the bob is from its exact way at most",
+            ("3",),
+            3.0,
+            rates,
+            swing.build,
+            swing.exact,
+        ),
+        Scene(
+            "slide",
+            "A ball that slides, then rolls",
+            "how far the ball is from its exact way at most",
+            ("1", "2", "4"),
+            1.0,
+            rates,
+            slide.build,
+            slide.exact,
+        ),
+    )
+
+
+# ---------------------------------------------------------------- a tower
+
+
+@dataclass(frozen=True)
+class Tower:
+    """Equal balls on each other, in a slot a little wider than they are. All should stay."""
+
+    count: int
+    radius: float
+    mass: float
+
+    def places(self) -> list[Pair]:
+        return [(0.0, -self.radius * (2 * i + 1)) for i in range(self.count)]
+
+    def build(self, lab: Lab) -> Built:
+        surface = {"restitution": 0.0, "friction": 0.6}
+        side, high = 1.05 * self.radius + 20, self.radius * (self.count + 5)
+        floor = lab.box((0.0, 20.0), (500.0, 20.0), **surface)
+        walls = [lab.box((x, -high), (20.0, high), **surface) for x in (-side, side)]
+        balls = [lab.circle(at, self.radius, self.mass, **surface) for at in self.places()]
+        world = lab.world(floor, *walls, *balls, gravity=(0.0, G))
+        return Built(world, balls, floor)
+
+    def exact(self, seconds: float) -> Sequence[Pair]:
+        return self.places()
+
+
+# ---------------------------------------------------------------- a pendulum
+
+
+@dataclass(frozen=True)
+class Swing:
+    """A bob on a rod from a peg at (0, 0), let go at rest at an angle from the vertical."""
+
+    length: float
+    degrees: float
+    mass: float
+
+    def build(self, lab: Lab) -> Built:
+        peg = lab.circle((0.0, 0.0), 6.0, 0.0)
+        bob = lab.circle(self.place(math.radians(self.degrees)), 24.0, self.mass)
+        rod = lab.thing(lab.call("DistanceJoint", peg, bob), "a DistanceJoint")
+        # Apart, they would touch nothing; the engine may look at the pair all the same.
+        return Built(lab.world(peg, bob, gravity=(0.0, G), joints=[rod]), [bob])
+
+    def place(self, angle: float) -> Pair:
+        return self.length * math.sin(angle), self.length * math.cos(angle)
+
+    def exact(self, seconds: float) -> Sequence[Pair]:
+        """By RK4 in steps so fine that none of the figures shown would change in finer ones."""
+        return [self.place(angles(self.length, self.degrees)(round(seconds * LOOKS)))]
+
+
+@cache
+def angles(length: float, degrees: float) -> "Angles":
+    return Angles(length, degrees)
+
+
+class Angles:
+    """The angle of a pendulum (rad) at each look, worked out as far as it is asked for."""
+
+    def __init__(self, length: float, degrees: float) -> None:
+        self.pull = G / length  # 1/s²
+        self.state = (math.radians(degrees), 0.0)
+        self.known = [self.state[0]]
+
+    def __call__(self, look: int) -> float:
+        while len(self.known) <= look:
+            for _ in range(FINE):
+                self.step(1 / LOOKS / FINE)
+            self.known.append(self.state[0])
+        return self.known[look]
+
+    def step(self, h: float) -> None:
+        angle, omega = self.state
+        k1, l1 = omega, -self.pull * math.sin(angle)
+        k2, l2 = omega + h / 2 * l1, -self.pull * math.sin(angle + h / 2 * k1)
+        k3, l3 = omega + h / 2 * l2, -self.pull * math.sin(angle + h / 2 * k2)
+        k4, l4 = omega + h * l3, -self.pull * math.sin(angle + h * k3)
+        self.state = (
+            angle + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4),
+            omega + h / 6 * (l1 + 2 * l2 + 2 * l3 + l4),
+        )
+
+
+# ---------------------------------------------------------------- a ball that slides
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A ball set down on a floor with a speed and no spin: it slides until it rolls.
+
+    Friction slows it by mu g and spins it up; a disc rolls from v0 / (3 mu g) on, with 2/3 of v0.
+    """
+
+    radius: float
+    speed: float
+    friction: float
+
+    def build(self, lab: Lab) -> Built:
+        surface = {"restitution": 0.0, "friction": self.friction}
+        floor = lab.box((0.0, 50.0), (5000.0, 50.0), **surface)
+        at, flies = (0.0, -self.radius), (self.speed, 0.0)
+        ball = lab.circle(at, self.radius, 1.0, vel=flies, **surface)
+        return Built(lab.world(floor, ball, gravity=(0.0, G)), [ball])
+
+    def exact(self, seconds: float) -> Sequence[Pair]:
+        slows = self.friction * G
+        slides = min(seconds, self.speed / (3 * slows))
+        rolls = seconds - slides
+        x = self.speed * slides - slows * slides**2 / 2 + 2 / 3 * self.speed * rolls
+        return [(x, -self.radius)]
