@@ -77,7 +77,8 @@ def measure_one(path: Path, options: Options, out: Path | None) -> None:
     from grader.prices.one import price_one, show, write_one
 
     try:
-        prices, own = price_one(path, options)
+        with console.status("measuring: ten seconds or so"):
+            prices, own = price_one(path, options)
     except CannotGrade as error:
         stop(str(error), "measure")
     except KeyboardInterrupt:

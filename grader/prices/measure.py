@@ -6,8 +6,9 @@ uncounted. Its processor seconds are the kernel's; opcodes that fall far short o
 """
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
+from itertools import zip_longest
 from pathlib import Path
 
 from msgspec import Struct, structs
@@ -24,12 +25,12 @@ from grader.words import listed
 
 MODULE = "mini_engine"
 BANS = ["numpy", "pymunk", "cffi", "_cffi_backend", "ctypes", "_ctypes"]  # they work in C
-CPU_SECONDS = 30  # of one scene, all settings counted; the lesson's engine needs a tenth
+CPU_SECONDS = 20  # of one scene, all settings counted; the lesson's engine needs a tenth
 LEAST = 1e-3  # px: nobody sees less, and digits below it say nothing
 LOST = 1000.0  # px: bodies that are farther off are not in the scene any more
 MOST_WORDS = 300
 UNTOLD = 5.0  # times the lesson's processor seconds per opcode
-SLACK = 0.5  # s of a processor, which starting and a busy machine may take besides
+SPARE = 0.5  # of the lesson's processor seconds, for starting and for a busy machine
 ALIKE, NEAR = 0.2, 0.01  # share and px, by which a run that is not counted may differ
 
 
@@ -70,13 +71,16 @@ class Prices(Struct, frozen=True):
         if lesson is None or not (lesson.counted and lesson.seconds):
             return plain
         usual = lesson.seconds / lesson.counted
-        if self.seconds <= UNTOLD * usual * self.counted + SLACK:
+        if self.seconds <= UNTOLD * usual * self.counted + SPARE * lesson.seconds:
             return plain
         why = (
             f"its opcodes tell less than a {UNTOLD:g}th of what the processor had to do: "
             "something works that nobody counts"
         )
-        return structs.replace(plain, curves=[Curve(each.scene, [], why) for each in self.curves])
+        at_the_edge = [
+            Curve(each.scene, [], why if each.points else each.gave_up) for each in self.curves
+        ]
+        return structs.replace(plain, curves=at_the_edge)
 
 
 class GaveUp(Exception):
@@ -98,22 +102,21 @@ def measure(
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         sandbox = sandbox_for(submission, work, worker, options)
         sandbox.bans = list(BANS if bans is None else bans)
-        missing = {scene.id: words for scene in scenes if (words := not_begun(scene, submission))}
-        asked = [scene for scene in scenes if scene.id not in missing]
-        curves = {scene.id: curve_of(scene, sandbox.open_child) for scene in asked}
-        seconds, others = uncounted(asked, sandbox.open_child)
-        found = [
-            Curve(scene.id, [], missing[scene.id])
-            if scene.id in missing
-            else compared(curves[scene.id], others.get(scene.id, {}))
-            for scene in scenes
-        ]
-        counted = sum(
-            round(point.opcodes * scene.seconds)
-            for scene in asked
-            for point in curves[scene.id].points
-        )
-    return Prices(submission.name, found, counted, seconds)
+        seconds, curves = 0.0, []
+        for scene in scenes:
+            curve = Curve(scene.id, [], not_begun(scene, submission))
+            if not curve.gave_up:
+                curve = curve_of(scene, sandbox.open_child)
+                taken, errors = uncounted(scene, len(curve.points), sandbox.open_child)
+                curve = compared(curve, errors)
+                seconds += taken if curve.points else 0.0
+            curves.append(curve)
+    counted = sum(
+        round(point.opcodes * scene.seconds)
+        for scene, curve in zip(scenes, curves, strict=True)
+        for point in curve.points
+    )
+    return Prices(submission.name, curves, counted, seconds)
 
 
 def not_begun(scene: Scene, submission: Submission) -> str:
@@ -192,30 +195,25 @@ def in_words(failure: Broke | NotYet | GaveUp) -> str:
 
 
 def uncounted(
-    scenes: Sequence[Scene], open_child: Callable[[int], Child]
-) -> tuple[float, Mapping[str, Mapping[str, float]]]:
-    """Processor seconds to run everything, and the errors by scene and setting."""
-    errors: dict[str, dict[str, float]] = {}
-    seconds = 0.0
-    for scene in scenes:
-        errors[scene.id] = {}
-        lab = Lab(MODULE, lambda: open_child(CPU_SECONDS), [])
-        with lab.opened(), suppress(Broke, NotYet, GaveUp):
-            for setting in scene.settings:
-                built, run = run_of(lab, scene, setting, priced=False)
-                errors[scene.id][setting.words] = in_digits(error_of(scene, built, run))
-        seconds += lab.connection.cpu
-    return seconds, errors
+    scene: Scene, many: int, open_child: Callable[[int], Child]
+) -> tuple[float, list[float]]:
+    """Processor seconds to run the first so many settings, and their errors as far as it gets."""
+    errors: list[float] = []
+    lab = Lab(MODULE, lambda: open_child(CPU_SECONDS), [])
+    with lab.opened(), suppress(Broke, NotYet, GaveUp):
+        for setting in scene.settings[:many]:
+            built, run = run_of(lab, scene, setting, priced=False)
+            errors.append(in_digits(error_of(scene, built, run)))
+    return lab.connection.cpu, errors
 
 
-def compared(curve: Curve, others: Mapping[str, float]) -> Curve:
+def compared(curve: Curve, errors: Sequence[float]) -> Curve:
     """The curve, unless the engine does something else when nobody counts."""
-    for point in curve.points:
-        other = others.get(point.setting, math.inf)
-        if not math.isclose(point.error, other, rel_tol=ALIKE, abs_tol=NEAR):
-            found = f"{other:.3g} px" if math.isfinite(other) else "none"
+    for point, other in zip_longest(curve.points, errors):
+        if other is None or not math.isclose(point.error, other, rel_tol=ALIKE, abs_tol=NEAR):
+            found = "none" if other is None else f"{other:.3g} px"
             why = (
-                f"with {point.setting} its error is {point.error:.3g} px where opcodes are counted "
+                f"at {point.setting} its error is {point.error:.3g} px where opcodes are counted "
                 f"and {found} where they are not"
             )
             return Curve(curve.scene, [], why)

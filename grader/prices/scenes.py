@@ -80,7 +80,7 @@ def by_passes(counts: Iterable[int]) -> tuple[Setting, ...]:
 
 
 def by_step(rates: Iterable[int]) -> tuple[Setting, ...]:
-    return tuple(Setting(rate=n, words=f"steps of 1/{n} s") for n in rates)
+    return tuple(Setting(rate=n, words=f"1/{n} s") for n in rates)
 
 
 def scenes(seed: int | None = None) -> tuple[Scene, ...]:

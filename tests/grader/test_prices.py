@@ -204,7 +204,7 @@ def test_work_that_no_opcode_tells_is_seen_in_the_kernels_seconds(hand_in: HandI
     lesson = measure(KIT / "solution", [scene], OPTIONS, shared_worker())
     lesson = structs.replace(lesson, seconds=max(lesson.seconds, 1e-3))
     assert lesson.checked(lesson).curves == lesson.curves
-    heavy = structs.replace(lesson, seconds=lesson.seconds * 6 + 0.5)
+    heavy = structs.replace(lesson, seconds=lesson.seconds * 6)
     assert "something works that nobody counts" in heavy.checked(lesson).curves[0].gave_up
     assert heavy.checked(lesson).seconds == 0.0
     hidden = with_step(hand_in, "sum(range(300_000))")
@@ -268,13 +268,16 @@ def made_up(count: int, name: str = "student {:03}") -> PriceList:
             ]
             curves.append(Curve(scene.id, points))
         engines.append(Prices(name.format(number), curves))
-    ideal = [
-        Curve(
-            s.id, [Point(e.words, round(5e5 * 2**n), 16 / 2.0**n) for n, e in enumerate(s.settings)]
-        )
-        for s in scenes()
-    ]
-    beside = [Prices(each, ideal) for each in (LESSON, STABLE, PYMUNK)]
+    beside = []
+    for name, share in ((LESSON, 1.0), (STABLE, 0.2), (PYMUNK, 0.1)):
+        curves = []
+        for scene in scenes():
+            points = [
+                Point(each.words, 500_000 * 2**n, share * 16 / 2.0**n)
+                for n, each in enumerate(scene.settings)
+            ]
+            curves.append(Curve(scene.id, points))
+        beside.append(Prices(name, curves))
     return price_list(scenes(), beside, engines)
 
 
@@ -299,6 +302,13 @@ def test_the_page_shows_every_engine_the_front_and_why_others_gave_up(tmp_path: 
             )
         for why, names in drawn.gave_up:
             assert f"({len(names)}): {', '.join(names)}: {why}." in page.text
+
+
+def test_nobody_who_gave_up_is_left_out_however_many_they_are() -> None:
+    curves = [Curve(scene.id, [], "TODO 3 is not begun") for scene in scenes()]
+    engines = [Prices(f"student {n:03}", curves) for n in range(MANY)]
+    text = str(section(price_list(scenes(), [], engines)))
+    assert "student 000, student 001" in text and "student 199: TODO 3 is not begun." in text
 
 
 def test_names_and_reasons_of_students_are_text(tmp_path: Path) -> None:
@@ -429,6 +439,32 @@ def test_a_class_is_measured_kept_and_shown(tmp_path: Path) -> None:
     assert all(curve.gave_up and not curve.points for curve in dan.curves)
     assert 'data-name="ann"' in (tmp_path / "class-results.class.html").read_text("utf-8")
     assert (tmp_path / "class-results.prices.html").is_file()
+
+
+FORGERS = {
+    "writes another number there": (
+        "for each in gc.get_objects():\n"
+        "        if type(each).__name__ == 'OpcodeCounter': _found.append(each)\n"
+        "    for each in _found: each.counted = 0",
+        "import gc\n_found = []",
+    ),
+    "leaves the work to C": ("sum(range(400_000))", ""),
+}
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("how", FORGERS)
+def test_a_forged_price_is_none(how: str, hand_in: HandIn) -> None:
+    code, top = FORGERS[how]
+    tree = with_step(
+        hand_in, "pass", code.replace("for each in gc", "for each in [] if _found else gc"), top
+    )
+    lesson, forger = (
+        measure(each, scenes(), OPTIONS, shared_worker()) for each in (KIT / "solution", tree)
+    )
+    assert not any(curve.gave_up for curve in [*lesson.checked(lesson).curves, *forger.curves])
+    for curve in forger.checked(lesson).curves:
+        assert "something works that nobody counts" in curve.gave_up and not curve.points
 
 
 @pytest.mark.soak
