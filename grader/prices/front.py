@@ -37,7 +37,9 @@ def error_for(curve: Curve, opcodes: int) -> float | None:
 
 
 def between(low: Point | None, high: Point, opcodes: int) -> float | None:
-    if low is None or not low.opcodes:
-        return low and low.error
+    if low is None:
+        return None
+    if not low.opcodes:
+        return low.error
     share = math.log(opcodes / low.opcodes) / math.log(high.opcodes / low.opcodes)
-    return low.error ** (1 - share) * high.error**share
+    return math.exp((1 - share) * math.log(low.error) + share * math.log(high.error))

@@ -10,11 +10,13 @@ from grader.judge.grade import Options
 from grader.prices.chart import in_opcodes, in_px
 from grader.prices.listing import Asked, PriceList, as_json, price_list
 from grader.prices.measure import Curve, Prices, measure
-from grader.prices.others import IN_C, others
+from grader.prices.others import IN_C, LESSON, STABLE, others
 from grader.prices.page import write_prices
 from grader.prices.scenes import scenes
 from grader.report.files import write_whole
 from grader.words import clean
+
+SHORT = {LESSON: "lesson", STABLE: "stable"}  # for the columns of a terminal
 
 
 def price_one(path: Path, options: Options) -> tuple[PriceList, Prices]:
@@ -68,7 +70,7 @@ def table_of(prices: PriceList, scene: Asked, own: Curve) -> Table:
         points = {each.setting: each for each in other.curve(scene.id).points}
         counted = other.name not in IN_C
         if counted:
-            table.add_column(f"{other.name}")
+            table.add_column(SHORT.get(other.name, other.name))
         table.add_column("error" if counted else other.name)
         for row in rows:
             point = points.get(row[0])

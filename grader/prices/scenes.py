@@ -104,7 +104,7 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
             "how far a ball leaves its place at most",
             ("1", "2", "4"),
             1.0,
-            by_passes((2, 4, 8, 16, 32)),
+            by_passes((2, 4, 8, 16)),
             tower.build,
             tower.exact,
         ),

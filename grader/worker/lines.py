@@ -98,22 +98,34 @@ class OpcodeCounter(LineCounter):
     def __init__(self, ours: frozenset[CodeType]) -> None:
         super().__init__()
         self.ours = ours | DETOURS
+        self.so_far, self.local = opcode_hook(self)
 
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
         if frame.f_code in self.ours:
             return None
         self.begun += 1
         frame.f_trace_opcodes, frame.f_trace_lines = True, False
-        return self.count_opcode
+        return self.local
 
-    def count_opcode(self, frame: FrameType, event: str, _: object) -> Trace:
+    def answer(self) -> int:
+        self.counted = self.so_far()
+        return super().answer()
+
+
+def opcode_hook(counter: OpcodeCounter) -> tuple[Callable[[], int], Trace]:
+    """How many opcodes there were, and what hears of each: no attribute is looked up for one."""
+    count = 0
+
+    def hear(frame: FrameType, event: str, _: object) -> None:  # so it is called again
+        nonlocal count
         if event == "opcode":
-            self.counted += 1
+            count += 1
         elif event == "return":
-            self.over += 1
+            counter.over += 1
             if not frame.f_trace_opcodes:
-                self.trouble = self.trouble or "its opcodes were hidden"
-        return self.count_opcode
+                counter.trouble = counter.trouble or "its opcodes were hidden"
+
+    return lambda: count, hear
 
 
 counting: list[LineCounter] = []  # one at most

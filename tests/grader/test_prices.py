@@ -96,7 +96,7 @@ def test_a_seed_changes_all_that_an_engine_could_know_by_heart() -> None:
 
 
 def test_errors_and_opcodes_come_out_the_same_twice_and_fall_and_rise_as_they_must() -> None:
-    asked = [short(TOWER, settings=2), short(PENDULUM, settings=2), short(SLIDE, settings=2)]
+    asked = [short(each, 0.05, 2) for each in (TOWER, PENDULUM, SLIDE)]
     found = measured(KIT / "solution", *asked)
     assert msgspec.json.encode(found) == msgspec.json.encode(measured(KIT / "solution", *asked))
     for curve in found.curves:
@@ -123,7 +123,7 @@ def test_opcodes_are_those_that_the_experiments_count() -> None:
 
 
 def test_the_engines_to_compare_with_are_better_for_their_opcodes() -> None:
-    asked = [short(TOWER, 0.2, 3), short(SLIDE, 0.1, 2)]
+    asked = [short(TOWER, 0.2, 2), short(SLIDE, 0.1, 1)]
     found = {each.name: each for each in others(asked, OPTIONS, shared_worker())}
     assert list(found) == [LESSON, STABLE, PYMUNK]
     for scene in asked:
@@ -443,10 +443,9 @@ def test_a_class_is_measured_kept_and_shown(tmp_path: Path) -> None:
 
 FORGERS = {
     "writes another number there": (
-        "for each in gc.get_objects():\n"
-        "        if type(each).__name__ == 'OpcodeCounter': _found.append(each)\n"
-        "    for each in _found: each.counted = 0",
-        "import gc\n_found = []",
+        "_found or _found.extend(o for o in gc.get_objects() if type(o).__name__ == _NAME)\n"
+        "    for each in _found: each.so_far.__closure__[0].cell_contents = 0",
+        "import gc\n_found, _NAME = [], 'OpcodeCounter'",
     ),
     "leaves the work to C": ("sum(range(400_000))", ""),
 }
@@ -456,9 +455,7 @@ FORGERS = {
 @pytest.mark.parametrize("how", FORGERS)
 def test_a_forged_price_is_none(how: str, hand_in: HandIn) -> None:
     code, top = FORGERS[how]
-    tree = with_step(
-        hand_in, "pass", code.replace("for each in gc", "for each in [] if _found else gc"), top
-    )
+    tree = with_step(hand_in, "pass", code, top)
     lesson, forger = (
         measure(each, scenes(), OPTIONS, shared_worker()) for each in (KIT / "solution", tree)
     )
