@@ -30,8 +30,8 @@ from grader.judge.children import start_worker
 from grader.judge.grade import Options
 from grader.judge.workplace import work_folder
 from grader.prices.listing import PriceList, price_list, write_list
-from grader.prices.measure import Curve, Prices, measure
-from grader.prices.others import others
+from grader.prices.measure import Curve, Measured, Prices, measure
+from grader.prices.others import lesson_in, others
 from grader.prices.page import write_prices
 from grader.prices.scenes import Scene, scenes
 from grader.report.files import write_whole
@@ -63,7 +63,7 @@ class PricePool(Pool):
     def work(package: Package, options: Options) -> Graded:
         with work_folder() as work:
             found = measure(package.unpack(work), scenes(options.seed), options, shared_worker())
-        return msgspec.json.encode(found), found.seconds
+        return msgspec.json.encode(found), 0.0
 
 
 @dataclass
@@ -72,7 +72,7 @@ class Measuring:
 
     intake: Intake
     scenes: tuple[Scene, ...]
-    lesson: Prices | None
+    lesson: Measured | None
     key: str
     book: Path
     engines: dict[str, Kept] = field(default_factory=dict)
@@ -102,7 +102,7 @@ class Measuring:
                 yield Task(new, structs.replace(package, name=new[0].name), key)
 
     def measured(self, task: Task, graded: Graded) -> None:
-        prices = msgspec.json.decode(graded[0], type=Prices).checked(self.lesson)
+        prices = msgspec.json.decode(graded[0], type=Measured).checked(self.lesson)
         with open(self.book, "ab") as book:
             for found in task.members:
                 kept = Kept(task.key, structs.replace(prices, name=found.name))
@@ -132,10 +132,9 @@ def run_prices(path: Path, wanted: ClassPrices, console: Console) -> PriceList:
         beside = others(asked, options, worker)
     finally:
         worker.close()
-    lesson = price_list(asked, beside, []).lesson
     book = results.with_name(f"{results.name}.prices.jsonl")
     with opened_class(path, people) as intake, PricePool(options, wanted.jobs) as pool:
-        run = Measuring(intake, asked, lesson, key_of(options), book)
+        run = Measuring(intake, asked, lesson_in(beside), key_of(options), book)
         total = len(intake.found) + len(intake.troubles)
         with Counter("measuring", total, console) as counter:
             for name, why in intake.troubles.items():
@@ -148,7 +147,7 @@ def run_prices(path: Path, wanted: ClassPrices, console: Console) -> PriceList:
                 counter.reached(len(run.engines))
     write_book(book, [run.engines[name] for name in sorted(run.engines)])
     engines = [each.prices for each in run.engines.values()]
-    prices = price_list(asked, [each.checked(None) for each in beside], engines)
+    prices = price_list(asked, [each.prices for each in beside], engines)
     write_list(prices, results)
     tell(prices, run.counts, console)
     page = results.with_name(f"{results.name}.prices.html")

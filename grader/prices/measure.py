@@ -1,14 +1,13 @@
 """Measuring one engine: its error and its opcodes at each setting of each scene, in the sandbox.
 
 Both come from one and the same run, whose positions are compared here with what is exact: who does
-less while opcodes are counted gets the error of that. A second process runs everything once more
+less while opcodes are counted gets the error of that. Another process runs each setting once more
 uncounted. Its processor seconds are the kernel's; opcodes that fall far short of them are no price.
 """
 
 import math
 from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
-from itertools import zip_longest
 from pathlib import Path
 
 from msgspec import Struct, structs
@@ -55,32 +54,45 @@ class Prices(Struct, frozen=True):
 
     name: str
     curves: list[Curve]
-    counted: int = 0  # opcodes in all
-    seconds: float = 0.0  # of a processor, to run the same uncounted
 
     def curve(self, scene: str) -> Curve:
         """What is known of it in this scene."""
         return next((each for each in self.curves if each.scene == scene), Curve(scene, []))
 
-    def checked(self, lesson: "Prices | None") -> "Prices":
-        """The same, at the edge where its opcodes tell too little of its processor time.
 
-        Without its seconds, which are never the same twice.
-        """
-        plain = structs.replace(self, seconds=0.0)
-        if lesson is None or not (lesson.counted and lesson.seconds):
-            return plain
-        usual = lesson.seconds / lesson.counted
-        if self.seconds <= UNTOLD * usual * self.counted + SPARE * lesson.seconds:
-            return plain
-        why = (
-            f"its opcodes tell less than a {UNTOLD:g}th of what the processor had to do: "
-            "something works that nobody counts"
-        )
-        at_the_edge = [
-            Curve(each.scene, [], why if each.points else each.gave_up) for each in self.curves
+class Measured(Struct, frozen=True):
+    """The prices of one engine, and what is never the same twice.
+
+    `seconds` are those of a processor for the points of each scene, in their order, uncounted.
+    """
+
+    prices: Prices
+    seconds: dict[str, list[float]]
+
+    def checked(self, lesson: "Measured | None") -> Prices:
+        """The prices, at the edge where opcodes tell too little of the processor's time."""
+        if lesson is None:
+            return self.prices
+        curves = [
+            Curve(curve.scene, [], why) if (why := self.untold(curve, lesson)) else curve
+            for curve in self.prices.curves
         ]
-        return structs.replace(plain, curves=at_the_edge)
+        return structs.replace(self.prices, curves=curves)
+
+    def untold(self, curve: Curve, lesson: "Measured") -> str:
+        """Where more works than opcodes tell, in words."""
+        usual = lesson.prices.curve(curve.scene).points
+        theirs = zip(usual, lesson.seconds.get(curve.scene, []), strict=False)
+        known = {point.setting: (point.opcodes, seconds) for point, seconds in theirs}
+        for point, seconds in zip(curve.points, self.seconds.get(curve.scene, []), strict=False):
+            opcodes, taken = known.get(point.setting, (0, math.inf))
+            share = point.opcodes / opcodes if opcodes else 0.0
+            if seconds > (UNTOLD * share + SPARE) * taken:
+                return (
+                    f"at {point.setting} its opcodes tell less than a {UNTOLD:g}th of what the "
+                    "processor had to do: something works that nobody counts"
+                )
+        return ""
 
 
 class GaveUp(Exception):
@@ -96,27 +108,25 @@ def measure(
     options: Options,
     worker: Worker,
     bans: Collection[str] | None = None,
-) -> Prices:
+) -> Measured:
     """The prices of the submission at `path`; raises CannotGrade where there is nothing to run."""
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         sandbox = sandbox_for(submission, work, worker, options)
         sandbox.bans = list(BANS if bans is None else bans)
-        seconds, curves = 0.0, []
+        curves, seconds = [], {}
         for scene in scenes:
             curve = Curve(scene.id, [], not_begun(scene, submission))
             if not curve.gave_up:
                 curve = curve_of(scene, sandbox.open_child)
-                taken, errors = uncounted(scene, len(curve.points), sandbox.open_child)
-                curve = compared(curve, errors)
-                seconds += taken if curve.points else 0.0
+                again = [
+                    uncounted(scene, setting, sandbox.open_child)
+                    for setting, _ in zip(scene.settings, curve.points, strict=False)
+                ]
+                seconds[scene.id] = [each for each, _ in again]
+                curve = compared(curve, [error for _, error in again])
             curves.append(curve)
-    counted = sum(
-        round(point.opcodes * scene.seconds)
-        for scene, curve in zip(scenes, curves, strict=True)
-        for point in curve.points
-    )
-    return Prices(submission.name, curves, counted, seconds)
+    return Measured(Prices(submission.name, curves), seconds)
 
 
 def not_begun(scene: Scene, submission: Submission) -> str:
@@ -153,7 +163,7 @@ def run_of(lab: Lab, scene: Scene, setting: Setting, priced: bool) -> tuple[Buil
     lab.ran(f"{scene.title}, {setting.words}")
     built = scene.build(lab)
     lab.put(built.world, iterations=setting.passes)
-    steps, every = round(scene.seconds * setting.rate), setting.rate // LOOKS
+    steps, every = scene.steps(setting), setting.rate // LOOKS
     run = lab.simulate(built.world, built.watched, steps, 1 / setting.rate, every, priced=priced)
     return built, run
 
@@ -195,21 +205,24 @@ def in_words(failure: Broke | NotYet | GaveUp) -> str:
 
 
 def uncounted(
-    scene: Scene, many: int, open_child: Callable[[int], Child]
-) -> tuple[float, list[float]]:
-    """Processor seconds to run the first so many settings, and their errors as far as it gets."""
-    errors: list[float] = []
+    scene: Scene, setting: Setting, open_child: Callable[[int], Child]
+) -> tuple[float, float | None]:
+    """Processor seconds of a process of its own, and the error; None where it does not get there.
+
+    What takes little time is run again and again, so that it tells beside the start of a process.
+    """
+    error = None
     lab = Lab(MODULE, lambda: open_child(CPU_SECONDS), [])
     with lab.opened(), suppress(Broke, NotYet, GaveUp):
-        for setting in scene.settings[:many]:
+        for _ in range(max(1, round(scene.enough / scene.steps(setting)))):
             built, run = run_of(lab, scene, setting, priced=False)
-            errors.append(in_digits(error_of(scene, built, run)))
-    return lab.connection.cpu, errors
+            error = in_digits(error_of(scene, built, run))
+    return lab.connection.cpu, error
 
 
-def compared(curve: Curve, errors: Sequence[float]) -> Curve:
+def compared(curve: Curve, errors: Sequence[float | None]) -> Curve:
     """The curve, unless the engine does something else when nobody counts."""
-    for point, other in zip_longest(curve.points, errors):
+    for point, other in zip(curve.points, errors, strict=True):
         if other is None or not math.isclose(point.error, other, rel_tol=ALIKE, abs_tol=NEAR):
             found = "none" if other is None else f"{other:.3g} px"
             why = (

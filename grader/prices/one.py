@@ -10,7 +10,7 @@ from grader.judge.grade import Options
 from grader.prices.chart import in_opcodes, in_px
 from grader.prices.listing import Asked, PriceList, as_json, price_list
 from grader.prices.measure import Curve, Prices, measure
-from grader.prices.others import IN_C, LESSON, STABLE, others
+from grader.prices.others import IN_C, LESSON, STABLE, lesson_in, others
 from grader.prices.page import write_prices
 from grader.prices.scenes import scenes
 from grader.report.files import write_whole
@@ -28,9 +28,8 @@ def price_one(path: Path, options: Options) -> tuple[PriceList, Prices]:
         beside = others(asked, options, worker, path)
     finally:
         worker.close()
-    found = price_list(asked, beside, [own])
-    own = own.checked(found.lesson)
-    return price_list(asked, [each.checked(None) for each in beside], [own]), own
+    prices = own.checked(lesson_in(beside))
+    return price_list(asked, [each.prices for each in beside], [prices]), prices
 
 
 def write_one(prices: PriceList, own: Prices, folder: Path) -> list[Path]:

@@ -55,9 +55,13 @@ class Scene:
     error: str  # what the error is
     needs: tuple[str, ...]  # TODOs
     seconds: float
+    enough: int  # steps that take the lesson's engine a twentieth of a second
     settings: tuple[Setting, ...]
     build: "Builder"
     exact: Path
+
+    def steps(self, setting: Setting) -> int:
+        return round(self.seconds * setting.rate)
 
     def worst(self, moments: Sequence[Sequence[Moment]]) -> float:
         """How far (px) any body is from where it should be, at the worst of the moments."""
@@ -104,6 +108,7 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
             "how far a ball leaves its place at most",
             ("1", "2", "4"),
             1.0,
+            120,
             by_passes((2, 4, 8, 16)),
             tower.build,
             tower.exact,
@@ -114,6 +119,7 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
             "how far the bob is from its exact way at most",
             ("3",),
             3.0,
+            4000,
             rates,
             swing.build,
             swing.exact,
@@ -124,6 +130,7 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
             "how far the ball is from its exact way at most",
             ("1", "2", "4"),
             1.0,
+            500,
             rates,
             slide.build,
             slide.exact,
