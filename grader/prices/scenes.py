@@ -8,7 +8,6 @@ import math
 import random
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Protocol
 
 from grader.judge.decode import Pair, Thing
@@ -19,7 +18,6 @@ RATE = 120  # steps per second, of the lesson
 PASSES = 8  # of the solver, the lesson's
 LOOKS = 60  # per second, at which bodies are looked at
 AWAY = 0.25  # s that a tower has to fall in, once its floor is gone
-FINE = 160  # steps of the judge's own between two looks
 
 
 @dataclass(frozen=True)
@@ -187,40 +185,25 @@ class Swing:
         return self.length * math.sin(angle), self.length * math.cos(angle)
 
     def exact(self, seconds: float) -> Sequence[Pair]:
-        """By RK4 in steps so fine that none of the figures shown would change in finer ones."""
-        return [self.place(angles(self.length, self.degrees)(round(seconds * LOOKS)))]
+        """sin(angle / 2) = k cd(t sqrt(g / l), k), where k is its sine in the beginning."""
+        k = math.sin(math.radians(self.degrees) / 2)
+        return [self.place(2 * math.asin(k * cd(seconds * math.sqrt(G / self.length), k)))]
 
 
-@cache
-def angles(length: float, degrees: float) -> "Angles":
-    return Angles(length, degrees)
+def cd(u: float, k: float) -> float:
+    """Jacobi's elliptic function cn / dn of modulus k, by descending Landen transformations.
 
-
-class Angles:
-    """The angle of a pendulum (rad) at each look, worked out as far as it is asked for."""
-
-    def __init__(self, length: float, degrees: float) -> None:
-        self.pull = G / length  # 1/s²
-        self.state = (math.radians(degrees), 0.0)
-        self.known = [self.state[0]]
-
-    def __call__(self, look: int) -> float:
-        while len(self.known) <= look:
-            for _ in range(FINE):
-                self.step(1 / LOOKS / FINE)
-            self.known.append(self.state[0])
-        return self.known[look]
-
-    def step(self, h: float) -> None:
-        angle, omega = self.state
-        k1, l1 = omega, -self.pull * math.sin(angle)
-        k2, l2 = omega + h / 2 * l1, -self.pull * math.sin(angle + h / 2 * k1)
-        k3, l3 = omega + h / 2 * l2, -self.pull * math.sin(angle + h / 2 * k2)
-        k4, l4 = omega + h * l3, -self.pull * math.sin(angle + h * k3)
-        self.state = (
-            angle + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4),
-            omega + h / 6 * (l1 + 2 * l2 + 2 * l3 + l4),
-        )
+    Abramowitz and Stegun, Handbook of Mathematical Functions, 16.4.
+    """
+    a, b = 1.0, math.sqrt(1 - k**2)
+    ratios = []
+    while abs(a - b) > 1e-15 * a:
+        a, b, c = (a + b) / 2, math.sqrt(a * b), (a - b) / 2
+        ratios.append(c / a)
+    phi = 2 ** len(ratios) * a * u
+    for ratio in reversed(ratios):
+        phi = (phi + math.asin(ratio * math.sin(phi))) / 2
+    return math.cos(phi) / math.sqrt(1 - (k * math.sin(phi)) ** 2)
 
 
 # ---------------------------------------------------------------- a ball that slides

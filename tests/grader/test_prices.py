@@ -30,7 +30,7 @@ from grader.prices.listing import PriceList, as_json, price_list, read_list, wri
 from grader.prices.measure import BANS, Curve, Measured, Point, Prices, measure
 from grader.prices.others import LESSON, PYMUNK, STABLE, others
 from grader.prices.page import section, write_prices
-from grader.prices.scenes import LOOKS, G, Scene, scenes
+from grader.prices.scenes import G, Scene, scenes
 
 OPTIONS = Options(shipped_reference(), trusted=True)
 MANY = 200
@@ -62,17 +62,16 @@ def test_the_exact_pendulum_is_back_after_its_period_and_keeps_its_energy() -> N
     for _ in range(8):
         a, b = (a + b) / 2, math.sqrt(a * b)
     period = 2 * math.pi * math.sqrt(140.0 / G) / a  # by the arithmetic-geometric mean
-    angles = truth.Angles(140.0, 90.0)
-    looks = [angles(n) for n in range(round(2 * period * LOOKS))]
-    passages = [
-        (n - 1 + looks[n - 1] / (looks[n - 1] - looks[n])) / LOOKS
-        for n in range(1, len(looks))
-        if looks[n - 1] > 0 >= looks[n]
-    ]
-    assert passages[1] - passages[0] == pytest.approx(period, rel=1e-4)
-    angle, omega = angles.state
-    assert omega**2 / 2 - angles.pull * math.cos(angle) == pytest.approx(0.0, abs=1e-8)
-    assert swing.exact(0.0) == [(pytest.approx(140.0), pytest.approx(0.0, abs=1e-9))]
+    assert swing.exact(0.0)[0] == pytest.approx((140.0, 0.0))
+    assert swing.exact(period / 4)[0] == pytest.approx((0.0, 140.0))
+    assert swing.exact(period / 2)[0] == pytest.approx((-140.0, 0.0))
+    h = 1e-5
+    for seconds in (0.1, 0.4, 1.0, 2.9):
+        (x, y), (before, above) = swing.exact(seconds)[0], swing.exact(seconds - h)[0]
+        (after, below) = swing.exact(seconds + h)[0]
+        speed = math.hypot(after - before, below - above) / (2 * h)
+        assert math.hypot(x, y) == pytest.approx(140.0)
+        assert speed**2 / 2 == pytest.approx(G * y, rel=1e-6)
 
 
 def test_the_exact_slide_is_that_of_coulombs_law_in_small_steps() -> None:
