@@ -62,6 +62,14 @@ class Chart:
     step: str = ""  # the front as a line
 
     @property
+    def leaders(self) -> list[tuple[list[str], Point]]:
+        """The points of the front, each with all whose it is."""
+        found: dict[tuple[int, float], tuple[list[str], Point]] = {}
+        for name, point in self.front:
+            found.setdefault((point.opcodes, point.error), ([], point))[0].append(name)
+        return list(found.values())
+
+    @property
     def gave_up(self) -> list[tuple[str, list[str]]]:
         """The reasons, each with the names of those it holds for; what most have comes first."""
         names: dict[str, list[str]] = {}

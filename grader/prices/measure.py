@@ -6,13 +6,13 @@ uncounted. Its processor seconds are the kernel's; opcodes that fall far short o
 """
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from pathlib import Path
 
 from msgspec import Struct, structs
 
-from grader.judge.children import Child, Worker
+from grader.judge.children import Worker
 from grader.judge.failures import Broke, NotYet
 from grader.judge.grade import Options, load_stubs, sandbox_for
 from grader.judge.lab import Lab, Run
@@ -22,7 +22,7 @@ from grader.judge.workplace import work_folder
 from grader.prices.scenes import AWAY, LOOKS, RATE, Built, G, Scene, Setting
 from grader.words import listed
 
-MODULE = "mini_engine"
+MODULE, OPEN = "mini_engine", "open_engine"  # the second goes before, where there is one
 BANS = ["numpy", "pymunk", "cffi", "_cffi_backend", "ctypes", "_ctypes"]  # they work in C
 CPU_SECONDS = 20  # of one scene, all settings counted; the lesson's engine needs a tenth
 LEAST = 1e-3  # px: nobody sees less, and digits below it say nothing
@@ -109,18 +109,26 @@ def measure(
     worker: Worker,
     bans: Collection[str] | None = None,
 ) -> Measured:
-    """The prices of the submission at `path`; raises CannotGrade where there is nothing to run."""
+    """The prices of the submission at `path`; raises CannotGrade where there is nothing to run.
+
+    An engine that is only to be measured, for the open task, goes before the one that is graded.
+    """
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         sandbox = sandbox_for(submission, work, worker, options)
         sandbox.bans = list(BANS if bans is None else bans)
+        own = (submission.folder / OPEN).is_dir()
+
+        def lab() -> Lab:
+            return Lab(OPEN if own else MODULE, lambda: sandbox.open_child(CPU_SECONDS), [])
+
         curves, seconds = [], {}
         for scene in scenes:
-            curve = Curve(scene.id, [], not_begun(scene, submission))
+            curve = Curve(scene.id, [], "" if own else not_begun(scene, submission))
             if not curve.gave_up:
-                curve = curve_of(scene, sandbox.open_child)
+                curve = curve_of(scene, lab())
                 again = [
-                    uncounted(scene, setting, sandbox.open_child)
+                    uncounted(scene, setting, lab())
                     for setting, _ in zip(scene.settings, curve.points, strict=False)
                 ]
                 seconds[scene.id] = [each for each, _ in again]
@@ -137,16 +145,15 @@ def not_begun(scene: Scene, submission: Submission) -> str:
     return f"TODO {listed(left)} {'is' if len(left) == 1 else 'are'} not begun"
 
 
-def curve_of(scene: Scene, open_child: Callable[[int], Child]) -> Curve:
+def curve_of(scene: Scene, lab: Lab) -> Curve:
     """The scene at each setting, in a process of its own; it ends with the first that fails."""
     points = []
-    with Lab(MODULE, lambda: open_child(CPU_SECONDS), []).opened() as lab:
-        try:
-            for setting in scene.settings:
+    with lab.opened():
+        for setting in scene.settings:
+            try:
                 points.append(point_of(lab, scene, setting))
-        except (Broke, NotYet, GaveUp) as failure:
-            at = f" ({setting.words})"
-            return Curve(scene.id, points, in_words(failure) + at)
+            except (Broke, NotYet, GaveUp) as failure:
+                return Curve(scene.id, points, f"{in_words(failure)} ({setting.words})")
     return Curve(scene.id, points)
 
 
@@ -204,15 +211,12 @@ def in_words(failure: Broke | NotYet | GaveUp) -> str:
 # ---------------------------------------------------------------- once more, uncounted
 
 
-def uncounted(
-    scene: Scene, setting: Setting, open_child: Callable[[int], Child]
-) -> tuple[float, float | None]:
+def uncounted(scene: Scene, setting: Setting, lab: Lab) -> tuple[float, float | None]:
     """Processor seconds of a process of its own, and the error; None where it does not get there.
 
     What takes little time is run again and again, so that it tells beside the start of a process.
     """
     error = None
-    lab = Lab(MODULE, lambda: open_child(CPU_SECONDS), [])
     with lab.opened(), suppress(Broke, NotYet, GaveUp):
         for _ in range(max(1, round(scene.enough / scene.steps(setting)))):
             built, run = run_of(lab, scene, setting, priced=False)

@@ -152,6 +152,13 @@ def test_what_is_not_begun_is_said_and_the_rest_is_measured(hand_in: HandIn) -> 
     assert reason(KIT / "starter", short(PENDULUM)) == "TODO 3 is not begun"
 
 
+def test_an_engine_for_the_open_task_goes_before_the_one_that_is_graded(hand_in: HandIn) -> None:
+    tree = hand_in("starter")
+    shutil.copytree(KIT / "solution" / "mini_engine", tree / "open_engine")
+    found = measured(tree, short(PENDULUM)), measured(KIT / "solution", short(PENDULUM))
+    assert found[0].curves == found[1].curves and found[0].curves[0].points
+
+
 def with_step(hand_in: HandIn, before: str, after: str = "", top: str = "") -> Path:
     """The solution with code of somebody's own before and after each step."""
     tree = hand_in("solution")
