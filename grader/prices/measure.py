@@ -12,7 +12,7 @@ from pathlib import Path
 
 from msgspec import Struct, structs
 
-from grader.judge.children import Worker
+from grader.judge.children import Worker, worked_seconds
 from grader.judge.failures import Broke, NotYet
 from grader.judge.grade import Options, load_stubs, sandbox_for
 from grader.judge.lab import Lab, Run
@@ -29,7 +29,7 @@ LEAST = 1e-3  # px: nobody sees less, and digits below it say nothing
 LOST = 1000.0  # px: bodies that are farther off are not in the scene any more
 MOST_WORDS = 300
 UNTOLD = 5.0  # times the lesson's processor seconds per opcode
-SPARE = 0.5  # of the lesson's processor seconds, for starting and for a busy machine
+SPARE = 0.5  # of the lesson's processor seconds, for what is no opcode and a busy machine
 ALIKE, NEAR = 0.2, 0.01  # share and px, by which a run that is not counted may differ
 
 
@@ -212,16 +212,26 @@ def in_words(failure: Broke | NotYet | GaveUp) -> str:
 
 
 def uncounted(scene: Scene, setting: Setting, lab: Lab) -> tuple[float, float | None]:
-    """Processor seconds of a process of its own, and the error; None where it does not get there.
+    """Processor seconds to run it, and the error; None where it does not get there.
 
-    What takes little time is run again and again, so that it tells beside the start of a process.
+    What takes little time is run again and again. The import does not count.
     """
-    error = None
-    with lab.opened(), suppress(Broke, NotYet, GaveUp):
+    seconds, error = 0.0, None
+    with lab.opened(), suppress(Broke, NotYet, GaveUp, OSError):
+        lab.probe()
+        began = worked(lab)
         for _ in range(max(1, round(scene.enough / scene.steps(setting)))):
             built, run = run_of(lab, scene, setting, priced=False)
             error = in_digits(error_of(scene, built, run))
-    return lab.connection.cpu, error
+        seconds = worked(lab) - began
+    return seconds, error
+
+
+def worked(lab: Lab) -> float:
+    """Processor seconds that the process of this engine has used up so far."""
+    child = lab.connection.child
+    assert child is not None
+    return worked_seconds(child.worker.pid_of(child))
 
 
 def compared(curve: Curve, errors: Sequence[float | None]) -> Curve:

@@ -6,9 +6,8 @@ in px, at the worst moment that was looked at.
 
 import math
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
 
 from grader.judge.decode import Pair, Thing
 from grader.judge.lab import Lab, Moment
@@ -38,12 +37,6 @@ class Built:
     floor: Thing | None = None
 
 
-class Path(Protocol):
-    """Where bodies should be at a moment, in the order in which they are looked at."""
-
-    def __call__(self, seconds: float) -> Sequence[Pair]: ...
-
-
 @dataclass(frozen=True)
 class Scene:
     """One scene: what an engine needs for it, how it is built, and where its bodies should be."""
@@ -55,8 +48,8 @@ class Scene:
     seconds: float
     enough: int  # steps that take the lesson's engine a twentieth of a second
     settings: tuple[Setting, ...]
-    build: "Builder"
-    exact: Path
+    build: Callable[[Lab], Built]  # in the child
+    exact: Callable[[float], Sequence[Pair]]  # the places after so many seconds, of each body
 
     def steps(self, setting: Setting) -> int:
         return round(self.seconds * setting.rate)
@@ -69,12 +62,6 @@ class Scene:
             for number, row in enumerate(rows, 1)
             for now, (x, y) in zip(row, self.exact(number / LOOKS), strict=True)
         )
-
-
-class Builder(Protocol):
-    """Makes a scene in the child."""
-
-    def __call__(self, lab: Lab) -> Built: ...
 
 
 def by_passes(counts: Iterable[int]) -> tuple[Setting, ...]:
@@ -90,8 +77,8 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
     drawn = random.Random(f"{seed} prices") if seed is not None else None
 
     def about(number: float) -> float:
-        """The number, or one that is off by up to an eighth of it, in whole steps of a 64th."""
-        return number if drawn is None else number * (1 + drawn.randint(-8, 8) / 64)
+        """The number, or one that is off by up to an eighth of it and never the same."""
+        return number * (1 + drawn.choice([-1, 1]) * drawn.randint(1, 8) / 64) if drawn else number
 
     rates = by_step((60, 120, 240, 480))
     tower, swing, slide = (
@@ -101,37 +88,37 @@ def scenes(seed: int | None = None) -> tuple[Scene, ...]:
     )
     return (
         Scene(
-            "tower",
-            f"A tower of {tower.count} balls at rest",
-            "how far a ball leaves its place at most",
-            ("1", "2", "4"),
-            1.0,
-            120,
-            by_passes((2, 4, 8, 16)),
-            tower.build,
-            tower.exact,
+            id="tower",
+            title=f"A tower of {tower.count} balls at rest",
+            error="how far a ball leaves its place at most",
+            needs=("1", "2", "4"),
+            seconds=1.0,
+            enough=120,
+            settings=by_passes((2, 4, 8, 16)),
+            build=tower.build,
+            exact=tower.exact,
         ),
         Scene(
-            "pendulum",
-            f"A pendulum, let go at {swing.degrees:.3g}°",
-            "how far the bob is from its exact way at most",
-            ("3",),
-            3.0,
-            4000,
-            rates,
-            swing.build,
-            swing.exact,
+            id="pendulum",
+            title="A pendulum, let go at about 90°",
+            error="how far the bob is from its exact way at most",
+            needs=("3",),
+            seconds=3.0,
+            enough=4000,
+            settings=rates,
+            build=swing.build,
+            exact=swing.exact,
         ),
         Scene(
-            "slide",
-            "A ball that slides, then rolls",
-            "how far the ball is from its exact way at most",
-            ("1", "2", "4"),
-            1.0,
-            500,
-            rates,
-            slide.build,
-            slide.exact,
+            id="slide",
+            title="A ball that slides, then rolls",
+            error="how far the ball is from its exact way at most",
+            needs=("1", "2", "4"),
+            seconds=1.0,
+            enough=500,
+            settings=rates,
+            build=slide.build,
+            exact=slide.exact,
         ),
     )
 

@@ -22,6 +22,7 @@ from grader.classroom.dashboard import read_class, write_dashboard
 from grader.classroom.intake.found import Found, Intake
 from grader.judge.course import Course, WrongCourse, read_course
 from grader.judge.grade import Options, shipped_reference
+from grader.maintain.bank import members
 from grader.maintain.verify import shared_worker
 from grader.prices import scenes as truth
 from grader.prices.chart import charts, in_opcodes, in_px
@@ -514,3 +515,21 @@ def test_a_class_of_200_is_readable_by_pointer_keys_print_and_on_a_phone(tmp_pat
         own = tmp_path / "own.html"
         write_prices(found, "one", own, found.engines[1].name)
         assert barriers(browser, path, own) == []
+
+
+@pytest.mark.soak
+def test_every_right_engine_of_the_bank_is_measured_and_no_hostile_one_stops_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("grader.prices.measure.CPU_SECONDS", 2)
+    asked = [short(each) for each in scenes()]
+    lesson = measure(KIT / "solution", asked, OPTIONS, shared_worker())
+    for number, member in enumerate(members(KIT)):
+        if member.kind not in ("right", "hostile"):
+            continue
+        folder = tmp_path / str(number)
+        member.build(KIT, folder / member.name.replace("/", "-"))
+        found = measure(next(folder.iterdir()), asked, OPTIONS, shared_worker())
+        for curve in found.checked(lesson).curves:
+            assert curve.points or curve.gave_up, member.name
+            assert member.kind == "hostile" or curve.points or "numpy" in curve.gave_up, member.name
