@@ -169,7 +169,9 @@ def run_of(lab: Lab, scene: Scene, setting: Setting, priced: bool) -> tuple[Buil
     """Build the scene anew and run it."""
     lab.ran(f"{scene.title}, {setting.words}")
     built = scene.build(lab)
-    lab.put(built.world, iterations=setting.passes)
+    with suppress(NotYet):  # an engine may have no such dial
+        lab.get(built.world, "iterations")
+        lab.put(built.world, iterations=setting.passes)
     steps, every = scene.steps(setting), setting.rate // LOOKS
     run = lab.simulate(built.world, built.watched, steps, 1 / setting.rate, every, priced=priced)
     return built, run

@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 import shutil
 from collections.abc import Sequence
 from dataclasses import replace
@@ -28,7 +29,18 @@ from grader.prices import scenes as truth
 from grader.prices.chart import charts, in_opcodes, in_px
 from grader.prices.front import error_for, front
 from grader.prices.listing import PriceList, as_json, price_list, read_list, write_list
-from grader.prices.measure import BANS, Curve, Measured, Point, Prices, measure
+from grader.prices.measure import (
+    BANS,
+    CPU_SECONDS,
+    LEAST,
+    LOST,
+    UNTOLD,
+    Curve,
+    Measured,
+    Point,
+    Prices,
+    measure,
+)
 from grader.prices.others import LESSON, PYMUNK, STABLE, others
 from grader.prices.page import section, write_prices
 from grader.prices.scenes import G, Scene, scenes
@@ -398,6 +410,23 @@ def test_a_wrong_number_of_its_points_is_said_in_one_sentence(text: str, tmp_pat
     with pytest.raises(WrongCourse, match=r"open_task = ") as caught:
         read_course(path)
     assert str(caught.value).count("\n") == 0
+
+
+def test_the_pages_say_what_is_measured() -> None:
+    page = (KIT / "handouts/instructor/prices.md").read_text(encoding="utf-8")
+    for words in (
+        f"{CPU_SECONDS} s of processor",
+        f"{LOST:g} px from where",
+        f"Below {LEAST:g} px",
+    ):
+        assert words in page
+    for scene, told in zip(scenes(), re.findall(r"^\| a .*\|$", page, re.M), strict=True):
+        first, last = scene.settings[0].words, scene.settings[-1].words
+        assert f"{first.removesuffix(' passes').removesuffix(' s')} to {last} |" in told
+        assert f", {scene.seconds:g} s |" in told and f"TODO {', '.join(scene.needs)} |" in told
+    assert UNTOLD == 5 and "five\n  times those of the lesson's" in (
+        KIT / "handouts/instructor/security.md"
+    ).read_text(encoding="utf-8")
 
 
 # ---------------------------------------------------------------- the command
