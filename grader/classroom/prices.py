@@ -27,6 +27,7 @@ from grader.classroom.intake.packing import pack
 from grader.classroom.names import in_short
 from grader.classroom.progress import Counter
 from grader.judge.children import start_worker
+from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.workplace import work_folder
 from grader.prices.listing import PriceList, price_list, write_list
@@ -120,45 +121,55 @@ class Measuring:
         self.counts[how] += 1
 
 
-def run_prices(path: Path, wanted: ClassPrices, console: Console) -> PriceList:
+def run_prices(path: Path, wanted: ClassPrices, console: Console) -> None:
     """Measure the class at `path`, and put its price list beside its results."""
-    path = path.resolve()
+    path, options = path.resolve(), wanted.options
     people = people_of(path, wanted.roster)
     results = (wanted.out or path.with_name(f"{path.stem}-results")).resolve()
     results.parent.mkdir(parents=True, exist_ok=True)
-    asked, options = scenes(wanted.options.seed), wanted.options
+    book = results.with_name(f"{results.name}.prices.jsonl")
+    asked = scenes(options.seed)
     worker = start_worker()
     try:
         beside = others(asked, options, worker)
     finally:
         worker.close()
-    book = results.with_name(f"{results.name}.prices.jsonl")
-    with opened_class(path, people) as intake, PricePool(options, wanted.jobs) as pool:
+    with opened_class(path, people) as intake:
         run = Measuring(intake, asked, lesson_in(beside), key_of(options), book)
-        total = len(intake.found) + len(intake.troubles)
-        with Counter("measuring", total, console) as counter:
-            for name, why in intake.troubles.items():
-                run.trouble([name], why)
-            for task, graded in grade_all(run.tasks(), pool):
-                if isinstance(graded, str):
-                    run.trouble([each.name for each in task.members], graded)
-                else:
-                    run.measured(task, graded)
-                counter.reached(len(run.engines))
+        with PricePool(options, wanted.jobs) as pool:
+            measure_all(run, pool, console)
     write_book(book, [run.engines[name] for name in sorted(run.engines)])
     engines = [each.prices for each in run.engines.values()]
     prices = price_list(asked, [each.prices for each in beside], engines)
-    write_list(prices, results)
     tell(prices, run.counts, console)
+    show(prices, results, options.course, console)
+
+
+def measure_all(run: Measuring, pool: Pool, console: Console) -> None:
+    """Whatever nobody has measured yet; what could not be taken in stands at the edge, too."""
+    total = len(run.intake.found) + len(run.intake.troubles)
+    with Counter("measuring", total, console) as counter:
+        for name, why in run.intake.troubles.items():
+            run.trouble([name], why)
+        for task, graded in grade_all(run.tasks(), pool):
+            if isinstance(graded, str):
+                run.trouble([each.name for each in task.members], graded)
+            else:
+                run.measured(task, graded)
+            counter.reached(len(run.engines))
+
+
+def show(prices: PriceList, results: Path, course: Course, console: Console) -> None:
+    """Write the list and its page, and the pages of the class and of everybody anew."""
+    write_list(prices, results)
     page = results.with_name(f"{results.name}.prices.html")
     write_prices(prices, results.name, page)
     console.print(f"page:    {page}", soft_wrap=True)
     if Book(results).known:
-        shown = write_dashboard(results, read_class(results), options.course)
+        shown = write_dashboard(results, read_class(results), course)
         console.print(f"class:   {shown}", soft_wrap=True)
-    if options.course.open_task:
+    if course.open_task:
         console.print("The points of the open task count once `grade --class` runs again.")
-    return prices
 
 
 def tell(prices: PriceList, counts: dict[str, int], console: Console) -> None:

@@ -202,11 +202,13 @@ TELLS_OF_QUEUES = Path("/proc/self/schedstat").exists()
 
 
 def worked_seconds(pid: int) -> float:
-    """For how long a process has worked, s, with all its threads; raises OSError where it is gone.
+    """For how long a process has worked, s, with all its threads; 0 where nobody tells it finely.
 
-    The system tells it for threads that have ended as well, but in hundredths of a second; Linux
-    also in nanoseconds, for those that are there.
+    Linux tells it in nanoseconds of the threads that are there, and in hundredths of a second of
+    those that have ended, too. Raises OSError where the process is gone.
     """
+    if not TELLS_OF_QUEUES:
+        return 0.0
     try:
         times = psutil.Process(pid).cpu_times()
     except psutil.Error as error:

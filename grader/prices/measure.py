@@ -27,6 +27,7 @@ BANS = ["numpy", "pymunk", "cffi", "_cffi_backend", "ctypes", "_ctypes"]  # they
 CPU_SECONDS = 20  # of one scene, all settings counted; the lesson's engine needs a tenth
 LEAST = 1e-3  # px: nobody sees less, and digits below it say nothing
 LOST = 1000.0  # px: bodies that are farther off are not in the scene any more
+MOST_OPCODES = 1e9  # in one run: more than CPU_SECONDS have room for
 MOST_WORDS = 300
 UNTOLD = 5.0  # times the lesson's processor seconds per opcode
 SPARE = 0.5  # of the lesson's processor seconds, for what is no opcode and a busy machine
@@ -85,9 +86,8 @@ class Measured(Struct, frozen=True):
         theirs = zip(usual, lesson.seconds.get(curve.scene, []), strict=False)
         known = {point.setting: (point.opcodes, seconds) for point, seconds in theirs}
         for point, seconds in zip(curve.points, self.seconds.get(curve.scene, []), strict=False):
-            opcodes, taken = known.get(point.setting, (0, math.inf))
-            share = point.opcodes / opcodes if opcodes else 0.0
-            if seconds > (UNTOLD * share + SPARE) * taken:
+            opcodes, taken = known.get(point.setting, (1, 0.0))
+            if taken and seconds > (UNTOLD * point.opcodes / opcodes + SPARE) * taken:
                 return (
                     f"at {point.setting} its opcodes tell less than a {UNTOLD:g}th of what the "
                     "processor had to do: something works that nobody counts"
@@ -160,6 +160,8 @@ def curve_of(scene: Scene, lab: Lab) -> Curve:
 def point_of(lab: Lab, scene: Scene, setting: Setting) -> Point:
     built, run = run_of(lab, scene, setting, priced=True)
     error = error_of(scene, built, run)
+    if not 0 < run.opcodes < MOST_OPCODES:
+        raise GaveUp(f"it says that {run.opcodes:.3g} opcodes ran, which cannot be")
     if built.floor is not None:
         falls(lab, built)
     return Point(setting.words, round(run.opcodes / scene.seconds), in_digits(error))

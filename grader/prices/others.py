@@ -20,27 +20,30 @@ IN_C = (PYMUNK,)  # of these no opcode tells what they cost
 def others(
     scenes: Sequence[Scene], options: Options, worker: Worker, tree: Path | None = None
 ) -> list[Measured]:
-    """What these cost, as far as they are here: students have the lesson's in no other form than
-    their own, and the stable one in their `tree`."""
-    found = []
+    """What these cost, as far as they are here.
+
+    Students have the lesson's in no other form than their own, and the stable one in their `tree`.
+    """
     ours = Options(isolation=options.isolation, trusted=True)
+    found = []
     if options.reference is not None:
-        lesson = measure(options.reference, scenes, ours, worker)
-        found.append(named(lesson, LESSON))
-    folders = [folder / "stable_engine" for folder in (KIT / "solution", tree) if folder]
-    stable = next((folder for folder in folders if folder.is_dir()), None)
-    for name, adapter, package in ((STABLE, "stable", stable), (PYMUNK, "chipmunk", None)):
-        if name == STABLE and package is None:
-            continue
-        with work_folder() as work:
-            folder = work / "engine"
-            folder.mkdir()
-            shutil.copyfile(ENGINES / f"{adapter}.py", folder / "mini_engine.py")
-            if package is not None:
-                shutil.copytree(package, folder / "stable_engine")
-            bans = () if name in IN_C else None
-            found.append(named(measure(folder, scenes, ours, worker, bans), name))
+        found.append(named(measure(options.reference, scenes, ours, worker), LESSON))
+    places = [folder / "stable_engine" for folder in (KIT / "solution", tree) if folder]
+    stable = next((place for place in places if place.is_dir()), None)
+    with work_folder() as work:
+        if stable is not None:
+            shutil.copytree(stable, work / STABLE / "stable_engine")
+            adapted(work / STABLE, "stable.py")
+            found.append(named(measure(work / STABLE, scenes, ours, worker), STABLE))
+        adapted(work / PYMUNK, "chipmunk.py")
+        found.append(named(measure(work / PYMUNK, scenes, ours, worker, bans=()), PYMUNK))
     return found
+
+
+def adapted(folder: Path, adapter: str) -> None:
+    """Make an engine in this folder one with the lesson's names."""
+    folder.mkdir(exist_ok=True)
+    shutil.copyfile(ENGINES / adapter, folder / "mini_engine.py")
 
 
 def named(found: Measured, name: str) -> Measured:
