@@ -17,9 +17,10 @@ from typer.testing import CliRunner
 
 from grader import cli
 from grader.classroom.adjustments import load_adjustments
-from grader.classroom.batch import Run
+from grader.classroom.batch import Run, grade_class
 from grader.classroom.book import Book, Outcome
 from grader.classroom.dashboard import read_class, write_dashboard
+from grader.classroom.executor import Pool
 from grader.classroom.intake.found import Found, Intake
 from grader.judge.course import Course, WrongCourse, read_course
 from grader.judge.grade import Options, shipped_reference
@@ -398,6 +399,24 @@ def test_its_points_are_a_bonus_where_the_course_says_so(tmp_path: Path) -> None
 
     assert bonus(Course()) == (0, [])
     assert bonus(Course(open_task=3)) == (3, ["open task: +3"])
+
+
+def test_grading_a_class_reads_who_has_done_it(tmp_path: Path) -> None:
+    found = made_up(2, "s{}")
+    curve = Curve("tower", [Point("8 passes", 500_000, 0.1)])
+    found = structs.replace(found, engines=[Prices("s0", [curve]), found.engines[1]])
+    write_list(found, tmp_path / "c")
+    for points, done in ((0, set()), (2, {"s0"})):
+        run = grade_class(
+            Intake(),
+            tmp_path / "c",
+            "",
+            Pool(OPTIONS, 1),
+            cli.console,
+            None,
+            Course(open_task=points),
+        )
+        assert run.less_sunk == done
 
 
 @pytest.mark.parametrize(
