@@ -155,8 +155,12 @@ def line(name: str, kind: str, curve: Curve, x: Scale, y: Scale) -> Line:
         name,
         kind,
         [(x(each.opcodes), y(each.error)) for each in points],
-        [f"{each.setting}: {in_px(each.error)} for {in_opcodes(each.opcodes)}" for each in points],
+        [told(each) for each in points],
     )
+
+
+def told(point: Point) -> str:
+    return f"{point.setting}: {in_px(point.error)} for {in_opcodes(point.opcodes)} opcodes"
 
 
 def at_the_edge(curves: Sequence[tuple[str, Curve]]) -> Iterator[Line]:

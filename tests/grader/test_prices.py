@@ -407,15 +407,8 @@ def test_grading_a_class_reads_who_has_done_it(tmp_path: Path) -> None:
     found = structs.replace(found, engines=[Prices("s0", [curve]), found.engines[1]])
     write_list(found, tmp_path / "c")
     for points, done in ((0, set()), (2, {"s0"})):
-        run = grade_class(
-            Intake(),
-            tmp_path / "c",
-            "",
-            Pool(OPTIONS, 1),
-            cli.console,
-            None,
-            Course(open_task=points),
-        )
+        course, pool = Course(open_task=points), Pool(OPTIONS, 1)
+        run = grade_class(Intake(), tmp_path / "c", "", pool, cli.console, course=course)
         assert run.less_sunk == done
 
 
