@@ -110,8 +110,8 @@ def test_a_seed_changes_all_that_an_engine_could_know_by_heart() -> None:
 
 def test_errors_and_opcodes_come_out_the_same_twice_and_fall_and_rise_as_they_must() -> None:
     asked = [short(each, 0.15, 2) for each in (TOWER, PENDULUM, SLIDE)]
-    found = measured(KIT / "solution", *asked)
-    assert msgspec.json.encode(found) == msgspec.json.encode(measured(KIT / "solution", *asked))
+    found, again = measured(KIT / "solution", *asked), measured(KIT / "solution", asked[0])
+    assert msgspec.json.encode(found.curves[:1]) == msgspec.json.encode(again.curves)
     for curve in found.curves:
         assert not curve.gave_up
         cheap, dear = curve.points
@@ -224,7 +224,7 @@ def test_work_that_no_opcode_tells_is_seen_in_the_kernels_seconds(hand_in: HandI
     scene = short(PENDULUM, 1.0)
     lesson, forger = (
         measure(each, [scene], OPTIONS, shared_worker())
-        for each in (KIT / "solution", with_step(hand_in, "pass", "sum(range(200_000))"))
+        for each in (KIT / "solution", with_step(hand_in, "pass", "sum(range(100_000))"))
     )
     assert not any(
         curve.gave_up for curve in [*lesson.checked(lesson).curves, *forger.prices.curves]
