@@ -5,8 +5,6 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,15 +23,16 @@ from grader.commands import (
     refuse_ignored,
     say_why,
     stop,
+    submission_at,
 )
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.prices import commands as prices
 from grader.report import commands as report
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
-from grader.words import clean
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -127,30 +126,6 @@ def refuse_what_is_ignored(
         refuse_ignored(context, FOR_CLASS, "without --class, which grades a folder or zip of them")
     if cluster:
         refuse_ignored(context, ("jobs",), "with --cluster: its workers say how many at a time")
-
-
-@contextmanager
-def submission_at(path: Path) -> Iterator[Path]:
-    """The submission itself: what a zip holds is unpacked, in the instructor's grader."""
-    if not find_spec("grader.classroom"):  # students have no zips and no folders of submissions
-        yield path
-        return
-    # Imported here: students have none of it, and it would add 30 ms to every start.
-    from grader.classroom.intake.listing import class_in
-    from grader.classroom.intake.packing import opened_submission
-
-    names = class_in(path) if path.is_dir() else []
-    if names:
-        more = f" and {len(names) - 2} more" if len(names) > 2 else ""
-        stop(
-            f"{path} is no submission but holds some, {', '.join(names[:2])}{more}: grade all of "
-            "them with --class, or name one"
-        )
-    try:
-        with opened_submission(path, lambda note: console.print(clean(note))) as folder:
-            yield folder
-    except CannotGrade as error:
-        stop(str(error))
 
 
 def shown(path: Path, options: Options) -> Result:
@@ -277,6 +252,7 @@ def main() -> None:
     end_like_ctrl_c()
     app.add_typer(student.app)
     app.add_typer(report.app)
+    app.add_typer(prices.app)
     if find_spec("grader.classroom"):  # students get neither of these two folders
         from grader.classroom.commands import app as classroom
         from grader.maintain.commands import app as maintain

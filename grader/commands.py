@@ -1,6 +1,8 @@
 """What the commands share: where they print, what stops them, which TODOs there are."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -11,6 +13,7 @@ from grader.judge.course import FULL, Course, WrongCourse, read_course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.words import clean
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
@@ -89,3 +92,27 @@ def graded(path: Path, options: Options) -> Result:
         stop(str(error))
     except KeyboardInterrupt:  # exit status 1 would say that points are missing
         stop("stopped before the end; nothing is left behind")
+
+
+@contextmanager
+def submission_at(path: Path) -> Iterator[Path]:
+    """The submission itself: what a zip holds is unpacked, in the instructor's grader."""
+    if not find_spec("grader.classroom"):  # students have no zips and no folders of submissions
+        yield path
+        return
+    # Imported here: students have none of it, and it would add 30 ms to every start.
+    from grader.classroom.intake.listing import class_in
+    from grader.classroom.intake.packing import opened_submission
+
+    names = class_in(path) if path.is_dir() else []
+    if names:
+        more = f" and {len(names) - 2} more" if len(names) > 2 else ""
+        stop(
+            f"{path} is no submission but holds some, {', '.join(names[:2])}{more}: grade all of "
+            "them with --class, or name one"
+        )
+    try:
+        with opened_submission(path, lambda note: console.print(clean(note))) as folder:
+            yield folder
+    except CannotGrade as error:
+        stop(str(error))

@@ -249,6 +249,7 @@ class Simulate(Struct, frozen=True, tag="simulate"):
     watch: list[int]
     every: int = 1
     contacts: bool = False
+    priced: bool = False  # count the opcodes that run in all these steps
 
 
 class Integrate(Struct, frozen=True, tag="integrate"):
@@ -357,6 +358,7 @@ class ContactRow(Struct, frozen=True, array_like=True):
 class Simulated(Struct, frozen=True, tag="simulated"):
     frames: list[list[float]]  # x, y, vx, vy, angle, omega of each watched body
     contacts: list[list[ContactRow]] = []
+    opcodes: int = 0  # that ran, where they were to be counted
 
 
 class Played(Struct, frozen=True, tag="played"):
@@ -471,6 +473,7 @@ class ChildSetup(Struct, frozen=True):
     bytecode: str  # a folder for compiled files
     compiles: bool  # whether this child fills that folder, and does nothing else
     loads: list[str] = []  # libraries that are slow to load, to be loaded before the fork
+    bans: list[str] = []  # modules that it may import elsewhere, and not here
 
 
 class Ready(Struct, frozen=True):

@@ -27,6 +27,8 @@ from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 from grader.player.page import filled, one_line
+from grader.prices import page as prices_page
+from grader.prices.listing import read_list
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
 from grader.words import told
@@ -218,13 +220,16 @@ def mistake_of(todo: str, name: str, entries: list[Entry], folder: Path) -> Mist
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
     """Write the page beside the folder of results, and into it a report per student."""
     folder = Book(results).folder
+    prices = read_list(folder)
     for entry in entries:
-        report = folder / f"{entry.outcome.name}.html"
+        name = entry.outcome.name
+        report = folder / f"{name}.html"
         standing = standing_of(entry.outcome)
         if entry.result is None:
             write_standing(standing, report)
         else:
-            write_report(told(entry.result, course), report, standing=standing)
+            own = prices_page.section(prices, name) if prices and prices.of(name) else None
+            write_report(told(entry.result, course), report, standing=standing, prices=own)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(dashboard(folder, entries).encode("utf-8"), path)
     return path
@@ -255,10 +260,13 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
+    style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
+    prices = read_list(folder)
     return filled(
         TEMPLATES / "dashboard.html",
-        (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
+        style + (prices_page.css() if prices else ""),
         script,
+        prices_page.js(),
         title=folder.name,
         folder=f"./{quote(folder.name)}/",
         entries=entries,
@@ -278,6 +286,8 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
         clean=one_line,
         quote=quote,
         script=Markup(script),
+        prices=prices_page.section(prices) if prices else None,
+        prices_script=Markup(prices_page.js()),
     )
 
 

@@ -201,15 +201,38 @@ def busy_seconds(pid: int) -> float | None:
 TELLS_OF_QUEUES = Path("/proc/self/schedstat").exists()
 
 
+def worked_seconds(pid: int) -> float:
+    """For how long a process has worked, s, with all its threads; 0 where nobody tells it finely.
+
+    Linux tells it in nanoseconds of the threads that are there, and in hundredths of a second of
+    those that have ended, too. Raises OSError where the process is gone.
+    """
+    if not TELLS_OF_QUEUES:
+        return 0.0
+    try:
+        times = psutil.Process(pid).cpu_times()
+    except psutil.Error as error:
+        raise OSError(str(error)) from error
+    return max(times.user + times.system, sum(schedule_of(pid, 0)))
+
+
 def seconds_in_queue(pid: int) -> float:
     """For how long the threads of a process have waited for a processor, s; as Linux tells it.
 
     See proc(5), schedstat; 0 elsewhere. Raises OSError where the process is gone.
     """
+    return sum(schedule_of(pid, 1))
+
+
+def schedule_of(pid: int, what: int) -> list[float]:
+    """Of each thread of a process the seconds that it worked (0) or waited (1); where Linux tells.
+
+    Raises OSError where the process is gone.
+    """
     if not TELLS_OF_QUEUES:
-        return 0.0
-    queues = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
-    return sum(int(each.split()[1]) for each in queues) / 1e9
+        return []
+    told = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
+    return [int(each.split()[what]) / 1e9 for each in told]
 
 
 class Worker(Protocol):

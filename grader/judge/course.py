@@ -54,6 +54,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `points`: what a TODO is worth where that is not what the rubric says.
     `out_of`: what gradebooks scale the points to; None for what the gradebook's own settings say.
     `bonus`: whether the points of bonus tasks are shown apart, left out, or added up to this many.
+    `open_task`: bonus points for the open task of the bonus sheet; 0 where it is only shown.
     `due`, `late`: until when work is handed in, and what it costs to be late.
     `visible`: when students are shown why a hidden check failed; None for at once.
     """
@@ -63,6 +64,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     points: dict[str, int] = {}
     out_of: float | None = None
     bonus: Literal["apart", "left out"] | int = "apart"
+    open_task: int = 0
     due: datetime | None = None
     late: Late | None = None
     visible: datetime | None = None
@@ -268,6 +270,7 @@ def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
     words = bonus in ("apart", "left out")
     if bonus is not None and not words and (type(bonus) is not int or bonus < 0):
         yield f'bonus = {bonus!r} must be "apart", "left out", or how many points count at most'
+    yield from wrong_open_task(document.get("open_task", 0), bonus)
     if late is None:
         return
     if not isinstance(late, dict) or not late.keys() & {"per_day", "cap", "closed_after"}:
@@ -276,6 +279,13 @@ def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
         yield "late: due stands below [late]: write it above that line"
     else:
         yield from wrong_late(late)
+
+
+def wrong_open_task(points: Any, bonus: Any) -> Iterator[str]:
+    if type(points) is not int or not 0 <= points <= 100:
+        yield f"open_task = {points!r} must be a whole number of points from 0 to 100"
+    elif points and bonus == "left out":
+        yield f'open_task = {points}: its points are a bonus, and bonus is "left out": remove one'
 
 
 def wrong_late(late: dict[str, Any]) -> Iterator[str]:

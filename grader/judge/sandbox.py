@@ -24,6 +24,7 @@ class Sandbox:
     loads: list[str] = field(default_factory=list)  # libraries that are slow to load, by name
     trusted: bool = False  # one's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
+    bans: list[str] = field(default_factory=list)  # modules that it may not import, by name
 
     def open_child(self, cpu_seconds: int) -> Child:
         """A child with this budget, of processor seconds.
@@ -65,6 +66,7 @@ class Sandbox:
             bytecode=str(self.bytecode),
             compiles=compiles,
             loads=self.loads,
+            bans=self.bans,
         )
 
     def _layers_around(self, child: Child) -> list[str]:

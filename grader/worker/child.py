@@ -87,7 +87,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     output, clock = Output(), ScriptedClock()
     output.install()
     clock.install()
-    ImportRule(files_of(submission)).install()
+    ImportRule(files_of(submission), setup.bans).install()
     subject = Subject(folder)
     camera = Camera(subject)
     while True:

@@ -16,6 +16,7 @@ RULE = (
     "a submission may import the standard library, "
     f"{', '.join(LIBRARIES.values())} and its own files"
 )
+IN_C = "it works in machine code, and nobody could count what that does"  # of what is banned
 
 
 ALLOWED = frozenset({"__main__", *sys.stdlib_module_names, *LIBRARIES, *BENEATH})
@@ -29,14 +30,17 @@ class NotAllowed(ModuleNotFoundError):
 class ImportRule(MetaPathFinder):
     """Stands before all that finds modules, and lets nothing through but what is allowed."""
 
-    def __init__(self, files: Iterable[str]) -> None:
-        """For a submission with these files."""
+    def __init__(self, files: Iterable[str], bans: Iterable[str] = ()) -> None:
+        """For a submission with these files, which may not import `bans` either."""
+        self.bans = frozenset(bans)
         modules = (path.removesuffix(".py").split("/") for path in files if path.endswith(".py"))
         self.own = {part for parts in modules for part in parts}
 
     def install(self) -> None:
         """From now on; what the grader itself has loaded is out of reach by name."""
         put_away()
+        for name in [name for name in sys.modules if name.partition(".")[0] in self.bans]:
+            AWAY[name] = sys.modules.pop(name)
         sys.meta_path.insert(0, self)
 
     def allows(self, name: str) -> bool:
@@ -47,8 +51,10 @@ class ImportRule(MetaPathFinder):
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Find nothing, so that the others look; raise NotAllowed where nobody may."""
+        first = name.partition(".")[0]
+        if first in self.bans:
+            raise NotAllowed(f"{first} may not be imported here: {IN_C}", name=name)
         if not self.allows(name):
-            first = name.partition(".")[0]
             raise NotAllowed(f"there is no {first} to import here: {RULE}", name=name)
         return None
 

@@ -1,4 +1,4 @@
-"""Counts the lines of a submission that run: a measure of work that is the same on every machine.
+"""Counts the lines or opcodes of a submission that run: work that is the same on every machine.
 
 What is counted runs in this process, so it can reach the count. It is noticed when it ends the
 count, leaves the work to another thread or hides a function. Who finds the number itself and writes
@@ -9,7 +9,7 @@ must know asks for so much, too, that the processor seconds tell, which the kern
 import sys
 import sysconfig
 from collections.abc import Callable, Iterator
-from types import CodeType, FrameType, FunctionType
+from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 
 from grader.worker import standin
@@ -23,7 +23,12 @@ else:
     WHOSE = (RUSAGE_SELF, RUSAGE_THREAD)
 
 Trace = Callable[[FrameType, str, object], Any]
-ENDS = {"sys.settrace", "sys.setprofile", "_thread.start_new_thread"}  # told by an audit hook
+ENDS = {  # told by an audit hook
+    "sys.settrace",
+    "sys.setprofile",
+    "sys.monitoring.register_callback",
+    "_thread.start_new_thread",
+}
 ELSEWHERE = 0.005  # s of work in other threads, of which there are none
 
 
@@ -35,9 +40,10 @@ class LineCounter:
     """
 
     watched = False  # an audit hook is for good, and only for who is counted
+    what = "lines"
 
     def __init__(self) -> None:
-        self.lines = self.begun = self.over = 0
+        self.counted = self.begun = self.over = 0
         self.trouble = ""
         self.hook: Trace = self.trace
 
@@ -55,18 +61,18 @@ class LineCounter:
         counting.clear()
         sys.settrace(None)
         if not held or self.begun != self.over:
-            self.trouble = self.trouble or "its lines were hidden"
+            self.trouble = self.trouble or f"its {self.what} were hidden"
         if seconds_elsewhere() - self.elsewhere > ELSEWHERE:
             self.trouble = self.trouble or "another thread worked"
 
     def answer(self) -> int:
-        """The lines; raises ContractError where the count was interfered with."""
+        """How many there were; raises ContractError where the count was interfered with."""
         if self.trouble:
             raise ContractError(
-                f"while the lines that run were counted, {self.trouble}: so nobody knows how many "
-                "they are"
+                f"while the {self.what} that run were counted, {self.trouble}: so nobody knows how "
+                "many they are"
             )
-        return self.lines
+        return self.counted
 
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
         """Python calls this whenever a function begins; what it returns hears of each line."""
@@ -76,9 +82,50 @@ class LineCounter:
         return self.count_line
 
     def count_line(self, frame: FrameType, event: str, _: object) -> Trace:
-        self.lines += event == "line"
+        self.counted += event == "line"
         self.over += event == "return"
         return self.count_line
+
+
+class OpcodeCounter(LineCounter):
+    """Counts opcodes instead, in every function but `ours`; those of libraries count as well.
+
+    An opcode is one instruction of Python's machine: finer than a line, into which much can be put.
+    """
+
+    what = "opcodes"
+
+    def __init__(self, ours: frozenset[CodeType]) -> None:
+        super().__init__()
+        self.ours = ours | DETOURS
+        self.so_far, self.local = opcode_hook(self)
+
+    def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
+        if frame.f_code in self.ours:
+            return None
+        self.begun += 1
+        frame.f_trace_opcodes, frame.f_trace_lines = True, False
+        return self.local
+
+    def answer(self) -> int:
+        self.counted = self.so_far()
+        return super().answer()
+
+
+def opcode_hook(counter: OpcodeCounter) -> tuple[Callable[[], int], Trace]:
+    """How many opcodes there were, and what hears of each: no attribute is looked up for one."""
+    count = 0
+
+    def hear(frame: FrameType, event: str, _: object) -> None:  # so it is called again
+        nonlocal count
+        if event == "opcode":
+            count += 1
+        elif event == "return":
+            counter.over += 1
+            if not frame.f_trace_opcodes:
+                counter.trouble = counter.trouble or "its opcodes were hidden"
+
+    return lambda: count, hear
 
 
 counting: list[LineCounter] = []  # one at most
@@ -104,10 +151,18 @@ def codes_in(code: CodeType) -> Iterator[CodeType]:
             yield from codes_in(each)
 
 
+def codes_of(*modules: ModuleType) -> frozenset[CodeType]:
+    """The code of all functions and methods that these modules define."""
+    things = [thing for module in modules for thing in vars(module).values()]
+    things += [each for thing in things if isinstance(thing, type) for each in vars(thing).values()]
+    return frozenset(
+        code
+        for thing in things
+        if isinstance(thing, FunctionType) and thing.__module__.startswith("grader.")
+        for code in codes_in(thing.__code__)
+    )
+
+
 LIBRARIES = (*(sysconfig.get_path(each) for each in ("stdlib", "purelib", "platlib")), "<frozen ")
-DETOURS = {  # our own, to what stands in for a function; and the end of the count
-    code
-    for function in (*vars(standin).values(), LineCounter.__exit__)
-    if isinstance(function, FunctionType) and function.__module__.startswith("grader.")
-    for code in codes_in(function.__code__)
-}
+# Our own, to what stands in for a function; and the end of the count.
+DETOURS = codes_of(standin) | {LineCounter.__exit__.__code__}

@@ -6,8 +6,10 @@ A run is the same on every machine: it is counted in frames and steps, and its c
 import inspect
 import math
 import os
+import sys
 import zlib
 from collections.abc import Callable
+from contextlib import nullcontext
 from types import FunctionType
 from typing import Any, Literal
 
@@ -27,7 +29,10 @@ from grader.protocol import (
     SpaceBody,
     cut,
 )
+from grader.worker import film
+from grader.worker import subject as subjects
 from grader.worker.film import Camera, lesson_state
+from grader.worker.lines import OpcodeCounter, codes_of
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
@@ -275,23 +280,25 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
     watched = [subject.objects[ref] for ref in request.watch]
     frames: list[list[float]] = []
     contacts: list[list[ContactRow]] = []
+    counter = OpcodeCounter(OURS) if request.priced else None
     camera.expect(request.steps)
-    for number in range(1, request.steps + 1):
-        world.step(request.dt)
-        camera.record(number * request.dt, number)
-        if number % request.every:
-            continue
-        row: list[float] = []
-        for body in watched:
-            if isinstance(body, pymunk.Body):
-                state: SpaceBody = subject.space_body(body)
-                row += [*state.pos, *state.vel, state.angle, state.omega]
-            else:
-                row += lesson_state(body)
-        frames.append(row)
-        if request.contacts:
-            contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
-    return Simulated(frames, contacts)
+    with counter or nullcontext():
+        for number in range(1, request.steps + 1):
+            world.step(request.dt)
+            camera.record(number * request.dt, number)
+            if number % request.every:
+                continue
+            row: list[float] = []
+            for body in watched:
+                if isinstance(body, pymunk.Body):
+                    state: SpaceBody = subject.space_body(body)
+                    row += [*state.pos, *state.vel, state.angle, state.omega]
+                else:
+                    row += lesson_state(body)
+            frames.append(row)
+            if request.contacts:
+                contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
+    return Simulated(frames, contacts, counter.answer() if counter else 0)
 
 
 def contact_row(subject: Subject, contact: Any) -> ContactRow:
@@ -312,3 +319,6 @@ def contact_row(subject: Subject, contact: Any) -> ContactRow:
         field_number(contact, "jt"),
         math.sqrt(max(friction, 0.0)) * jn,
     )
+
+
+OURS = codes_of(film, subjects, sys.modules[__name__])  # what reads a world, beside what steps it
