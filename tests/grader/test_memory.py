@@ -89,3 +89,16 @@ def test_an_answer_that_hangs_on_earlier_calls_is_told_as_such(hand_in: HandIn):
     assert failed and all("from call to call in last" in check.meaning for check in failed)
     (drawn,) = [check for check in failed if check.kind == "property"]
     assert drawn.meaning.startswith(REMEMBERS)
+
+
+def test_what_a_call_may_not_change_is_nothing_that_is_remembered(hand_in: HandIn):
+    folder = hand_in("solution")
+    path = folder / "mini_engine" / "contacts.py"
+    text = path.read_text(encoding="utf-8")
+    at = text.index("\n", text.index("# TODO 1")) + 1
+    path.write_text(text[:at] + "    a.omega = 0.0\n" + text[at:], encoding="utf-8")
+    (todo,) = grade(
+        folder, Options(shipped_reference(), only=frozenset({"1"})), shared_worker()
+    ).todos
+    failed = [check for check in todo.checks if check.failed]
+    assert failed and not any(REMEMBERS in check.meaning for check in failed)
