@@ -20,6 +20,7 @@ from pathlib import Path
 from make_hints import page as hints_page
 
 from grader.judge.course import FULL, WrongCourse, read_course
+from grader.maintain.formulas import typeset
 from grader.maintain.handouts import handouts_of
 from grader.maintain.pages import lay_out_touch
 
@@ -38,7 +39,7 @@ def sources(folder, instructors, course):
     texts = handouts_of(HERE, course)
     texts["hints.md"] = hints_page(course)
     for name, text in texts.items():
-        (pages / name).write_text(text, encoding="utf-8")
+        (pages / name).write_text(typeset(text), encoding="utf-8")
     shutil.copytree(HERE / "figures", pages / "figures")
     lay_out_touch(HERE, pages)
     shutil.copytree(OURS, pages / "site", ignore=shutil.ignore_patterns("*.yml"))

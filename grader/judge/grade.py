@@ -26,7 +26,7 @@ from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
-from grader.todo_regions import read_source, shape_of
+from grader.todo_regions import read_source, regions_in, shape_of
 
 KIT = Path(__file__).parents[2]
 
@@ -339,12 +339,20 @@ def told_in_part(
 def with_memory(check: CheckResult, names: list[str]) -> CheckResult:
     """A failed check with the names in which something is kept from call to call, if there are any.
 
-    That alone is no mistake, but answers that hang on it are, and look like any others.
+    That alone is no mistake, but answers that hang on it are, and look like any others. What given
+    code without a TODO keeps, such as the frames that are left, is nobody's mistake.
     """
+    names = [name for name in names if f"{name.partition('.')[0]}.py" not in untouched()]
     if not names or not check.failed:
         return check
     shown = ", ".join(name.rpartition(".")[2] for name in names[:MOST_NAMES])
     return with_meaning(check, f"{check.meaning} {KEPT.format(names=shown)}".strip())
+
+
+@cache
+def untouched() -> frozenset[str]:
+    """The files that were handed out without anything to do in them."""
+    return frozenset(name for name, text in load_given().items() if not regions_in(text))
 
 
 def with_meaning(check: CheckResult, meaning: str) -> CheckResult:

@@ -10,6 +10,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from grader.judge.course import FULL, Course
+from grader.maintain.formulas import typeset
 from grader.maintain.handouts import handouts_of
 from grader.player.page import TEMPLATES
 
@@ -29,7 +30,8 @@ img { max-width: 100%; background: white }
   /* drawings are on white paper: turned round, their black is that of the page */
   img[src$=".svg"] { filter: invert(1) hue-rotate(180deg); mix-blend-mode: screen }
 }
-.wide { overflow-x: auto }
+.wide, .formula { overflow-x: auto }
+.formula { font-size: 1.15em; margin: 1rem 0 }
 table { border-collapse: collapse }
 td, th { border: 1px solid #8888; padding: .3rem .6rem; text-align: left; vertical-align: top }
 pre { background: #8882; padding: .8rem; overflow-x: auto }
@@ -102,7 +104,7 @@ def in_order(texts: Mapping[str, str]) -> dict[str, str]:
 def as_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
     """One of the pages; a link to a handout that is none of them becomes plain words."""
     reader = MarkdownIt("commonmark").enable("table")
-    tokens = reader.parse(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} "))
+    tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
     sections = []
     for token, after in zip(tokens, [*tokens[1:], None], strict=True):
         if token.type == "heading_open" and after is not None:

@@ -8,7 +8,8 @@ import pytest
 from conftest import HandIn
 
 from grader.judge.failures import REMEMBERS
-from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.grade import Options, grade, shipped_reference, untouched, with_memory
+from grader.judge.result import CheckResult
 from grader.maintain.verify import shared_worker
 from grader.worker.memory import Memory
 
@@ -102,3 +103,10 @@ def test_what_a_call_may_not_change_is_nothing_that_is_remembered(hand_in: HandI
     ).todos
     failed = [check for check in todo.checks if check.failed]
     assert failed and not any(REMEMBERS in check.meaning for check in failed)
+
+
+def test_what_given_code_keeps_is_nobodys_mistake():
+    assert untouched() >= {"lab_runtime.py"} and "integrators.py" not in untouched()
+    failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
+    assert with_memory(failed, ["lab_runtime.frames_left"]) == failed
+    assert "in last:" in with_memory(failed, ["integrators.last"]).meaning

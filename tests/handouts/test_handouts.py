@@ -19,6 +19,8 @@ import pytest
 import integrators
 import mini_engine
 from grader.cli import grade_command
+from grader.maintain.formulas import typeset
+from grader.maintain.pages import as_page
 from grader.todo_regions import python_files, regions_in
 
 KIT = Path(__file__).parents[2]
@@ -452,3 +454,14 @@ def test_every_make_target_that_is_named_exists() -> None:
         for page in pages:
             named = set(re.findall(r"(?:`|^ *)make ([a-z-]+)", page.read_text("utf-8"), re.M))
             assert named <= known, f"{page.name}: {named - known}"
+
+
+def test_formulas_are_set_without_a_script():
+    text = (HANDOUTS / "lesson.md").read_text(encoding="utf-8")
+    count = text.count("```math\n")
+    made = typeset(text)
+    assert count >= 5 and made.count('<div class="formula"') == made.count("<math ") == count
+    assert "```math" not in made and "\\frac" not in made
+    assert made.count("<mfrac>") >= 6  # fractions are fractions
+    page = as_page("lesson.md", {"lesson.md": text})
+    assert page.count("<math ") == count and "&lt;math" not in page
