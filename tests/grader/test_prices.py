@@ -528,6 +528,18 @@ def test_a_class_of_200_is_readable_by_pointer_keys_print_and_on_a_phone(tmp_pat
         page = screen.page
         for number, drawn in enumerate(charts(found)):
             figure = page.locator("figure").nth(number)
+            points = [
+                (each.name, point)
+                for each in found.engines
+                for point in each.curve(drawn.asked.id).points
+            ]
+            unbeaten = {
+                (name, point.setting)
+                for name, point in points
+                if not beaten(point, [other for _, other in points])
+            }
+            rows = figure.locator(".on-front tbody tr").all_inner_texts()
+            assert {tuple(row.split("\t")[:2]) for row in rows} == unbeaten
             svg = figure.locator("svg")
             svg.scroll_into_view_if_needed()
             box = svg.bounding_box()
