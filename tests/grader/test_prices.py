@@ -219,6 +219,14 @@ def test_a_tower_that_is_nailed_into_the_air_is_none(hand_in: HandIn) -> None:
     assert "after the floor was taken away" in reason(tree, short(TOWER))
 
 
+def test_who_freezes_a_tower_until_its_floor_is_gone_has_the_way_down_as_its_error(
+    hand_in: HandIn,
+) -> None:
+    tree = with_step(hand_in, "if self.bodies[0].pos.y < 1000: return")
+    (point,) = measured(tree, short(TOWER, 0.55)).curves[0].points
+    assert point.error == 10 * truth.GAP
+
+
 def test_what_works_in_c_cannot_be_imported(hand_in: HandIn) -> None:
     assert "numpy" in BANS
     tree = with_step(hand_in, "pass", top="import pymunk")
