@@ -117,7 +117,8 @@ def chart(asked: Asked, engines: Sequence[Prices], others: Sequence[Prices], own
     found = [] if own else front(owned(mine))
     kind = "own" if own else "engine"
     lines = [line(name, kind, curve, x, y) for name, curve in mine]
-    lines += [line(name, KINDS[name], curve, x, y) for name, curve in theirs]
+    known = [line(name, KINDS[name], curve, x, y) for name, curve in theirs]
+    lines = known + lines if own else lines + known  # the last one lies on top
     return Chart(
         asked,
         [each for each in lines if each.places],
