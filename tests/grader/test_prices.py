@@ -356,6 +356,14 @@ def test_names_and_reasons_of_students_are_text(tmp_path: Path) -> None:
         assert page.count("script") == (0 if own else 2) and HARMLESS in page.text
 
 
+def test_the_smallest_and_the_largest_numbers_have_a_place() -> None:
+    ends = [Point("2 passes", 1, 1e-3), Point("8 passes", 10**9, 1000.0)]
+    for points in (ends, ends[:1]):
+        one = Prices("s", [Curve("tower", points)])
+        text = str(section(price_list(scenes(), [], [one])))
+        assert "nan" not in text and "inf" not in text and 'data-name="s"' in text
+
+
 def test_a_students_page_has_their_own_curve_and_no_other_name() -> None:
     found = made_up(9)
     own = next(each for each in found.engines if all(curve.points for curve in each.curves))
