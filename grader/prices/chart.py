@@ -117,7 +117,8 @@ def chart(asked: Asked, engines: Sequence[Prices], others: Sequence[Prices], own
     found = [] if own else front(owned(mine))
     kind = "own" if own else "engine"
     lines = [line(name, kind, curve, x, y) for name, curve in mine]
-    lines += [line(name, KINDS[name], curve, x, y) for name, curve in theirs]
+    known = [line(name, KINDS[name], curve, x, y) for name, curve in theirs]
+    lines = known + lines if own else lines + known  # the last one lies on top
     return Chart(
         asked,
         [each for each in lines if each.places],
@@ -135,7 +136,7 @@ def chart(asked: Asked, engines: Sequence[Prices], others: Sequence[Prices], own
 
 
 def owned(curves: Iterable[tuple[str, Curve]]) -> Iterator[Owned]:
-    return ((name, point) for name, curve in curves for point in curve.points if point.opcodes)
+    return ((name, point) for name, curve in curves for point in curve.points)
 
 
 def usual(asked: Asked, curve: Curve) -> Point | None:
@@ -144,13 +145,11 @@ def usual(asked: Asked, curve: Curve) -> Point | None:
 
 def scale(values: Sequence[float], begin: float, end: float) -> Scale:
     """With a tenth of a decade to spare on either side."""
-    known = [each for each in values if each > 0] or [1.0]
-    return Scale(min(known) / 1.25, max(known) * 1.25, begin, end)
+    return Scale(min(values) / 1.25, max(values) * 1.25, begin, end)
 
 
 def line(name: str, kind: str, curve: Curve, x: Scale, y: Scale) -> Line:
     points = sorted(curve.points, key=lambda each: each.opcodes)
-    points = [each for each in points if each.opcodes]
     return Line(
         name,
         kind,

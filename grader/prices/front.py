@@ -39,7 +39,5 @@ def error_for(curve: Curve, opcodes: int) -> float | None:
 def between(low: Point | None, high: Point, opcodes: int) -> float | None:
     if low is None:
         return None
-    if not low.opcodes:
-        return low.error
     share = math.log(opcodes / low.opcodes) / math.log(high.opcodes / low.opcodes)
     return math.exp((1 - share) * math.log(low.error) + share * math.log(high.error))

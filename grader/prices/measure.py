@@ -38,7 +38,7 @@ class Point(Struct, frozen=True):
     """One setting: what it costs, and how wrong it is."""
 
     setting: str
-    opcodes: int  # per simulated second
+    opcodes: int  # per simulated second, 1 at least
     error: float  # px, at least LEAST, in three digits
 
 
@@ -164,7 +164,7 @@ def point_of(lab: Lab, scene: Scene, setting: Setting) -> Point:
         raise GaveUp(f"it says that {run.opcodes:.3g} opcodes ran, which cannot be")
     if built.floor is not None:
         falls(lab, built)
-    return Point(setting.words, round(run.opcodes / scene.seconds), in_digits(error))
+    return Point(setting.words, max(1, round(run.opcodes / scene.seconds)), in_digits(error))
 
 
 def run_of(lab: Lab, scene: Scene, setting: Setting, priced: bool) -> tuple[Built, Run]:

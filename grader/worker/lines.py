@@ -100,6 +100,11 @@ class OpcodeCounter(LineCounter):
         self.ours = ours | DETOURS
         self.so_far, self.local = opcode_hook(self)
 
+    def __enter__(self) -> "OpcodeCounter":
+        sys._getframe().f_trace_opcodes = True  # or Python 3.12 tells of no opcode at all
+        super().__enter__()
+        return self
+
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
         if frame.f_code in self.ours:
             return None

@@ -24,6 +24,7 @@ def count_opcodes(call):
 
     before, collecting = sys.gettrace(), gc.isenabled()
     gc.disable()  # others may have asked to be called when garbage is collected
+    sys._getframe().f_trace_opcodes = True  # or Python 3.12 tells of no opcode at all
     sys.settrace(trace)
     try:
         call()

@@ -1,11 +1,10 @@
 "use strict";
 // Names under the pointer: the nearest dot of all engines is told, and its curve is shown in all scenes.
 for (const section of document.querySelectorAll(".prices")) {
-  const data = section.querySelector("script.points");
-  if (!data) continue;
+  const data = section.querySelector("script.points"), select = section.querySelector("select");
+  if (!data || !select) continue; // one's own page, or nobody to show
   const charts = JSON.parse(data.textContent); // [{ name, kind, places: [[x, y]], words: [] }] of each
   const figures = [...section.querySelectorAll("figure")];
-  const select = section.querySelector("select");
   const groups = figures.map((figure) => {
     const found = new Map();
     for (const group of figure.querySelectorAll(".line")) {
@@ -25,7 +24,7 @@ for (const section of document.querySelectorAll(".prices")) {
         }
       }
       shown = name;
-      if (select && [...select.options].some((option) => option.value === name)) select.value = name;
+      if ([...select.options].some((option) => option.value === name)) select.value = name;
     }
     figures.forEach((figure, number) => tell(figure, number, name, place && place.number === number ? place : null));
   }
