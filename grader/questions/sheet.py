@@ -1,0 +1,49 @@
+"""The sheet of one student: the same kinds for everybody, about TODOs that are right in theirs."""
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+
+from grader.judge.course import Asked
+from grader.questions import cases_of_contacts, cases_of_integrators, cases_of_time
+from grader.questions.numbers import Maker, number_question
+from grader.questions.program import Program, Unlike
+from grader.questions.question import Question, Sheet
+
+MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
+SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
+Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
+
+
+def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    """The questions to a student. The same program and seed always give the same ones."""
+    own = f"{seed}/{student}"
+    dropped: list[str] = []
+    found: list[Question] = []
+    found += made(numbers_to_ask(program, own, asked), asked.number, dropped)
+    return Sheet(student, seed, tuple(found), tuple(dropped))
+
+
+def made(asks: Iterable[Ask], count: int, dropped: list[str]) -> list[Question]:
+    """The first `count` questions that may be asked; the others are noted."""
+    found: list[Question] = []
+    for name, ask in asks:
+        if len(found) == count:
+            break
+        try:
+            found.append(ask())
+        except Unlike as why:
+            dropped.append(f"{name}: {why}")
+    return found
+
+
+def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for each in in_turn(MAKERS, program.right):
+        yield each.name, partial(number_question, each, program, seed, asked.worth("number"))
+
+
+def in_turn(makers: Iterable[Maker], right: frozenset[str]) -> Iterator[Maker]:
+    """Those whose TODOs are all right: the first of each slot, then the second of each."""
+    able = [each for each in makers if right >= set(each.todos)]
+    slots = [[each for each in able if each.slot == slot] for slot in SLOTS]
+    for rank in range(max(map(len, slots))):
+        yield from (slot[rank] for slot in slots if rank < len(slot))
