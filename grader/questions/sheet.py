@@ -5,9 +5,12 @@ from functools import partial
 
 from grader.judge.course import Asked
 from grader.questions import cases_of_contacts, cases_of_integrators, cases_of_time
+from grader.questions.films import film_question
+from grader.questions.lines import line_question, line_questions
 from grader.questions.numbers import Maker, number_question
 from grader.questions.program import Program, Unlike
 from grader.questions.question import Question, Sheet
+from grader.questions.reasons import reason_question, reasons_for
 
 MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
@@ -19,16 +22,21 @@ def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
-    found += made(numbers_to_ask(program, own, asked), asked.number, dropped)
+    numbers = numbers_to_ask(program, own, asked)
+    found += made(numbers, asked.number, dropped)
+    found += made(films_to_ask(program, own, asked), asked.film, dropped)
+    found += made(lines_to_ask(program, own, asked), asked.line, dropped)
+    missing = asked.number + asked.film + asked.line - len(found)
+    found += made(numbers, missing, dropped)  # where there is no film to ask about, a number
+    found += made(reasons_to_ask(program, asked), asked.why, dropped)
     return Sheet(student, seed, tuple(found), tuple(dropped))
 
 
-def made(asks: Iterable[Ask], count: int, dropped: list[str]) -> list[Question]:
+def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
     """The first `count` questions that may be asked; the others are noted."""
     found: list[Question] = []
-    for name, ask in asks:
-        if len(found) == count:
-            break
+    while len(found) < count and (each := next(asks, None)):
+        name, ask = each
         try:
             found.append(ask())
         except Unlike as why:
@@ -39,6 +47,25 @@ def made(asks: Iterable[Ask], count: int, dropped: list[str]) -> list[Question]:
 def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
     for each in in_turn(MAKERS, program.right):
         yield each.name, partial(number_question, each, program, seed, asked.worth("number"))
+
+
+def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for number in range(asked.film):
+        own = f"{seed}/{number}"
+        yield "films", partial(film_question, program, own, asked.worth("film"))
+
+
+def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for todo in line_questions(program):
+        yield (
+            f"line of TODO {todo}",
+            partial(line_question, todo, program, seed, asked.worth("line")),
+        )
+
+
+def reasons_to_ask(program: Program, asked: Asked) -> Iterator[Ask]:
+    for each in reasons_for(program):
+        yield each.name, partial(reason_question, each, program, asked.worth("why"))
 
 
 def in_turn(makers: Iterable[Maker], right: frozenset[str]) -> Iterator[Maker]:

@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from conftest import KIT, HandIn
+from msgspec import structs
 
 from grader.judge.course import Asked
 from grader.judge.grade import Options, shipped_reference
@@ -13,8 +15,9 @@ from grader.judge.result import Result
 from grader.maintain.verify import shared_worker
 from grader.questions.numbers import drawn, number_question
 from grader.questions.program import Program, opened_program
-from grader.questions.question import Question, Unreadable, earned, meant
+from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, sheet_of
+from grader.todo_regions import regions_in
 
 ALL = frozenset(("1", "2", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "8a", "8b", "8c"))
 OPTIONS = Options(shipped_reference(), trusted=True)
@@ -91,3 +94,86 @@ def test_films_count_one_by_one():
     assert [earned(question, each) for each in ("BADC", "b, a, c, d", "abcd")] == [4, 2, 0]
     with pytest.raises(Unreadable):
         earned(question, "bad")
+
+
+# ---------------------------------------------------------------- films, lines, reasons
+
+
+@pytest.fixture(scope="module")
+def whole_sheet(solution: Result) -> Sheet:
+    """The sheet of somebody who has the solution."""
+    with program_of(KIT / "solution", solution) as program:
+        return sheet_of(program, "ada", "5", Asked())
+
+
+def test_a_sheet_has_every_kind_and_the_points_of_the_course(whole_sheet: Sheet):
+    kinds = [each.kind for each in whole_sheet.questions]
+    assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
+    assert whole_sheet.points == 3 * 2 + 4 + 3 + 2 * 3
+    assert not whole_sheet.dropped
+    for each in whole_sheet.questions:
+        assert earned(each, each.answer) == each.by_machine
+
+
+def test_films_are_different_pictures_of_one_scene_that_run_no_script(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "film")
+    assert sorted(question.answer) == list("abcd")
+    assert len({each.svg for each in question.pictures}) == 4
+    for each in question.pictures:
+        tags = {node.tag.rpartition("}")[2] for node in ElementTree.fromstring(each.svg).iter()}
+        assert tags <= {"svg", "g", "rect", "circle", "line", "polyline", "set", "animate"}
+
+
+def test_the_line_is_one_of_the_students_own_and_the_only_one_that_differs(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "line")
+    (todo,) = question.todos
+    text = (KIT / "solution/mini_engine/joints.py").read_text()
+    (region,) = (each for each in regions_in(text) if each.id == todo)
+    own = {line.strip() for line in region.lines}
+    number = int(question.answer)
+    others = [line.strip() for n, line in enumerate(question.code, 1) if n not in (1, number)]
+    assert set(others) < own
+    assert question.code[number - 1].strip() not in own
+
+
+def test_what_is_asked_of_a_line_is_how_the_student_wrote_it(hand_in: HandIn, solution: Result):
+    text = (KIT / "solution/mini_engine/solver.py").read_text()
+    by_hand = text.replace(
+        "    total = max(-limit, min(limit, total))\n",
+        "    if total > limit:\n        total = limit\n"
+        "    if total < -limit:\n        total = -limit\n",
+    )
+    assert by_hand != text
+    with program_of(hand_in("solution", mini_engine__solver_py=by_hand), solution) as program:
+        sheet = sheet_of(program, "bob", "1", Asked(number=0, film=0, line=0, why=1))
+    (question,) = sheet.questions
+    assert (question.name, question.code) == ("why-clamp-by-hand", ("if total > limit:",))
+    assert question.by_hand == question.points == len(question.rubric)
+
+
+LIAR = """\
+class World(World):
+    def step(self, dt):
+        super().step(dt)
+        for body in self.moving_bodies():
+            body.pos.x += 1.5
+"""
+
+
+def test_a_program_whose_films_lie_is_not_asked_about_them(hand_in: HandIn, solution: Result):
+    text = (KIT / "solution/mini_engine/world.py").read_text()
+    folder = hand_in("solution", mini_engine__world_py=f"{text}\n\n{LIAR}")
+    with program_of(folder, solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(number=1, line=0, why=0))
+    assert [each.kind for each in sheet.questions] == ["number", "number"]
+    assert any(words.startswith("films: its film of") for words in sheet.dropped)
+
+
+def test_a_quarter_of_the_todos_is_enough_for_a_sheet(solution: Result):
+    right = {"5", "8a", "7b"}
+    todos = [t if t.id in right else structs.replace(t, state="not yet") for t in solution.todos]
+    with program_of(KIT / "solution", solution.with_todos(todos)) as program:
+        sheet = sheet_of(program, "cy", "1", Asked())
+    assert [each.kind for each in sheet.questions].count("number") == 3
+    assert {each.kind for each in sheet.questions} == {"number", "line", "why"}
+    assert right.issuperset(todo for each in sheet.questions for todo in each.todos)
