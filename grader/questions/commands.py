@@ -1,12 +1,12 @@
 """The command `questions`: sheets about students' own programs, and marks for the answers."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 
 from grader.commands import CourseFile, console, course_in, needs_checkout, refuse_ignored, stop
-from grader.judge.grade import Options, shipped_reference
+from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
 from grader.words import clean, plural
@@ -33,6 +33,13 @@ def questions_command(
     practice: Annotated[
         bool, typer.Option("--practice", help="Sheets with other numbers, and answers to open.")
     ] = False,
+    mark: Annotated[
+        Path | None, typer.Option(help="Answers on paper, as CSV: student, question, answer.")
+    ] = None,
+    tally: Annotated[Path, typer.Option(help="Where the answers of all classes are counted.")] = KIT
+    / "build"
+    / "questions"
+    / "tally.json",
     results: Annotated[
         Path | None, typer.Option(help="The results of grading them: nothing is graded again.")
     ] = None,
@@ -42,9 +49,13 @@ def questions_command(
 ) -> None:
     """Make a sheet of questions for each student about their own program, with its key.
 
-    Exit status 0: everybody has a sheet, 1: not everybody, 2: nothing could be made.
+    With --mark, answers are marked by the keys in --out. Exit status 0: everybody has a sheet, or
+    every answer is marked, 1: not everybody or not every one, 2: nothing could be made.
     """
     needs_checkout("questions")
+    if mark is not None:
+        ignored_when_marking(context, path)
+        mark_them(mark, out, tally)
     if path is None:
         stop("name a submission, or a class of them with --class", "ask")
     ignored, when = (("student",), "with") if class_ else (("roster",), "without")
@@ -54,7 +65,7 @@ def questions_command(
 
     taken = course_in(course)
     options = Options(shipped_reference(), isolation, course=taken)
-    making = Making(out, options, seed, practice, results)
+    making = Making(out, options, seed, practice, results, tally)
     try:
         made = make_class(making, path, roster) if class_ else [make_one(making, path, student)]
     except (CannotGrade, OSError) as error:
@@ -64,3 +75,32 @@ def questions_command(
     count = plural(sum(each.sheet is not None for each in made), "sheet")
     console.print(f"{count} in {out}", soft_wrap=True)
     raise typer.Exit(0 if all(each.sheet for each in made) else 1)
+
+
+def ignored_when_marking(context: typer.Context, path: Path | None) -> None:
+    making = ("class_", "student", "seed", "practice", "results", "roster", "isolation")
+    refuse_ignored(context, making, "with --mark, which makes no sheets")
+    if path is not None:
+        stop(f"{path} would be ignored with --mark, which needs the keys in --out alone", "mark")
+
+
+def mark_them(answers: Path, out: Path, tally: Path) -> NoReturn:
+    """Mark a table of answers, and count them with those of other classes."""
+    from grader.questions.marking import mark_answers, read_keys, write_points
+    from grader.questions.tally import add_class, write_bank
+
+    try:
+        marked = mark_answers(answers, out / "keys")
+        tables = write_points(marked, out)
+        sheets = read_keys(out / "keys")
+        write_bank(out / "bank.html", sheets, add_class(tally, sheets, marked.marks))
+    except (CannotGrade, OSError) as error:
+        stop(str(error), "mark")
+    waiting = [each for each in marked.marks if each.points is None]
+    for note in marked.notes:
+        console.print(clean(note), soft_wrap=True)
+    for each in waiting:
+        words = f"{each.student}, question {each.number}: {each.note}"
+        console.print(clean(words), soft_wrap=True)
+    console.print(f"{' and '.join(map(str, tables))} are written", soft_wrap=True)
+    raise typer.Exit(1 if waiting or marked.notes else 0)

@@ -20,7 +20,7 @@ from grader.questions.question import Question
 COUNT = 4  # films
 SECONDS, EVERY = 2.0, 6  # of a film, and steps between its pictures
 VISIBLE = 30.0  # px, by which two films must differ somewhere
-TRIES = 3  # scenes
+TRIES = 2  # scenes
 FRAME = (0.0, 30.0, 900.0, 560.0)
 
 

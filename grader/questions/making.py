@@ -17,10 +17,12 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
+from grader.questions.marking import read_keys
 from grader.questions.page import page
 from grader.questions.program import opened_program
 from grader.questions.question import Sheet
 from grader.questions.sheet import sheet_of
+from grader.questions.tally import read_tally, write_bank
 from grader.report.files import write_whole
 from grader.words import plural
 
@@ -43,6 +45,7 @@ class Making:
     secret: int | None = None
     practice: bool = False
     results: Path | None = None
+    tally: Path | None = None
 
     @cached_property
     def seed(self) -> str:
@@ -93,6 +96,12 @@ class Making:
         key = msgspec.json.format(msgspec.json.encode(sheet))
         write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
 
+    def finish(self) -> None:
+        """Once all sheets are there: the instructor's page of them."""
+        if not self.practice:
+            tally = read_tally(self.tally) if self.tally else {}
+            write_bank(self.out / "bank.html", read_keys(self.out / "keys"), tally)
+
 
 def make_one(making: Making, path: Path, student: str) -> Made:
     """The sheet of one submission; `student` is whose it is, where not its name."""
@@ -101,6 +110,7 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     try:
         with opened_submission(path, notes.append) as folder:
             made = making.make(student or folder.resolve().name, folder, worker)
+        making.finish()
     finally:
         worker.close()
     return replace(made, words="\n".join([*notes, made.words]))
@@ -112,7 +122,9 @@ def make_class(making: Making, path: Path, roster: Path | None) -> list[Made]:
     try:
         with opened_class(path, people_of(path, roster)) as intake:
             troubles = [Made(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
-            return [*troubles, *(made_of(making, each, worker) for each in intake.found)]
+            made = [made_of(making, each, worker) for each in intake.found]
+        making.finish()
+        return [*troubles, *made]
     finally:
         worker.close()
 

@@ -5,18 +5,25 @@ from contextlib import contextmanager
 from pathlib import Path
 from xml.etree import ElementTree
 
+import msgspec
 import pytest
 from conftest import KIT, HandIn
+from markupsafe import escape
 from msgspec import structs
 
 from grader.judge.course import Asked
 from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
+from grader.judge.submission import CannotGrade
 from grader.maintain.verify import shared_worker
+from grader.questions import films
+from grader.questions.marking import Marked, mark_answers, write_points
 from grader.questions.numbers import drawn, number_question
 from grader.questions.program import Program, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, sheet_of
+from grader.questions.tally import add_class, write_bank
+from grader.report.files import write_whole
 from grader.todo_regions import regions_in
 
 ALL = frozenset(("1", "2", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "8a", "8b", "8c"))
@@ -160,7 +167,10 @@ class World(World):
 """
 
 
-def test_a_program_whose_films_lie_is_not_asked_about_them(hand_in: HandIn, solution: Result):
+def test_a_program_whose_films_lie_is_not_asked_about_them(
+    hand_in: HandIn, solution: Result, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(films, "TRIES", 1)
     text = (KIT / "solution/mini_engine/world.py").read_text()
     folder = hand_in("solution", mini_engine__world_py=f"{text}\n\n{LIAR}")
     with program_of(folder, solution) as program:
@@ -177,3 +187,84 @@ def test_a_quarter_of_the_todos_is_enough_for_a_sheet(solution: Result):
     assert [each.kind for each in sheet.questions].count("number") == 3
     assert {each.kind for each in sheet.questions} == {"number", "line", "why"}
     assert right.issuperset(todo for each in sheet.questions for todo in each.todos)
+
+
+# ---------------------------------------------------------------- marking on paper
+
+
+@pytest.fixture
+def handed_back(tmp_path: Path, whole_sheet: Sheet) -> Path:
+    """A folder with the key of one student."""
+    key = tmp_path / "out" / "keys" / "ada.json"
+    write_whole(msgspec.json.encode(whole_sheet), key)
+    return tmp_path / "out"
+
+
+def marked(out: Path, answers: str) -> Marked:
+    table = out / "answers.csv"
+    table.write_text(answers, encoding="utf-8")
+    return mark_answers(table, out / "keys")
+
+
+def test_answers_on_paper_are_marked_and_none_is_dropped_silently(
+    handed_back: Path, whole_sheet: Sheet
+):
+    key = [each.answer for each in whole_sheet.questions]
+    wrong = whole_sheet.questions[0].wrong[0]
+    rows = [
+        f"ADA,1,{wrong.answer}",
+        f"ada,q2,{key[1]}",
+        "ada,3,half of it",
+        f"ada,4,{key[3].upper()}",
+        f"ada,5,{key[4]},1",
+        "ada,6,because,2",
+        "bob,1,3",
+        "ada,9,3",
+        f"ada,2,{key[1]}",
+    ]
+    found = marked(handed_back, "\n".join(["Student,question,answer,points", *rows]))
+    points = [each.points for each in found.marks]
+    assert points == [0, 2, None, 4, 3, 2, 0]
+    assert found.marks[0].note == wrong.why
+    assert found.marks[2].note.startswith("not read: “half of it”")
+    assert found.marks[6].note == "no answer"
+    assert [note.partition(":")[0] for note in found.notes] == ["line 8", "line 9", "line 10"]
+    write_points(found, handed_back)
+    totals = (handed_back / "totals.csv").read_text().splitlines()
+    assert totals == ["student,points,out of,open", "ada,11,19,1"]
+    assert "half of it" in (handed_back / "points.csv").read_text()
+
+
+def test_what_a_person_marks_waits_for_one(handed_back: Path):
+    found = marked(handed_back, "student;question;answer;points\nada;6;x;\nada;7;y;4\n")
+    assert [each.points for each in found.marks[5:]] == [None, None]
+    assert all("waits for a person: 0 to 3" in each.note for each in found.marks[5:])
+
+
+def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path):
+    found = marked(handed_back, "student,question,answer\nada,1,=1+1\nada,2,-3\n")
+    write_points(found, handed_back)
+    lines = (handed_back / "points.csv").read_text().splitlines()
+    assert ",'=1+1," in lines[1]
+    assert ",-3," in lines[2]
+
+
+def test_a_table_without_its_columns_is_refused(handed_back: Path):
+    with pytest.raises(CannotGrade, match="no column question"):
+        marked(handed_back, "student,answer\nada,3\n")
+
+
+def test_classes_are_counted_once_however_often_they_are_marked(
+    handed_back: Path, whole_sheet: Sheet, tmp_path: Path
+):
+    wrong = whole_sheet.questions[0].wrong[0]
+    found = marked(handed_back, f"student,question,answer\nada,1,{wrong.answer}\nada,2,?\n")
+    for _ in range(2):
+        tally = add_class(tmp_path / "tally.json", [whole_sheet], found.marks)
+    (counts,) = tally.values()
+    assert set(counts) == {"impulse"}
+    assert (counts["impulse"].answered, counts["impulse"].right) == (1, 0)
+    write_bank(tmp_path / "bank.html", [whole_sheet], tally)
+    page = (tmp_path / "bank.html").read_text()
+    assert f"1 times: {escape(wrong.why)}" in page
+    assert "<td>1</td><td>1</td><td>0%</td>" in page
