@@ -75,7 +75,7 @@ def posed(
 ) -> Question:
     name = FUNCTIONS[todo].partition(":")[2]
     return Question(
-        f"line-{todo}",
+        f"line-of-{todo}",
         "line",
         (todo,),
         f"This is your `{name}`, in Python's own layout and without comments. One line of it was "

@@ -18,6 +18,8 @@ from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 from grader.questions.marking import read_keys
+from grader.questions.moodle import moodle_xml
+from grader.questions.notebook import notebook
 from grader.questions.page import page
 from grader.questions.program import opened_program
 from grader.questions.question import Sheet
@@ -93,14 +95,20 @@ class Making:
             return
         write_whole(page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
         write_whole(page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
+        write_whole(moodle_xml([sheet], title), self.out / "moodle" / f"{name}.xml")
+        place = self.out / "nbgrader" / "source" / f"questions-{name.replace('+', '-')}"
+        write_whole(notebook(sheet, title), place / "questions.ipynb")
         key = msgspec.json.format(msgspec.json.encode(sheet))
         write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
 
     def finish(self) -> None:
-        """Once all sheets are there: the instructor's page of them."""
+        """Once all sheets are there: the instructor's page of them, and all in one for Moodle."""
         if not self.practice:
             tally = read_tally(self.tally) if self.tally else {}
-            write_bank(self.out / "bank.html", read_keys(self.out / "keys"), tally)
+            sheets = read_keys(self.out / "keys")
+            write_bank(self.out / "bank.html", sheets, tally)
+            everybody = moodle_xml(sheets, self.options.course.title)
+            write_whole(everybody, self.out / "moodle.xml")
 
 
 def make_one(making: Making, path: Path, student: str) -> Made:

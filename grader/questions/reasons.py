@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from grader.questions.program import FUNCTIONS, Program, Text, Unlike
 from grader.questions.question import Question
 from grader.todo_regions import parsed
+from grader.words import printable
 
 MOST_QUOTED = 160  # characters of a line
 
@@ -266,4 +267,4 @@ def is_docstring(node: ast.stmt) -> bool:
 
 def line_at(text: Text, node: ast.stmt) -> str:
     """The line on which a statement begins."""
-    return text.source.splitlines()[node.lineno - 1].strip()[:MOST_QUOTED]
+    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]

@@ -1,8 +1,14 @@
 """Questions about a student's own program: right answers told from wrong ones, alike for all."""
 
+import ast
+import base64
+import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from html import unescape
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import msgspec
@@ -18,6 +24,8 @@ from grader.judge.submission import CannotGrade
 from grader.maintain.verify import shared_worker
 from grader.questions import films
 from grader.questions.marking import Marked, mark_answers, write_points
+from grader.questions.moodle import moodle_xml
+from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn, number_question
 from grader.questions.program import Program, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
@@ -268,3 +276,105 @@ def test_classes_are_counted_once_however_often_they_are_marked(
     page = (tmp_path / "bank.html").read_text()
     assert f"1 times: {escape(wrong.why)}" in page
     assert "<td>1</td><td>1</td><td>0%</td>" in page
+
+
+# ---------------------------------------------------------------- Moodle and notebooks
+
+# What Moodle's importer reads of each kind of question, and what all of them have.
+ALWAYS = {"name", "questiontext", "generalfeedback", "defaultgrade", "penalty", "hidden"}
+READ_BY_MOODLE = {
+    "numerical": {"answer", "unitgradingtype", "unitpenalty", "unitsleft", "showunits"},
+    "matching": {"shuffleanswers", "subquestion"},
+    "multichoice": {"single", "shuffleanswers", "answernumbering", "answer"},
+    "essay": {
+        *("responseformat", "responserequired", "responsefieldlines", "attachments"),
+        *("attachmentsrequired", "graderinfo", "responsetemplate"),
+    },
+}
+
+
+def test_moodle_gets_what_its_importer_reads_with_pictures_in_it(whole_sheet: Sheet):
+    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A/B"))
+    category, *questions = quiz
+    assert category.findtext("category/text") == "$course$/top/A//B/ada"
+    kinds = [each.get("type") for each in questions]
+    assert kinds == ["numerical"] * 3 + ["matching", "multichoice", "essay", "essay", "essay"]
+    for each in questions:
+        assert {part.tag for part in each} == ALWAYS | READ_BY_MOODLE[each.get("type")]
+        assert sum(float(part.get("fraction")) for part in each.iter("answer") if part.keys()) in (
+            100,
+            0,
+        )
+        for holder in (each.find("questiontext"), *each.iter("subquestion")):
+            names = re.findall(r"@@PLUGINFILE@@/([\w.-]+)", holder.findtext("text"))
+            files = {file.get("name"): file.text for file in holder.iter("file")}
+            assert sorted(files) == sorted(names)
+            for text in files.values():
+                ElementTree.fromstring(base64.b64decode(text))
+    assert sum(int(each.findtext("defaultgrade")) for each in questions) == whole_sheet.points
+
+
+def test_moodle_counts_right_what_the_key_does(whole_sheet: Sheet):
+    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A"))
+    numerical, _, _, matching, multichoice = quiz[1:6]
+    first, film, line = (whole_sheet.questions[number] for number in (0, 3, 4))
+    right, *wrong = numerical.iter("answer")
+    assert (right.findtext("text"), right.get("fraction")) == (first.answer, "100")
+    told = [unescape(each.findtext("feedback/text", "")) for each in wrong]
+    assert told == [each.why for each in first.wrong]
+    answers = [each.findtext("answer/text") for each in matching.iter("subquestion")]
+    assert answers == [film.choices["abcd".index(letter)] for letter in film.answer]
+    fractions = [each.get("fraction") for each in multichoice.iter("answer")]
+    assert fractions.index("100") + 1 == int(line.answer)
+
+
+def run_cells(cells: list[dict[str, Any]], answers: dict[str, object]) -> dict[str, object]:
+    """What each test cell comes to: its points, True for all of them, or the error's name."""
+    space: dict[str, object] = dict(answers)
+    found: dict[str, object] = {}
+    for each in cells:
+        marks = each["metadata"]["nbgrader"]
+        if each["cell_type"] == "code" and marks["grade"]:
+            tree = ast.parse("".join(each["source"]))
+            last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+            try:
+                exec(compile(tree, "cell", "exec"), space)
+                value = eval(ast.unparse(last.value), space) if last else True
+            except AssertionError as error:
+                value = str(error)
+            found[marks["grade_id"]] = value
+    return found
+
+
+def test_a_notebook_marks_itself_as_the_key_does(whole_sheet: Sheet):
+    cells = json.loads(notebook(whole_sheet, "Physics"))["cells"]
+    ids = [each["metadata"]["nbgrader"]["grade_id"] for each in cells]
+    assert len(set(ids)) == len(ids)
+    points = [each["metadata"]["nbgrader"].get("points", 0) for each in cells]
+    assert sum(points) == whole_sheet.points
+    first, line = float(whole_sheet.questions[0].wrong[0].answer), whole_sheet.questions[4].answer
+    film = whole_sheet.questions[3].answer
+    near = float(whole_sheet.questions[2].answer) + whole_sheet.questions[2].tolerance * 0.9
+    answers = {
+        "answer_1": first,
+        "answer_2": int(whole_sheet.questions[1].answer),
+        "answer_3": near,
+        "answer_4": film[1] + film[0] + film[2:],
+        "answer_5": int(line),
+    }
+    found = run_cells(cells, answers)
+    assert found["test-1"] == "Another number is right."
+    assert (found["test-2"], found["test-3"], found["test-5"]) == (True, True, True)
+    assert found["test-4"] == 2
+    assert "must be a number" in str(run_cells(cells, {**answers, "answer_1": None})["test-1"])
+
+
+def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
+    text = notebook(whole_sheet, "Physics").decode()
+    for each in json.loads(text)["cells"]:
+        source = "".join(each["source"])
+        source = re.sub(r"### BEGIN (SOLUTION|HIDDEN TESTS).*?### END \1", "", source, flags=re.S)
+        if each["metadata"]["nbgrader"]["grade"] and each["cell_type"] == "code":
+            assert not re.search(r"\d+\.\d+|'[a-d]{4}'|answer_5 == \d", source), source
+        if each["metadata"]["nbgrader"]["grade_id"].startswith("answer"):
+            assert source.split() == [f"answer_{each['id'][-1]}", "=", "None"]
