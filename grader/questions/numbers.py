@@ -16,7 +16,7 @@ from grader.words import digits
 
 SHARE = 0.02  # of an answer that it may be off: for rounding on paper, and no more
 AGREE = 0.01  # of the tolerance, by which two ways to an answer may differ
-TRIES = 20  # draws until the numbers tell right from wrong
+TRIES = 200  # draws until the numbers tell right from wrong
 
 Draw = dict[str, int]
 
