@@ -23,7 +23,7 @@ from grader.questions.question import Picture, Question
 from grader.todo_regions import RegionError, parsed, regions_in
 from grader.words import digits
 
-TRIES = 8  # changes of one function
+TRIES = 12  # changes of one function
 LEAST = 0.02  # of a number, by which it must change
 ENDLESS = ("while", "for")  # changed heads of loops may never end
 FILMS = ("3", "4", "2", "1")  # TODOs whose changes a film shows

@@ -4,6 +4,7 @@ import ast
 import base64
 import json
 import re
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from html import unescape
@@ -16,26 +17,32 @@ import pytest
 from conftest import KIT, HandIn
 from markupsafe import escape
 from msgspec import structs
+from typer.testing import CliRunner
 
-from grader.judge.course import Asked
+from grader.judge.children import Worker
+from grader.judge.course import Asked, WrongCourse, read_course
 from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
+from grader.maintain.bank import Member, members
 from grader.maintain.verify import shared_worker
-from grader.questions import films
-from grader.questions.marking import Marked, mark_answers, write_points
+from grader.questions import films, making
+from grader.questions.commands import app
+from grader.questions.marking import Marked, mark_answers, read_keys, write_points
 from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn, number_question
+from grader.questions.page import page
 from grader.questions.program import Program, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, sheet_of
 from grader.questions.tally import add_class, write_bank
-from grader.report.files import write_whole
-from grader.todo_regions import regions_in
+from grader.report.files import write_json, write_whole
+from grader.todo_regions import python_files, read_source, regions_in
 
 ALL = frozenset(("1", "2", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "8a", "8b", "8c"))
 OPTIONS = Options(shipped_reference(), trusted=True)
+RIGHT = [each for each in members(KIT) if each.kind == "right" and not each.bonus]
 
 
 @contextmanager
@@ -378,3 +385,123 @@ def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
             assert not re.search(r"\d+\.\d+|'[a-d]{4}'|answer_5 == \d", source), source
         if each["metadata"]["nbgrader"]["grade_id"].startswith("answer"):
             assert source.split() == [f"answer_{each['id'][-1]}", "=", "None"]
+
+
+# ---------------------------------------------------------------- files, and everybody's sheet
+
+
+def test_the_command_makes_sheets_that_can_be_answered_and_marked(
+    tmp_path: Path, solution: Result, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(making, "start_worker", lambda: NotClosed(shared_worker()))
+    course, results, out = tmp_path / "course.toml", tmp_path / "results", tmp_path / "out"
+    course.write_text('title = "Us <b>"\n[questions]\nnumber = 1\nfilm = 0\nline = 0\nwhy = 1\n')
+    write_json(solution, results / "ann.json")
+    shutil.copytree(KIT / "solution", tmp_path / "class" / "ann")
+    (tmp_path / "class" / "ben").mkdir()
+    (tmp_path / "class" / "ben" / "notes.txt").write_text("nothing")
+    asked = ["--out", str(out), "--course", str(course)]
+    made = [*asked, "--class", str(tmp_path / "class"), "--results", str(results), "--seed", "3"]
+    run = CliRunner().invoke(app, made)
+    assert run.exit_code == 1, run.output  # ben has nothing to be asked about
+    assert "ann: 2 questions, 5 points" in run.output and "ben: " in run.output
+    sheet, key = ((out / name / "ann.html").read_text() for name in ("sheets", "keys"))
+    assert "Us &lt;b&gt;: ann" in sheet
+    (first, _) = read_keys(out / "keys")[0].questions
+    assert f"<strong>{first.answer}" in key and f"<strong>{first.answer}" not in sheet
+    assert all(each.why not in sheet for each in first.wrong)
+    table = tmp_path / "answers.csv"
+    table.write_text(f"student,question,answer,points\nann,1,{first.answer},\nann,2,x,1\n")
+    tally = ["--tally", str(tmp_path / "tally.json")]
+    run = CliRunner().invoke(app, [*asked, "--mark", str(table), *tally])
+    assert run.exit_code == 0, run.output
+    assert (out / "totals.csv").read_text().splitlines()[1:] == ["ann,3,5,0"]
+
+
+class NotClosed:
+    """A worker that others need as well."""
+
+    def __init__(self, worker: Worker) -> None:
+        self.worker = worker
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self.worker, name)
+
+    def close(self) -> None:
+        """Leave it open."""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "name a submission"),
+        (["x", "--roster", "y"], "--roster would be ignored without --class"),
+        (["--class", "x", "--id", "ann"], "--id would be ignored with --class"),
+        (["--mark", "x", "--seed", "3"], "--seed would be ignored with --mark"),
+        (["x", "--mark", "y"], "x would be ignored with --mark"),
+    ],
+)
+def test_options_that_would_count_for_nothing_are_refused(words: list[str], said: str):
+    run = CliRunner().invoke(app, words)
+    assert run.exit_code == 2
+    assert said in " ".join(run.output.split())
+
+
+def test_a_seed_that_nobody_chose_is_drawn_once_and_kept(tmp_path: Path):
+    first, again = (making.Making(tmp_path, OPTIONS) for _ in range(2))
+    assert first.seed == again.seed
+    assert first.seed != making.Making(tmp_path / "other", OPTIONS).seed
+    practice = making.Making(tmp_path, OPTIONS, practice=True)
+    assert practice.seed == f"practice {first.seed}"
+    assert making.Making(tmp_path, OPTIONS).seed == first.seed
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[questions]\nfilms = 1", "there is no kind films"),
+        ("[questions]\nnumber = 11", "number = 11 must be a whole number from 0 to 10"),
+        ("[questions]\npoints = { why = 0 }", "points of why = 0 must be"),
+        ("questions = 3", "must be a table"),
+    ],
+)
+def test_what_a_course_cannot_ask_is_said(text: str, words: str, tmp_path: Path):
+    path = tmp_path / "course.toml"
+    path.write_text(text)
+    with pytest.raises(WrongCourse, match=words):
+        read_course(path)
+
+
+def solution_lines() -> set[str]:
+    """What only the solution says: the lines of its regions that say something of their own."""
+    texts = [read_source(path) for path in python_files(KIT / "solution")]
+    lines = {line.strip() for text in texts for r in regions_in(text) for line in r.lines}
+    return {line for line in lines if len(line) > 12 and not line.startswith("#")}
+
+
+def test_no_line_of_the_solution_is_shown_to_who_wrote_another(tmp_path: Path, solution: Result):
+    (member,) = (each for each in members(KIT) if each.name == "8-in-other-words")
+    folder = tmp_path / "other"
+    member.build(KIT, folder)
+    todos = [t for t in solution.todos if t.id in ("8a", "8b", "8c")]
+    with program_of(folder, solution.with_todos(todos)) as program:
+        sheet = sheet_of(program, "dee", "1", Asked())
+        own = "\n".join(program.own.texts.values())
+    assert [each.kind for each in sheet.questions] == ["number"] * 3 + ["line", "why", "why"]
+    theirs = {line for line in solution_lines() if line not in own}
+    assert theirs
+    pages = page(sheet, "x", "sheet") + page(sheet, "x", "key")
+    assert not [line for line in theirs if str(escape(line)) in pages]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("member", RIGHT, ids=lambda each: f"{each.name}-{each.form}")
+def test_every_right_member_of_the_bank_gets_a_whole_sheet(
+    member: Member, tmp_path: Path, solution: Result
+):
+    folder = tmp_path / "handed-in"
+    member.build(KIT, folder)
+    with program_of(folder, solution) as program:
+        sheet = sheet_of(program, member.name, "bank", Asked())
+    assert len(sheet.questions) == 7
+    assert {each.kind for each in sheet.questions} >= {"number", "line", "why"}
