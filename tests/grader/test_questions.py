@@ -17,6 +17,7 @@ import pytest
 from conftest import KIT, HandIn
 from markupsafe import escape
 from msgspec import structs
+from page_readers import barriers, chromium
 from typer.testing import CliRunner
 
 from grader.judge.children import Worker
@@ -505,3 +506,20 @@ def test_every_right_member_of_the_bank_gets_a_whole_sheet(
         sheet = sheet_of(program, member.name, "bank", Asked())
     assert len(sheet.questions) == 7
     assert {each.kind for each in sheet.questions} >= {"number", "line", "why"}
+
+
+@pytest.mark.soak
+def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, whole_sheet: Sheet):
+    pages = []
+    for kind in ("sheet", "key", "practice"):
+        pages.append(tmp_path / f"{kind}.html")
+        pages[-1].write_text(page(whole_sheet, "Us", kind), encoding="utf-8")
+    shown = "svg => getComputedStyle([...svg.querySelectorAll('g')].pop()).opacity"
+    with chromium() as browser:
+        tab = browser.new_page()
+        tab.goto(pages[0].as_uri())
+        film = tab.locator("#q4 svg").first
+        assert film.evaluate(shown) == "0"
+        film.click()
+        tab.wait_for_function(f"svg => ({shown})(svg) === '1'", arg=film.element_handle())
+        assert barriers(browser, *pages) == []
