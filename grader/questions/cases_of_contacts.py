@@ -12,6 +12,7 @@ from grader.questions.program import Program, Unlike
 from grader.words import digits
 
 BOB = 24.0  # px, the radius of the one ball that hangs on a rod
+LEAST_MASS, MOST_MASS = 0.1, 100.0  # kg
 
 
 @dataclass
@@ -34,7 +35,10 @@ class Scene:
         balls = [each for each in self.bodies if each[1].inv_mass and each[1].radius != BOB]
         if not 0 < number <= len(balls):
             raise Unlike(f"the scene has {len(balls)} balls")
-        return balls[number - 1]
+        thing, state = balls[number - 1]
+        if not (LEAST_MASS < 1 / state.inv_mass < MOST_MASS and 1 < state.radius < BOB):
+            raise Unlike(f"ball {number} has no mass or radius of the lab scene")
+        return thing, state
 
     def box_at(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
         """A box of the scene by its centre."""

@@ -74,16 +74,19 @@ STEPS = {"per_second": range(40, 121, 4), "quarters": range(5, 40, 2)}
 
 @maker(5, "8b", **STEPS)
 def verlet(program: Program, draw: Draw) -> Found:
+    """The error of velocity Verlet with half the step."""
     return halved(program, "velocity_verlet", draw)
 
 
 @maker(5, "8c", per_second=range(16, 41, 4), quarters=range(5, 40, 2))
 def rk4(program: Program, draw: Draw) -> Found:
+    """The error of RK4 with half the step, from coarser ones: else it is nothing to read."""
     return halved(program, "rk4", draw)
 
 
 @maker(5, "8a", **STEPS)
 def semi_implicit(program: Program, draw: Draw) -> Found:
+    """The error of semi-implicit Euler with half the step."""
     return halved(program, "semi_implicit_euler", draw)
 
 

@@ -15,6 +15,7 @@ from functools import lru_cache
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import STEP
+from grader.protocol import MAX_BODIES, MAX_RODS
 from grader.questions.cases_of_contacts import SEEDS, Scene
 from grader.questions.pictures import Film, Look, difference, picture
 from grader.questions.program import Program, Tree, Unlike
@@ -24,6 +25,7 @@ COUNT = 4  # films
 SECONDS, EVERY = 2.0, 6  # of a film, and steps between its pictures
 VISIBLE = 30.0  # px, by which two films must differ somewhere
 TRIES = 2  # scenes
+MOST_RADIUS = 200.0  # px
 FRAME = (0.0, 30.0, 900.0, 560.0)
 
 
@@ -185,13 +187,18 @@ def filmed(tree: Tree, texts: Mapping[str, str], seed: int) -> Film:
     with tree.lab("mini_engine", texts) as lab:
         scene = Scene(lab, seed)
         bodies = [thing for thing, _ in scene.bodies]
+        joints = lab.items(lab.get(scene.world, "joints"), "the joints")
+        if len(bodies) > MAX_BODIES or len(joints) > MAX_RODS:
+            raise Unlike("its scene has more bodies or rods than a film shows")
         looks = []
         for thing, state in scene.bodies:
             half = (0.0, 0.0) if state.radius else lab.pair(lab.get(thing, "shape.half"), "half")
             place = (state.pos.x, state.pos.y)
+            if not 0 <= state.radius < MOST_RADIUS:
+                raise Unlike("a body of its scene has no radius that could be drawn")
             looks.append(Look(state.radius, half, state.inv_mass > 0, place))
         rods = []
-        for joint in lab.items(lab.get(scene.world, "joints"), "the joints"):
+        for joint in joints:
             ends = [lab.thing(lab.get(lab.thing(joint), end)) for end in ("a", "b")]
             rods.append(tuple(bodies.index(Thing(each.ref)) for each in ends))
         run = lab.simulate(scene.world, bodies, round(SECONDS / STEP), every=EVERY)

@@ -23,6 +23,7 @@ from grader.questions.question import Picture, Question
 from grader.todo_regions import RegionError, parsed, regions_in
 from grader.words import digits
 
+MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
 TRIES = 12  # changes of one function
 LEAST = 0.02  # of a number, by which it must change
 ENDLESS = ("while", "for")  # changed heads of loops may never end
@@ -49,8 +50,8 @@ def line_question(todo: str, program: Program, seed: str, points: int) -> Questi
     """The question about one TODO; raises Unlike where no change of it shows."""
     rng = random.Random(f"{seed}/line/{todo}")
     text = program.own.function(FUNCTIONS[todo])
-    if text is None:
-        raise Unlike("the function is not found in its text")
+    if text is None or len(text.source) > MOST_CODE:
+        raise Unlike("the function is not found in its text, or is too long to be read")
     possible = list(one_line_changes(program.own, todo, text))
     rng.shuffle(possible)
     scene = rng.choice(SEEDS)

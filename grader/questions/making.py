@@ -26,7 +26,7 @@ from grader.questions.question import Sheet
 from grader.questions.sheet import sheet_of
 from grader.questions.tally import read_tally, write_bank
 from grader.report.files import write_whole
-from grader.words import plural
+from grader.words import plural, printable
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Making:
 
     def result_of(self, student: str) -> Result | None:
         """What grading found out before, where that is known."""
-        path = self.results / f"{student}.json" if self.results else None
+        path = self.results / f"{portable(student)}.json" if self.results else None
         if path is None:
             return None
         try:
@@ -117,7 +117,8 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     worker = start_worker()
     try:
         with opened_submission(path, notes.append) as folder:
-            made = making.make(student or folder.resolve().name, folder, worker)
+            name = printable(student or folder.resolve().name)
+            made = making.make(name, folder, worker)
         making.finish()
     finally:
         worker.close()

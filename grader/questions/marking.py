@@ -66,7 +66,9 @@ def mark_answers(table: Path, keys: Path) -> Marked:
         for name, sheet in sheets.items()
         for number, question in enumerate(sheet.questions, 1)
     ]
-    return Marked(marks, notes)
+    heard = {name for name, _ in given}
+    silent = [sheet.student for name, sheet in sheets.items() if name not in heard]
+    return Marked(marks, [*notes, *(f"no answer of {name} is in the table" for name in silent)])
 
 
 def read_keys(folder: Path) -> list[Sheet]:

@@ -13,6 +13,7 @@ from grader.questions.question import Question
 from grader.todo_regions import parsed
 from grader.words import printable
 
+MOST_CODE = 8000  # characters of a function that is looked through
 MOST_QUOTED = 160  # characters of a line
 
 
@@ -248,7 +249,7 @@ def reason_question(each: Reason, program: Program, points: int) -> Question:
 def quoted(program: Program, each: Reason) -> str:
     """The first line of the student's function that has the form, as they wrote it."""
     text = program.own.function(FUNCTIONS[each.todo])
-    module = parsed(text.source) if text else None
+    module = parsed(text.source, MOST_CODE) if text else None
     if text is None or module is None or not module.body:
         return ""
     function = module.body[0]
@@ -257,7 +258,10 @@ def quoted(program: Program, each: Reason) -> str:
         for node in ast.walk(function)
         if isinstance(node, ast.stmt) and node is not function and not is_docstring(node)
     )
-    node = next(filter(each.has, found), None)
+    try:
+        node = next(filter(each.has, found), None)
+    except RecursionError:  # nested deeper than anybody writes
+        return ""
     return line_at(text, node) if node is not None else ""
 
 

@@ -14,6 +14,7 @@ from grader.questions.reasons import reason_question, reasons_for
 
 MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
+NO_SENSE = (ArithmeticError, ValueError, IndexError, RecursionError)
 Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
 
 
@@ -41,6 +42,8 @@ def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
             found.append(ask())
         except Unlike as why:
             dropped.append(f"{name}: {why}")
+        except NO_SENSE as error:  # made of numbers or of code that nobody expects
+            dropped.append(f"{name}: it could not be worked out ({type(error).__name__})")
     return found
 
 

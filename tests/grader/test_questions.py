@@ -36,7 +36,7 @@ from grader.questions.numbers import drawn, number_question
 from grader.questions.page import page
 from grader.questions.program import Program, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
-from grader.questions.sheet import MAKERS, in_turn, sheet_of
+from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
 from grader.questions.tally import add_class, write_bank
 from grader.report.files import write_json, write_whole
 from grader.todo_regions import python_files, read_source, regions_in
@@ -117,6 +117,26 @@ def test_films_count_one_by_one():
     assert [earned(question, each) for each in ("BADC", "b, a, c, d", "abcd")] == [4, 2, 0]
     with pytest.raises(Unreadable):
         earned(question, "bad")
+
+
+@pytest.mark.parametrize("error", [OverflowError, ZeroDivisionError, RecursionError, IndexError])
+def test_numbers_that_make_no_sense_drop_a_question_and_not_the_class(error: type[Exception]):
+    def ask() -> Question:
+        raise error
+
+    dropped: list[str] = []
+    assert made(iter([("it", ask)]), 1, dropped) == []
+    assert dropped == [f"it: it could not be worked out ({error.__name__})"]
+
+
+def test_a_ball_of_no_earthly_mass_is_not_asked_about(hand_in: HandIn, solution: Result):
+    text = (KIT / "solution/mini_engine/scenes.py").read_text()
+    false = text.replace("radius**2 / 100", "5e-324")
+    assert false != text
+    with program_of(hand_in("solution", mini_engine__scenes_py=false), solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
+    assert [each.name for each in sheet.questions] == ["steps"]
+    assert sheet.dropped[0].startswith("impulse: ")
 
 
 # ---------------------------------------------------------------- films, lines, reasons
@@ -255,6 +275,11 @@ def test_what_a_person_marks_waits_for_one(handed_back: Path):
     found = marked(handed_back, "student;question;answer;points\nada;6;x;\nada;7;y;4\n")
     assert [each.points for each in found.marks[5:]] == [None, None]
     assert all("waits for a person: 0 to 3" in each.note for each in found.marks[5:])
+
+
+def test_who_is_not_in_the_table_is_named(handed_back: Path):
+    found = marked(handed_back, "student,question,answer\n")
+    assert found.notes == ["no answer of ada is in the table"]
 
 
 def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path):
@@ -402,8 +427,8 @@ def test_the_command_makes_sheets_that_can_be_answered_and_marked(
     (tmp_path / "class" / "ben").mkdir()
     (tmp_path / "class" / "ben" / "notes.txt").write_text("nothing")
     asked = ["--out", str(out), "--course", str(course)]
-    made = [*asked, "--class", str(tmp_path / "class"), "--results", str(results), "--seed", "3"]
-    run = CliRunner().invoke(app, made)
+    called = [*asked, "--class", str(tmp_path / "class"), "--results", str(results), "--seed", "3"]
+    run = CliRunner().invoke(app, called)
     assert run.exit_code == 1, run.output  # ben has nothing to be asked about
     assert "ann: 2 questions, 5 points" in run.output and "ben: " in run.output
     sheet, key = ((out / name / "ann.html").read_text() for name in ("sheets", "keys"))
