@@ -42,11 +42,14 @@ class Mark:
     answer: str
     points: int | None
     note: str = ""
+    by_machine: int = 0  # of the points
 
     @property
     def right(self) -> bool:
-        """Whether all that a machine marks of it is right."""
-        return self.points is not None and self.points >= self.question.by_machine
+        """Whether all is right that a machine marks, or where it marks nothing, a person."""
+        if self.question.by_machine:
+            return self.by_machine == self.question.by_machine
+        return self.points == self.question.points
 
 
 @dataclass(frozen=True)
@@ -130,22 +133,23 @@ def mark_of(student: str, number: int, question: Question, given: Given | None) 
     if given is None or not (given.answer or given.by_hand):
         return Mark(student, number, question, "", 0, "no answer")
     notes = []
-    points, waits = 0, False
+    machine = person = 0
+    waits = False
     if question.by_machine:
         try:
-            points = earned(question, given.answer)
+            machine = earned(question, given.answer)
         except Unreadable as error:
             return Mark(student, number, question, given.answer, None, f"not read: {error}")
         if why := meant(question, given.answer):
             notes.append(why)
     if question.by_hand:
         if given.by_hand.isdecimal() and int(given.by_hand) <= question.by_hand:
-            points += int(given.by_hand)
+            person = int(given.by_hand)
         else:
             waits = True
             notes.append(f"waits for a person: 0 to {question.by_hand} in the column {BY_HAND}")
-    worth = None if waits else points
-    return Mark(student, number, question, given.answer, worth, "; ".join(notes))
+    worth = None if waits else machine + person
+    return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)
 
 
 # ---------------------------------------------------------------- tables

@@ -299,11 +299,13 @@ def test_classes_are_counted_once_however_often_they_are_marked(
     handed_back: Path, whole_sheet: Sheet, tmp_path: Path
 ):
     wrong = whole_sheet.questions[0].wrong[0]
-    found = marked(handed_back, f"student,question,answer\nada,1,{wrong.answer}\nada,2,?\n")
+    rows = [f"ada,1,{wrong.answer},", "ada,2,?,", "ada,6,because,2", "ada,7,so,3"]
+    found = marked(handed_back, "\n".join(["student,question,answer,points", *rows]))
     for _ in range(2):
         tally = add_class(tmp_path / "tally.json", [whole_sheet], found.marks)
     (counts,) = tally.values()
-    assert set(counts) == {"impulse"}
+    assert set(counts) == {"impulse", "why-clamp", "why-accumulator"}
+    assert [counts[f"why-{name}"].right for name in ("clamp", "accumulator")] == [0, 1]
     assert (counts["impulse"].answered, counts["impulse"].right) == (1, 0)
     write_bank(tmp_path / "bank.html", [whole_sheet], tally)
     page = (tmp_path / "bank.html").read_text()
