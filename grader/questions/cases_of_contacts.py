@@ -89,10 +89,7 @@ def impulse(program: Program, draw: Draw) -> Found:
         f"The pass brings the speed of {speed:g} px/s down to 0 and up to "
         f"{bounce:g} · {speed:g} px/s again: m (1 + e) v, with the smaller restitution.",
         [
-            (
-                mass * (1 + own) * speed,
-                "took the ball's restitution: the smaller of two counts",
-            ),
+            (mass * (1 + own) * speed, "took the ball's restitution: the smaller of two counts"),
             (mass * speed, "stopped the ball and forgot that it bounces"),
             (mass * bounce * speed, "took the speed after the bounce for the change of speed"),
             ((1 + bounce) * speed, "gave the change of speed: an impulse has the mass in it"),

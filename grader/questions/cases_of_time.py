@@ -73,8 +73,7 @@ def purse_of(draw: Draw) -> Purse:
     return Purse(draw["start"], draw["count"], draw["length"], draw["long"])
 
 
-def steps_found(purse: Purse, where: str, measured: int) -> Found:
-    owed = purse.owed
+def steps_found(purse: Purse, owed: Fraction, where: str, measured: int) -> Found:
     steps, step = math.floor(owed), STEP_MS
     each_alone = sum(math.floor(min(Fraction(each), CAP) / step) for each in purse.frames)
     return Found(
@@ -85,10 +84,7 @@ def steps_found(purse: Purse, where: str, measured: int) -> Found:
         f"{purse.start} + {purse.count} · {purse.length} + 66.67 ms are "
         f"{digits(float(owed))} steps; the part that is no whole step stays for later.",
         [
-            (
-                math.floor(paid(purse.start, purse.frames, None)),
-                FORGOT_THE_CAP,
-            ),
+            (math.floor(paid(purse.start, purse.frames, None)), FORGOT_THE_CAP),
             (each_alone, "dropped what is left after each frame instead of keeping it"),
             (math.ceil(owed), "ran a step that is not fully paid for"),
             (purse.count + 1, "ran one step per frame"),
@@ -100,22 +96,21 @@ def steps_found(purse: Purse, where: str, measured: int) -> Found:
 @maker(3, "6", **PURSE)
 def steps(program: Program, draw: Draw) -> Found:
     """How many steps the engine's window runs."""
-    purse = purse_of(draw)
-    if purse.owed:
-        with program.own.lab("mini_engine") as lab:
-            measured, _ = purse.run(lab, lab.world())
-    return steps_found(purse, " of your engine", measured)
+    case = purse_of(draw)
+    owed = case.owed
+    with program.own.lab("mini_engine") as lab:
+        measured, _ = case.run(lab, lab.world())
+    return steps_found(case, owed, " of your engine", measured)
 
 
 @maker(3, "7d", **PURSE)
 def pymunk_steps(program: Program, draw: Draw) -> Found:
     """How many steps the pymunk scene runs."""
-    purse = purse_of(draw)
-    if purse.owed:
-        with program.own.lab("pymunk_scene") as lab:
-            space = lab.thing(lab.call("empty_space"))
-            measured, _ = purse.run(lab, space)
-    return steps_found(purse, " of your pymunk scene", measured)
+    case = purse_of(draw)
+    owed = case.owed
+    with program.own.lab("pymunk_scene") as lab:
+        measured, _ = case.run(lab, lab.thing(lab.call("empty_space")))
+    return steps_found(case, owed, " of your pymunk scene", measured)
 
 
 @maker(4, "6", **PURSE)
@@ -135,10 +130,7 @@ def purse(program: Program, draw: Draw) -> Found:
         f"{digits(float(owed))} steps are owed, {math.floor(owed)} of them run; the rest of one "
         "step, of 8.333 ms, is left.",
         [
-            (
-                float((uncapped - math.floor(uncapped)) * STEP_MS),
-                FORGOT_THE_CAP,
-            ),
+            (float((uncapped - math.floor(uncapped)) * STEP_MS), FORGOT_THE_CAP),
             (0.0, "emptied the accumulator with each frame"),
             (float(left - STEP_MS), "ran a step that is not fully paid for"),
         ],
@@ -146,7 +138,7 @@ def purse(program: Program, draw: Draw) -> Found:
     )
 
 
-@maker(4, "5", rate=range(2, 13), halves=range(1, 6), speed=range(150, 900))
+@maker(4, "5", rate=range(2, 10), halves=range(1, 6), speed=range(150, 900))
 def damping(program: Program, draw: Draw) -> Found:
     """The speed that damping leaves of a free flight."""
     rate, seconds, speed = draw["rate"] / 10, draw["halves"] / 2, float(draw["speed"])
@@ -164,10 +156,7 @@ def damping(program: Program, draw: Draw) -> Found:
         f"Each second keeps the share exp(-{rate:g}): v exp(-{rate:g} · {seconds:g}), whatever "
         "the step.",
         [
-            (
-                speed * (1 - rate * seconds),
-                "took the same speed away each second, not a share",
-            ),
+            (speed * (1 - rate * seconds), "took the same speed away each second, not a share"),
             (speed * (1 - rate) ** seconds, "kept 1 - rate of each second instead of exp(-rate)"),
             (speed * (1 - rate * STEP), "damped one step alone"),
             (speed * exact.damped(rate, 1.0), "damped for one second, whatever the time")

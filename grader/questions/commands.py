@@ -11,6 +11,8 @@ from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
 from grader.words import clean, plural
 
+TALLY = KIT / "build" / "questions" / "tally.json"
+
 app = typer.Typer()
 
 
@@ -36,10 +38,9 @@ def questions_command(
     mark: Annotated[
         Path | None, typer.Option(help="Answers on paper, as CSV: student, question, answer.")
     ] = None,
-    tally: Annotated[Path, typer.Option(help="Where the answers of all classes are counted.")] = KIT
-    / "build"
-    / "questions"
-    / "tally.json",
+    tally: Annotated[
+        Path, typer.Option(help="Where the answers of all classes are counted.")
+    ] = TALLY,
     results: Annotated[
         Path | None, typer.Option(help="The results of grading them: nothing is graded again.")
     ] = None,

@@ -111,7 +111,7 @@ def film_question(program: Program, seed: str, points: int) -> Question:
 
 
 def posed(program: Program, rng: random.Random, scene: int, points: int) -> Question:
-    able = [each for each in CHANGES if program.right >= set(each.todos)]
+    able = [each for each in CHANGES if program.can_show(each.todos)]
     if len(able) < COUNT - 1:
         raise Unlike("too few of the TODOs that films show are right")
     rng.shuffle(able)

@@ -5,7 +5,7 @@ Nothing of it is imported here: it runs in children of the sandbox, as when it i
 
 import re
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -108,6 +108,11 @@ class Program:
     own: Tree
     reference: Tree
     right: frozenset[str]  # the TODOs that pass all their checks
+    given: frozenset[str] = frozenset()  # those that the course hands out done
+
+    def can_show(self, todos: Iterable[str]) -> bool:
+        """Whether what hangs on these TODOs is as it should be."""
+        return (self.right | self.given).issuperset(todos)
 
 
 @contextmanager
@@ -120,7 +125,8 @@ def opened_program(
         found = result or run.run()
         right = {todo.id for todo in found.todos if todo.state == "passed" and todo.id in asked}
         own = Tree(run.submission, run.sandbox)
-        yield Program(own, Tree(run.right_submission, run.right_sandbox), frozenset(right))
+        given = frozenset(todo.id for todo in options.course.given if not todo.bonus)
+        yield Program(own, Tree(run.right_submission, run.right_sandbox), frozenset(right), given)
 
 
 def askable(course: Course) -> frozenset[str]:

@@ -48,7 +48,7 @@ def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
 
 
 def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for each in in_turn(MAKERS, program.right):
+    for each in in_turn(MAKERS, program):
         yield each.name, partial(number_question, each, program, seed, asked.worth("number"))
 
 
@@ -71,9 +71,16 @@ def reasons_to_ask(program: Program, asked: Asked) -> Iterator[Ask]:
         yield each.name, partial(reason_question, each, program, asked.worth("why"))
 
 
-def in_turn(makers: Iterable[Maker], right: frozenset[str]) -> Iterator[Maker]:
-    """Those whose TODOs are all right: the first of each slot, then the second of each."""
-    able = [each for each in makers if right >= set(each.todos)]
+def in_turn(makers: Iterable[Maker], program: Program) -> Iterator[Maker]:
+    """Those whose TODOs are all right: the first of each slot, then the second of each.
+
+    What a course hands out done may take part in a question, and is not what it is about.
+    """
+    able = [
+        each
+        for each in makers
+        if program.can_show(each.todos) and program.right.intersection(each.todos)
+    ]
     slots = [[each for each in able if each.slot == slot] for slot in SLOTS]
     for rank in range(max(map(len, slots))):
         yield from (slot[rank] for slot in slots if rank < len(slot))
