@@ -253,12 +253,14 @@ def main() -> None:
     app.add_typer(student.app)
     app.add_typer(report.app)
     app.add_typer(prices.app)
-    if find_spec("grader.classroom"):  # students get neither of these two folders
+    if find_spec("grader.classroom"):  # students get none of these folders
         from grader.classroom.commands import app as classroom
         from grader.maintain.commands import app as maintain
+        from grader.questions.commands import app as questions
 
         app.add_typer(classroom)
         app.add_typer(maintain)
+        app.add_typer(questions)
     try:
         app(prog_name="grader")
     except OSError as error:  # exit status 1 would say that points are missing

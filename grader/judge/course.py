@@ -47,6 +47,23 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
         return min(days * self.per_day, self.at_most)
 
 
+class Asked(Struct, frozen=True, forbid_unknown_fields=True):
+    """How many questions of each kind a sheet about the student's own program has."""
+
+    number: int = 3
+    film: int = 1
+    line: int = 1
+    why: int = 2
+    points: dict[str, int] = {}  # of one question, by its kind; see WORTH for the others
+
+    def worth(self, kind: str) -> int:
+        """The points of one question of a kind."""
+        return self.points.get(kind, WORTH[kind])
+
+
+WORTH = {"number": 2, "film": 4, "line": 3, "why": 3}
+
+
 class Course(Struct, frozen=True, forbid_unknown_fields=True):
     """One course; without any words of its own it takes all that there is.
 
@@ -57,6 +74,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `open_task`: bonus points for the open task of the bonus sheet; 0 where it is only shown.
     `due`, `late`: until when work is handed in, and what it costs to be late.
     `visible`: when students are shown why a hidden check failed; None for at once.
+    `questions`: what is on the sheets about their own programs, whose points stand apart.
     """
 
     title: str = "Physics engine"
@@ -68,6 +86,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     due: datetime | None = None
     late: Late | None = None
     visible: datetime | None = None
+    questions: Asked = Asked()
 
     @property
     def rubric(self) -> Rubric:
@@ -211,6 +230,7 @@ def complaints(document: dict[str, Any]) -> Iterator[str]:
     yield from wrong_todos(document.get("todos"))
     yield from wrong_points(document)
     yield from wrong_numbers(document)
+    yield from wrong_questions(document.get("questions", {}))
     yield from wrong_dates(document)
 
 
@@ -299,6 +319,26 @@ def wrong_late(late: dict[str, Any]) -> Iterator[str]:
             yield f'late: per_day = {worth!r} must be points, or a share as "10%"'
         elif not (name == "per_day" and share) and (type(worth) is not int or worth < 0):
             yield f"late: {name} = {worth!r} must be a whole number, 0 or more"
+
+
+def wrong_questions(asked: Any) -> Iterator[str]:
+    """All that is wrong with the sheets of questions."""
+    if not isinstance(asked, dict):
+        yield f"questions = {asked!r} must be a table: write [questions] and number = 3 below it"
+        return
+    points = asked.get("points", {})
+    if not isinstance(points, dict):
+        yield f"questions: points = {points!r} must be as in points = {{ number = 2, why = 3 }}"
+        return
+    for name in [*asked, *points]:
+        if name not in WORTH and (name in points or name != "points"):
+            yield f"questions: there is no kind {name}; there are {', '.join(WORTH)}"
+    for name, count in asked.items():
+        if name in WORTH and (type(count) is not int or not 0 <= count <= 10):
+            yield f"questions: {name} = {count!r} must be a whole number from 0 to 10"
+    for name, worth in points.items():
+        if type(worth) is not int or not 1 <= worth <= 100:
+            yield f"questions: points of {name} = {worth!r} must be a whole number from 1 to 100"
 
 
 def wrong_dates(document: dict[str, Any]) -> Iterator[str]:

@@ -1,10 +1,9 @@
 """Grading one submission, from a path to a Result."""
 
-import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
 
@@ -194,10 +193,15 @@ class Grading:
     @cached_property
     def right_sandbox(self) -> Sandbox:
         """That of the reference, taken in when it is first needed."""
+        folder = self.right_submission.folder
+        return sandbox_for(self.right_submission, folder.parent, self.sandbox.worker, self.options)
+
+    @cached_property
+    def right_submission(self) -> Submission:
+        """The reference, taken in like a submission."""
         assert self.options.reference is not None
         work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
-        taken_in = take_in(self.options.reference, work / "tree", self.rubric, {})
-        return sandbox_for(taken_in, work, self.sandbox.worker, self.options)
+        return take_in(self.options.reference, work / "tree", self.rubric, {})
 
     def changed_given(self) -> list[Changed]:
         """What this submission has otherwise than it was handed out."""
@@ -207,17 +211,10 @@ class Grading:
 
     def open_with(self, undone: Sequence[Changed]) -> Callable[[int], Child]:
         """A way to open children of the submission with some given code put back."""
-        work = Path(tempfile.mkdtemp(dir=self.sandbox.work))
-        tree = work / "tree"
-        shutil.copytree(self.submission.folder, tree)
-        for name in {each.file for each in undone}:
-            path, mine = tree / name, [each for each in undone if each.file == name]
-            text = restored(read_source(path), mine)
-            path.chmod(0o644)
-            path.write_text(text, encoding="utf-8", newline="\n")
-            path.chmod(0o444)
-        put_back = replace(self.submission, folder=tree)
-        return sandbox_for(put_back, work, self.sandbox.worker, self.options).open_child
+        folder, files = self.submission.folder, {each.file for each in undone}
+        mine = {name: [each for each in undone if each.file == name] for name in files}
+        texts = {name: restored(read_source(folder / name), mine[name]) for name in files}
+        return self.sandbox.changed(texts).open_child
 
     def find_unusable(self) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""

@@ -1,7 +1,10 @@
 """The sandbox of one tree: what its children may reach, and which layers of isolation hold them."""
 
+import os
+import shutil
 import tempfile
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.judge.children import Child, ChildEnded, Worker
@@ -10,6 +13,7 @@ from grader.judge.submission import CannotGrade
 from grader.protocol import ChildSetup, Limits
 
 COMPILING_SECONDS = 5  # of processor time, for all files of a submission
+LATER = 10  # s
 
 
 @dataclass
@@ -40,6 +44,23 @@ class Sandbox:
             raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
         return child
+
+    def changed(self, texts: Mapping[str, str]) -> "Sandbox":
+        """That of a copy of the tree with other text in some of its files, by their names.
+
+        Both share what is compiled. A changed file is younger by more than Python's second, so
+        that nothing old is taken for it.
+        """
+        tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
+        shutil.copytree(self.tree, tree)
+        for name, text in texts.items():
+            path = tree / name
+            later = path.stat().st_mtime + LATER
+            path.chmod(0o644)
+            path.write_text(text, encoding="utf-8", newline="\n")
+            os.utime(path, (later, later))
+            path.chmod(0o444)
+        return replace(self, tree=tree)
 
     @property
     def bytecode(self) -> Path:

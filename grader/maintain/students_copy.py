@@ -28,7 +28,10 @@ from grader.maintain.cut import asked_of, pruned, with_bodies
 from grader.maintain.handed_out import students_tree
 from grader.maintain.sync import given_sources, laid_in
 
-NOT_FOR_STUDENTS = ("classroom", "maintain", "__pycache__", "mistakes_*.py", "expected_runs.json")
+NOT_FOR_STUDENTS = (
+    *("classroom", "maintain", "questions"),
+    *("__pycache__", "mistakes_*.py", "expected_runs.json"),
+)
 HELPERS = (
     "lab_scene",
     "lesson_rules",

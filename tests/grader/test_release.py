@@ -282,7 +282,7 @@ def test_every_region_has_something_to_look_for(secrets: list[Secret]):
 
 def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
     names = [path.name for path in released.installed.rglob("*")]
-    assert not {"maintain", "classroom"} & set(names)
+    assert not {"maintain", "classroom", "questions"} & set(names)
     assert not [name for name in names if name.startswith("mistakes_")]
     texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
     for name in hidden_checks(load_rubric()):

@@ -1,0 +1,7 @@
+"""Questions to each student about their own program, with answers that the judge works out twice.
+
+`sheet.py` makes the sheet of one student from the kinds of questions, a file each: `numbers.py`
+with its cases, `films.py`, `lines.py`, `reasons.py`. Sheets go to pages, Moodle and notebooks, and
+`marking.py` reads what was answered. Students' copies of the grader go without all this: it has the
+closed forms.
+"""

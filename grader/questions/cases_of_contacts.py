@@ -1,0 +1,231 @@
+"""Cases of the lab scene: contacts, friction, the rod."""
+
+import math
+from dataclasses import dataclass, field
+
+from grader.checks import exact
+from grader.judge.decode import Thing
+from grader.judge.lab import STEP, Lab
+from grader.protocol import BodyValue, Rng
+from grader.questions.numbers import Draw, Found, Unsuited, maker
+from grader.questions.program import Program, Unlike
+from grader.words import digits
+
+BOB = 24.0  # px, the radius of the one ball that hangs on a rod
+LEAST_MASS, MOST_MASS = 0.1, 100.0  # kg
+
+
+@dataclass
+class Scene:
+    """The lab scene as the program makes it for a seed of its balls."""
+
+    lab: Lab
+    seed: int
+    world: Thing = field(init=False)
+    bodies: list[tuple[Thing, BodyValue]] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.world = self.lab.thing(self.lab.call("make_world", Rng(self.seed)))
+        found = self.lab.items(self.lab.get(self.world, "bodies"), "the bodies of the scene")
+        states = [self.lab.body(each) for each in found]
+        self.bodies = [(Thing(each.ref), each) for each in states]
+
+    def ball(self, number: int) -> tuple[Thing, BodyValue]:
+        """A ball by its number, from 1 on, in the order in which the scene adds them."""
+        balls = [each for each in self.bodies if each[1].inv_mass and each[1].radius != BOB]
+        if not 0 < number <= len(balls):
+            raise Unlike(f"the scene has {len(balls)} balls")
+        thing, state = balls[number - 1]
+        if not (LEAST_MASS < 1 / state.inv_mass < MOST_MASS and 1 < state.radius < BOB):
+            raise Unlike(f"ball {number} has no mass or radius of the lab scene")
+        return thing, state
+
+    def box_at(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
+        """A box of the scene by its centre."""
+        here = [each for each in self.bodies if (each[1].pos.x, each[1].pos.y) == place]
+        if not here:
+            raise Unlike(f"the scene has no box at {place}")
+        return here[0]
+
+    def number(self, thing: Thing, name: str) -> float:
+        return self.lab.number(self.lab.get(thing, name), f"its {name}")
+
+    @property
+    def made(self) -> str:
+        return f"Your lab scene is made by `make_world(random.Random({self.seed}))`."
+
+
+LEDGE, LEDGE_TOP = (200.0, 260.0), 250.0
+FLOOR, FLOOR_TOP = (450.0, 580.0), 560.0
+DEPTH = 0.25  # px, less than SLOP: nothing is pushed out
+SEEDS = range(100, 1000)
+
+
+# ---------------------------------------------------------------- slot 1: contacts and rods
+
+
+@maker(1, "1 2", scene=SEEDS, ball=range(1, 9), speed=range(120, 480))
+def impulse(program: Program, draw: Draw) -> Found:
+    """The normal impulse of a ball that lands on the ledge."""
+    with program.own.lab("mini_engine") as lab:
+        scene = Scene(lab, draw["scene"])
+        (ball, state), (ledge, _) = scene.ball(draw["ball"]), scene.box_at(LEDGE)
+        bounces = scene.number(ball, "restitution"), scene.number(ledge, "restitution")
+        mass, speed = 1 / state.inv_mass, float(draw["speed"])
+        lab.put(ball, pos=(200.0, LEDGE_TOP - state.radius + DEPTH), vel=(0.0, speed))
+        contact = lab.thing(lab.call("collide", ball, ledge), "a Contact")
+        lab.put(contact, target=lab.number(lab.call("target_speed", contact, STEP), "the target"))
+        lab.call("solve_normal", contact)
+        measured = scene.number(contact, "jn")
+    own, bounce = bounces[0], min(bounces)
+    return Found(
+        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg and a restitution of "
+        f"{own:g}, the ledge one of {bounces[1]:g}. The ball falls straight down on the middle of "
+        f"the ledge and meets it at {speed:g} px/s, without spin, {DEPTH} px deep.\n"
+        "How large is `jn` of this contact after the first pass of `solve_normal`?",
+        mass * (1 + bounce) * speed,
+        measured,
+        "kg px/s",
+        f"The pass brings the speed of {speed:g} px/s down to 0 and up to "
+        f"{bounce:g} · {speed:g} px/s again: m (1 + e) v, with the smaller restitution.",
+        [
+            (mass * (1 + own) * speed, "took the ball's restitution: the smaller of two counts"),
+            (mass * speed, "stopped the ball and forgot that it bounces"),
+            (mass * bounce * speed, "took the speed after the bounce for the change of speed"),
+            ((1 + bounce) * speed, "gave the change of speed: an impulse has the mass in it"),
+        ],
+    )
+
+
+@maker(2, "2 4", scene=SEEDS, ball=range(1, 9), speed=range(150, 450), share=range(25, 75))
+def friction(program: Program, draw: Draw) -> Found:
+    """The friction impulse of a ball that slides on the floor, at its limit."""
+    with program.own.lab("mini_engine") as lab:
+        scene = Scene(lab, draw["scene"])
+        (ball, state), (floor, _) = scene.ball(draw["ball"]), scene.box_at(FLOOR)
+        rough = math.sqrt(scene.number(ball, "friction") * scene.number(floor, "friction"))
+        mass, speed = 1 / state.inv_mass, float(draw["speed"])
+        pressed = float(round(draw["share"] / 100 * mass * speed / 3 / rough))
+        lab.put(ball, pos=(450.0, FLOOR_TOP - state.radius + DEPTH), vel=(speed, 0.0))
+        contact = lab.thing(lab.call("collide", ball, floor), "a Contact")
+        lab.put(contact, jn=pressed)
+        lab.call("solve_friction", contact)
+        measured = abs(scene.number(contact, "jt"))
+    return Found(
+        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg. It slides over the "
+        f"floor at {speed:g} px/s and does not spin yet; both have a friction of {rough:g}. After "
+        f"the normal impulse `jn` of the contact is {pressed:g} kg px/s.\n"
+        "How large is `jt`, without its sign, after the first pass of `solve_friction`?",
+        rough * pressed,
+        measured,
+        "kg px/s",
+        f"To stop the slip would take m v / 3 = {digits(mass * speed / 3)} kg px/s, since friction "
+        f"turns the ball as well. Coulomb's law allows {rough:g} · {pressed:g}.",
+        [
+            (mass * speed / 3, "stopped the slip and forgot the limit"),
+            (mass * speed, "stopped the slip of a ball that cannot turn, without a limit"),
+            (pressed, "took the whole normal impulse for the limit, without the friction"),
+            (rough * rough * pressed, "multiplied the two frictions without the root"),
+        ],
+    )
+
+
+@maker(1, "1", dx=range(3, 15), dy=range(3, 15), radius=range(16, 23))
+def depth(program: Program, draw: Draw) -> Found:
+    """How deep a circle touches the corner of the ledge."""
+    dx, dy, radius = (float(draw[name]) for name in ("dx", "dy", "radius"))
+    place = (350.0 + dx, LEDGE_TOP - dy)
+    touch = exact.circle_box(exact.Disc(*place, radius), exact.Rect(*LEDGE, 150.0, 10.0))[0]
+    if touch is None or touch.depth < 1:
+        raise Unsuited
+    with program.own.lab("mini_engine") as lab:
+        circle, box = lab.circle(place, radius), lab.box(LEDGE, (150.0, 10.0))
+        contact = lab.contact_or_none(lab.call("circle_box", circle, box))
+    if contact is None:
+        raise Unlike("their circle_box finds no contact")
+    return Found(
+        f"The ledge of your lab scene ends on the right at x = 350, and its top is at y = 250. A "
+        f"circle with a radius of {radius:g} px has its centre at ({place[0]:g}, {place[1]:g}).\n"
+        "Which depth has the contact that your `circle_box` returns?",
+        touch.depth,
+        contact.depth,
+        "px",
+        f"The closest point is the corner, {digits(math.hypot(dx, dy))} px from the centre: "
+        "the radius less the distance.",
+        [
+            (radius - dy, "measured straight down, as if the ledge went on to the right"),
+            (radius - dx, "measured sideways, as if the ledge went on upwards"),
+            (math.hypot(dx, dy), "gave the distance: the depth is what is missing to the radius"),
+            (radius - dx - dy, "added the two distances: they are the sides of a triangle"),
+        ],
+    )
+
+
+@maker(1, "3", scene=SEEDS, tenths=range(6, 60))
+def rod(program: Program, draw: Draw) -> Found:
+    """The speed that one pass gives the bob where its rod is too long."""
+    long = draw["tenths"] / 10
+    with program.own.lab("mini_engine") as lab:
+        scene = Scene(lab, draw["scene"])
+        joints = lab.items(lab.get(scene.world, "joints"), "the joints of the scene")
+        lab.want(len(joints) == 1, "one rod", f"{len(joints)}")
+        joint = lab.thing(joints[0])
+        length = scene.number(joint, "length")
+        bob = next((each for each, state in scene.bodies if state.radius == BOB), None)
+        if bob is None:
+            raise Unlike("the scene has no bob")
+        lab.put(bob, pos=(700.0 + length + long, 90.0))
+        lab.tell(joint, "prepare", STEP)
+        lab.tell(joint, "solve")
+        speed = math.hypot(*lab.state(bob).vel)
+    answer = exact.BETA / STEP * long
+    return Found(
+        f"The rod of your lab scene is {long:g} px too long when a step of 1/120 s begins. The "
+        "hook and the bob of 6 kg are at rest.\n"
+        "With which speed does the bob move towards the hook after one pass of `solve`?",
+        answer,
+        speed,
+        "px/s",
+        f"A pass brings the speed to the bias, BETA / dt · error = 0.2 · 120 · {long:g} px/s. The "
+        "hook is static and takes no part in it.",
+        [
+            (answer / exact.BETA, "took the whole error away in one step: BETA is missing"),
+            (exact.BETA * long, "gave the way in this step: a speed is that divided by dt"),
+            (answer / 2, "shared the speed with the hook, whose inverse mass is 0"),
+            (answer * 6, "gave an impulse: it is divided by k, and so by the mass again"),
+        ],
+    )
+
+
+# ---------------------------------------------------------------- slot 2: friction
+
+
+@maker(2, "2", scene=SEEDS, ball=range(1, 9), speed=range(90, 400))
+def sliding(program: Program, draw: Draw) -> Found:
+    """The impulse that would stop the slip of a ball that can turn."""
+    with program.own.lab("mini_engine") as lab:
+        scene = Scene(lab, draw["scene"])
+        (ball, state), (floor, _) = scene.ball(draw["ball"]), scene.box_at(FLOOR)
+        arm = (0.0, state.radius)
+        answered = lab.call("effective_mass", ball, floor, arm, (0.0, 0.0), (1.0, 0.0))
+        total = lab.number(answered, "what effective_mass returns")
+    mass, speed = 1 / state.inv_mass, float(draw["speed"])
+    return Found(
+        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg. Its lowest point slides "
+        f"over the floor at {speed:g} px/s.\n"
+        "Which impulse along the floor, without its sign, brings this point to rest, the turning "
+        "included?",
+        mass * speed / 3,
+        speed / total,
+        "kg px/s",
+        "The impulse turns the ball as well: 1/m + r² / (½ m r²) = 3/m is the change of speed per "
+        "unit of impulse.",
+        [
+            (mass * speed, "left the spin terms out"),
+            (mass * speed / 2, "took m r² for the moment of a disc, which has half of that"),
+            (3 * mass * speed, "multiplied by the sum of inverses instead of dividing"),
+        ],
+    )
+
+
+MAKERS = (impulse, depth, rod, friction, sliding)

@@ -1,0 +1,253 @@
+"""Find the line: a function of the student's own with one line changed, and what that does.
+
+What it does is a film of the lab scene or, where a film would not show it, some numbers. The
+changed function runs in the student's program and in the reference, and both must do the same.
+"""
+
+import ast
+import difflib
+import math
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from grader.judge.decode import Thing
+from grader.judge.failures import Broke, NotYet
+from grader.judge.lab import Lab
+from grader.maintain.operators import changes, names_in
+from grader.questions.cases_of_contacts import SEEDS
+from grader.questions.films import FRAME, SECONDS, VISIBLE, film_as_it_is, filmed, held_against
+from grader.questions.pictures import difference, picture
+from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
+from grader.questions.question import Picture, Question
+from grader.todo_regions import RegionError, parsed, regions_in
+from grader.words import digits
+
+MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
+TRIES = 12  # changes of one function
+LEAST = 0.02  # of a number, by which it must change
+ENDLESS = ("while", "for")  # changed heads of loops may never end
+FILMS = ("3", "4", "2", "1")  # TODOs whose changes a film shows
+Values = dict[str, float]  # by what they are
+
+
+@dataclass(frozen=True)
+class Changed:
+    """A function with one line changed."""
+
+    code: str
+    line: int  # counted from 1
+    was: str
+    now: str
+
+
+def line_questions(program: Program) -> list[str]:
+    """The TODOs to ask about, the best one first: the same for all who have them right."""
+    return [todo for todo in (*FILMS, *EXPERIMENTS) if todo in program.right]
+
+
+def line_question(todo: str, program: Program, seed: str, points: int) -> Question:
+    """The question about one TODO; raises Unlike where no change of it shows."""
+    rng = random.Random(f"{seed}/line/{todo}")
+    text = program.own.function(FUNCTIONS[todo])
+    if text is None or len(text.source) > MOST_CODE:
+        raise Unlike("the function is not found in its text, or is too long to be read")
+    possible = list(one_line_changes(program.own, todo, text))
+    rng.shuffle(possible)
+    scene = rng.choice(SEEDS)
+    for change in possible[:TRIES]:
+        try:
+            show = film_of if todo in FILMS else numbers_of
+            words, pictures = show(todo, program, change, scene)
+        except Unlike:
+            continue
+        except NotYet:
+            continue
+        except Broke as failure:
+            if failure.raised is None:  # its process is gone: one is enough
+                raise Unlike(f"a change of it ended the program: {failure.got}") from failure
+            continue
+        return posed(todo, change, words, pictures, points)
+    raise Unlike("no change of one line shows, in their program and the reference alike")
+
+
+def posed(
+    todo: str, change: Changed, words: str, pictures: tuple[Picture, ...], points: int
+) -> Question:
+    name = FUNCTIONS[todo].partition(":")[2]
+    return Question(
+        f"line-of-{todo}",
+        "line",
+        (todo,),
+        f"This is your `{name}`, in Python's own layout and without comments. One line of it was "
+        f"changed.\n{words}\n"
+        "Which line is it? Write its number, and in one sentence what it does now.",
+        points,
+        str(change.line),
+        why=f"In the program the line is `{change.was.strip()}`, and here `{change.now.strip()}`.",
+        code=tuple(change.code.splitlines()),
+        pictures=pictures,
+        rubric=("The sentence says what the changed line does to the numbers or to the motion.",),
+        by_hand=min(1, points - 1),
+    )
+
+
+# ---------------------------------------------------------------- changing a line
+
+
+def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
+    """Every change of one line of a TODO's own, in a function that keeps its number of lines."""
+    module = parsed(text.source)
+    function = module.body[0] if module and module.body else None
+    if not isinstance(function, ast.FunctionDef):
+        return
+    if ast.get_docstring(function) is not None:
+        function.body = function.body[1:] or [ast.Pass()]
+    code = ast.unparse(function)
+    own = own_lines(tree, todo, text, function, code)
+    before = code.splitlines()
+    for _, after in changes(code, names_in(function)):
+        lines = after.splitlines()
+        numbers = [
+            n for n, pair in enumerate(zip(before, lines, strict=False)) if len(set(pair)) > 1
+        ]
+        if len(lines) != len(before) or len(numbers) != 1 or numbers[0] + 1 not in own:
+            continue
+        was, now = before[numbers[0]], lines[numbers[0]]
+        if not was.strip().startswith(ENDLESS) and alike(was, now):
+            yield Changed(after, numbers[0] + 1, was, now)
+
+
+def own_lines(
+    tree: Tree, todo: str, text: Text, function: ast.FunctionDef, code: str
+) -> frozenset[int]:
+    """The lines of the function in Python's layout that are the student's: those of the region."""
+    again = ast.parse(code).body[0]
+    pairs = zip(ast.walk(function), ast.walk(again), strict=True)
+    lines = [
+        (a.lineno, b.lineno)
+        for a, b in pairs
+        if isinstance(a, ast.stmt) and isinstance(b, ast.stmt)
+    ]
+    first, last = 2, text.last - text.first + 1  # all but its head
+    try:
+        region = next((r for r in regions_in(tree.texts[text.file]) if r.id == todo), None)
+    except RegionError:
+        region = None
+    if region is not None and text.first <= region.start + 1 <= text.last:
+        first, last = region.start + 2 - text.first + 1, region.stop - text.first + 1
+    return frozenset(new for old, new in lines if first <= old <= last)
+
+
+def alike(was: str, now: str) -> bool:
+    """Whether a line was changed in one thing only, so that it does not stand out."""
+    return difflib.SequenceMatcher(None, was, now).ratio() > 0.6
+
+
+# ---------------------------------------------------------------- what a change does
+
+
+def film_of(
+    todo: str, program: Program, change: Changed, scene: int
+) -> tuple[str, tuple[Picture, ...]]:
+    """Two films, without and with the change."""
+    target, own, reference = FUNCTIONS[todo], program.own, program.reference
+    before = film_as_it_is(own, scene)
+    after = filmed(own, own.with_function(target, change.code), scene)
+    if difference(before, after) < VISIBLE:
+        raise Unlike("the film does not show it")
+    right = filmed(reference, reference.with_function(target, change.code), scene)
+    films = {"the program": before, "the change": after}
+    held_against({"the program": film_as_it_is(reference, scene), "the change": right}, films)
+    titles = ("film 1, as it is", "film 2, with the change")
+    pictures = tuple(
+        picture(film, name, f"The lab scene for {SECONDS:g} s", FRAME)
+        for name, film in zip(titles, films.values(), strict=True)
+    )
+    return (
+        f"The films show your lab scene of `random.Random({scene})` without and with it.",
+        pictures,
+    )
+
+
+def numbers_of(
+    todo: str, program: Program, change: Changed, scene: int
+) -> tuple[str, tuple[Picture, ...]]:
+    """Some numbers, without and with the change."""
+    changed = change.code
+    without, with_it = (answers(program.own, todo, code) for code in ("", changed))
+    right, wrong = (answers(program.reference, todo, code) for code in ("", changed))
+    if not (same(without, right) and same(with_it, wrong)):
+        raise Unlike("the program and the reference differ")
+    shown = [name for name in without if not close(without[name], with_it[name], LEAST)]
+    if not shown:
+        raise Unlike("the numbers do not show it")
+    lines = [
+        f"{name}: {digits(without[name])} without it, {digits(with_it[name])} with it."
+        for name in without
+    ]
+    return "\n".join([f"What comes out of `{FUNCTIONS[todo].partition(':')[2]}`:", *lines]), ()
+
+
+def same(one: Values, other: Values) -> bool:
+    return one.keys() == other.keys() and all(close(one[each], other[each], 1e-6) for each in one)
+
+
+def close(one: float, other: float, share: float) -> bool:
+    return math.isclose(one, other, rel_tol=share, abs_tol=1e-9)
+
+
+def answers(tree: Tree, todo: str, code: str) -> Values:
+    """What an experiment with a TODO gives, with another code of its function or its own."""
+    texts = tree.with_function(FUNCTIONS[todo], code) if code else {}
+    with tree.lab(FUNCTIONS[todo].partition(":")[0], texts) as lab:
+        return EXPERIMENTS[todo](lab)
+
+
+def damping(lab: Lab) -> Values:
+    ball = lab.circle((0.0, 0.0), vel=(400.0, 0.0), omega=10.0)
+    world = lab.world(ball, linear_damping=0.5, angular_damping=0.25)
+    last = lab.simulate(world, [ball], 120, every=120).body(0)[-1]
+    return {"400 px/s after a second (px/s)": last.speed, "10 rad/s after a second": last.omega}
+
+
+FRAMES = (10, 30, 150)  # ms
+
+
+def engine_frames(lab: Lab) -> Values:
+    return frames(lab, lab.world())
+
+
+def pymunk_frames(lab: Lab) -> Values:
+    return frames(lab, lab.thing(lab.call("empty_space")))
+
+
+def frames(lab: Lab, world: Thing) -> Values:
+    found: Values = {}
+    for each in FRAMES:
+        advance = lab.advance(world, 0.002, each / 1000)
+        found[f"steps of a frame of {each} ms, with 2 ms in the accumulator"] = advance.said
+        found[f"ms that a frame of {each} ms leaves"] = advance.rest * 1000
+    return found
+
+
+def integrator(method: str) -> Callable[[Lab], Values]:
+    def experiment(lab: Lab) -> Values:
+        states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
+        return {
+            "x after one step, from x = 100 and v = 20": states[0][0],
+            "v after one step": states[0][1],
+            "x after 20 steps": states[-1][0],
+        }
+
+    return experiment
+
+
+EXPERIMENTS: dict[str, Callable[[Lab], Values]] = {
+    "8b": integrator("velocity_verlet"),
+    "6": engine_frames,
+    "5": damping,
+    "8c": integrator("rk4"),
+    "8a": integrator("semi_implicit_euler"),
+    "7d": pymunk_frames,
+}

@@ -1,0 +1,148 @@
+"""From a submission, or a class of them, to sheets and keys as files."""
+
+import secrets
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import msgspec
+
+from grader.classroom.grading import people_of
+from grader.classroom.intake.found import CannotTake, Found
+from grader.classroom.intake.listing import opened_class
+from grader.classroom.intake.packing import opened_submission, pack
+from grader.classroom.names import portable
+from grader.judge.children import Worker, start_worker
+from grader.judge.grade import Options
+from grader.judge.result import Result
+from grader.judge.submission import CannotGrade
+from grader.judge.workplace import work_folder
+from grader.questions.marking import read_keys
+from grader.questions.moodle import moodle_xml
+from grader.questions.notebook import notebook
+from grader.questions.page import page
+from grader.questions.program import opened_program
+from grader.questions.question import Sheet
+from grader.questions.sheet import sheet_of
+from grader.questions.tally import read_tally, write_bank
+from grader.report.files import write_whole
+from grader.words import plural, printable
+
+
+@dataclass(frozen=True)
+class Made:
+    """What became of one student's sheet."""
+
+    student: str
+    sheet: Sheet | None
+    words: str
+
+
+@dataclass(frozen=True)
+class Making:
+    """How sheets are made, and where they go."""
+
+    out: Path
+    options: Options
+    secret: int | None = None
+    practice: bool = False
+    results: Path | None = None
+    tally: Path | None = None
+
+    @cached_property
+    def seed(self) -> str:
+        """What all numbers are drawn from, with the student's name; the same in a second run.
+
+        Without a secret one is drawn: else whoever has the kit could make a sheet of any student.
+        """
+        file = self.out / "seed.txt"
+        if self.secret is not None:
+            seed = str(self.secret)
+        elif file.is_file():
+            seed = file.read_text(encoding="utf-8").strip().removeprefix("practice ")
+        else:
+            seed = str(secrets.randbelow(10**12))
+        write_whole(f"{seed}\n".encode(), file)
+        return f"practice {seed}" if self.practice else seed
+
+    def result_of(self, student: str) -> Result | None:
+        """What grading found out before, where that is known."""
+        path = self.results / f"{portable(student)}.json" if self.results else None
+        if path is None:
+            return None
+        try:
+            return msgspec.json.decode(path.read_bytes(), type=Result)
+        except (OSError, msgspec.DecodeError) as error:
+            raise CannotGrade(f"{path} is no result of grading: leave out --results") from error
+
+    def make(self, student: str, path: Path, worker: Worker) -> Made:
+        """The sheet of the submission at `path`, written."""
+        result = self.result_of(student)
+        with opened_program(path, self.options, worker, result) as program:
+            sheet = sheet_of(program, student, self.seed, self.options.course.questions)
+        self.write(sheet)
+        left_out = f", {len(sheet.dropped)} not asked" if sheet.dropped else ""
+        count = plural(len(sheet.questions), "question")
+        return Made(
+            student, sheet, f"{student}: {count}, {plural(sheet.points, 'point')}{left_out}"
+        )
+
+    def write(self, sheet: Sheet) -> None:
+        title, name = self.options.course.title, portable(sheet.student)
+        if self.practice:
+            text = page(sheet, title, "practice")
+            write_whole(text.encode(), self.out / "practice" / f"{name}.html")
+            return
+        write_whole(page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
+        write_whole(page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
+        write_whole(moodle_xml([sheet], title), self.out / "moodle" / f"{name}.xml")
+        place = self.out / "nbgrader" / "source" / f"questions-{name.replace('+', '-')}"
+        write_whole(notebook(sheet, title), place / "questions.ipynb")
+        key = msgspec.json.format(msgspec.json.encode(sheet))
+        write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
+
+    def finish(self) -> None:
+        """Once all sheets are there: the instructor's page of them, and all in one for Moodle."""
+        if not self.practice:
+            tally = read_tally(self.tally) if self.tally else {}
+            sheets = read_keys(self.out / "keys")
+            write_bank(self.out / "bank.html", sheets, tally)
+            everybody = moodle_xml(sheets, self.options.course.title)
+            write_whole(everybody, self.out / "moodle.xml")
+
+
+def make_one(making: Making, path: Path, student: str) -> Made:
+    """The sheet of one submission; `student` is whose it is, where not its name."""
+    notes: list[str] = []
+    worker = start_worker()
+    try:
+        with opened_submission(path, notes.append) as folder:
+            name = printable(student or folder.resolve().name)
+            made = making.make(name, folder, worker)
+        making.finish()
+    finally:
+        worker.close()
+    return replace(made, words="\n".join([*notes, made.words]))
+
+
+def make_class(making: Making, path: Path, roster: Path | None) -> list[Made]:
+    """A sheet for each submission of a class; each of a group gets one of their own."""
+    worker = start_worker()
+    try:
+        with opened_class(path, people_of(path, roster)) as intake:
+            troubles = [Made(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
+            made = [made_of(making, each, worker) for each in intake.found]
+        making.finish()
+        return [*troubles, *made]
+    finally:
+        worker.close()
+
+
+def made_of(making: Making, found: Found, worker: Worker) -> Made:
+    """The sheet of one student of a class, or why there is none; the others go on."""
+    try:
+        package = pack(found)
+        with work_folder() as work:
+            return making.make(found.name, package.unpack(work), worker)
+    except (CannotTake, CannotGrade) as error:
+        return Made(found.name, None, f"{found.name}: {error}")

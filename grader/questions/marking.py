@@ -1,0 +1,208 @@
+"""Marks for what was answered on paper: a table of answers in, tables of points out.
+
+An answer that cannot be read is never a 0 without a word: it has no points, and a note says why.
+"""
+
+import csv
+import io
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from grader.classroom.names import folded
+from grader.judge.submission import CannotGrade
+from grader.questions.question import Question, Sheet, Unreadable, earned, meant
+from grader.report.files import write_whole
+
+COLUMNS = ("student", "question", "answer")
+BY_HAND = "points"  # a column that may be left out: those that a person gave
+
+
+@dataclass(frozen=True)
+class Given:
+    """A line of the table of answers."""
+
+    line: int
+    student: str
+    question: str
+    answer: str
+    by_hand: str
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What one answer is worth; None where nobody can say yet."""
+
+    student: str
+    number: int
+    question: Question
+    answer: str
+    points: int | None
+    note: str = ""
+    by_machine: int = 0  # of the points
+
+    @property
+    def right(self) -> bool:
+        """Whether all is right that a machine marks, or where it marks nothing, a person."""
+        if self.question.by_machine:
+            return self.by_machine == self.question.by_machine
+        return self.points == self.question.points
+
+
+@dataclass(frozen=True)
+class Marked:
+    marks: list[Mark]
+    notes: list[str]  # lines that are nobody's answer
+
+
+def mark_answers(table: Path, keys: Path) -> Marked:
+    """Mark a table of answers with the keys in a folder; raises CannotGrade where there is none."""
+    sheets = {folded(sheet.student): sheet for sheet in read_keys(keys)}
+    if not sheets:
+        raise CannotGrade(f"there are no keys in {keys}: name the folder of the sheets with --out")
+    given, notes = sorted_out(read_answers(table), sheets)
+    marks = [
+        mark_of(sheet.student, number, question, given.get((name, number)))
+        for name, sheet in sheets.items()
+        for number, question in enumerate(sheet.questions, 1)
+    ]
+    heard = {name for name, _ in given}
+    silent = [sheet.student for name, sheet in sheets.items() if name not in heard]
+    return Marked(marks, [*notes, *(f"no answer of {name} is in the table" for name in silent)])
+
+
+def read_keys(folder: Path) -> list[Sheet]:
+    """The sheets with their answers, by student."""
+    try:
+        texts = [path.read_bytes() for path in sorted(folder.glob("*.json"))]
+        return [msgspec.json.decode(text, type=Sheet) for text in texts]
+    except (OSError, msgspec.DecodeError) as error:
+        raise CannotGrade(f"the keys in {folder} cannot be read: {error}") from error
+
+
+def read_answers(table: Path) -> list[Given]:
+    """The lines of the table, whatever separates its columns."""
+    try:
+        text = table.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise CannotGrade(f"{table} cannot be read as a table in UTF-8: {error}") from error
+    head = text.partition("\n")[0]
+    rows = csv.reader(io.StringIO(text), delimiter=";" if ";" in head else ",")
+    names = [folded(each) for each in next(rows, [])]
+    if missing := [each for each in COLUMNS if each not in names]:
+        raise CannotGrade(
+            f"{table} has no column {missing[0]}: its first line must be student,question,answer"
+        )
+    found = []
+    for row in rows:
+        cells = dict(zip(names, row, strict=False))
+        if any(each.strip() for each in row):
+            student, question, answer = (cells.get(each, "").strip() for each in COLUMNS)
+            by_hand = cells.get(BY_HAND, "").strip()
+            found.append(Given(rows.line_num, student, question, answer, by_hand))
+    return found
+
+
+def sorted_out(
+    lines: Iterable[Given], sheets: Mapping[str, Sheet]
+) -> tuple[dict[tuple[str, int], Given], list[str]]:
+    """The answers by student and number, and a note on each line that is nobody's."""
+    found: dict[tuple[str, int], Given] = {}
+    notes = []
+    for each in lines:
+        sheet = sheets.get(folded(each.student))
+        digits = each.question.removeprefix("q").removeprefix("Q").rstrip(".")
+        number = int(digits) if digits.isdecimal() and len(digits) < 4 else 0
+        if sheet is None:
+            notes.append(f"line {each.line}: there is no sheet of {each.student!r}")
+        elif not 1 <= number <= len(sheet.questions):
+            there = f"{each.student} has questions 1 to {len(sheet.questions)}"
+            notes.append(f"line {each.line}: {there}, and no {each.question!r}")
+        elif (folded(each.student), number) in found:
+            notes.append(f"line {each.line}: {each.student} answered question {number} above")
+        else:
+            found[folded(each.student), number] = each
+    return found, notes
+
+
+def mark_of(student: str, number: int, question: Question, given: Given | None) -> Mark:
+    """The mark of one question; nothing written down is worth nothing, and said."""
+    if given is None or not (given.answer or given.by_hand):
+        return Mark(student, number, question, "", 0, "no answer")
+    notes = []
+    machine = person = 0
+    waits = False
+    if question.by_machine:
+        try:
+            machine = earned(question, given.answer)
+        except Unreadable as error:
+            return Mark(student, number, question, given.answer, None, f"not read: {error}")
+        if why := meant(question, given.answer):
+            notes.append(why)
+    if question.by_hand:
+        if given.by_hand.isdecimal() and int(given.by_hand) <= question.by_hand:
+            person = int(given.by_hand)
+        else:
+            waits = True
+            notes.append(f"waits for a person: 0 to {question.by_hand} in the column {BY_HAND}")
+    worth = None if waits else machine + person
+    return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)
+
+
+# ---------------------------------------------------------------- tables
+
+
+def write_points(marked: Marked, out: Path) -> tuple[Path, Path]:
+    """The table of all answers, and that of students."""
+    answers, totals = out / "points.csv", out / "totals.csv"
+    head = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
+    rows = [
+        (
+            each.student,
+            each.number,
+            each.question.kind,
+            " ".join(each.question.todos),
+            harmless(each.answer),
+            "" if each.points is None else each.points,
+            each.question.points,
+            harmless(each.note),
+        )
+        for each in marked.marks
+    ]
+    write_whole(as_csv([head, *rows]), answers)
+    by_student: dict[str, list[Mark]] = defaultdict(list)
+    for each in marked.marks:
+        by_student[each.student].append(each)
+    write_whole(
+        as_csv([("student", "points", "out of", "open"), *map(total, by_student.values())]), totals
+    )
+    return answers, totals
+
+
+def total(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
+    """A student's points, those there were, and how many answers nobody has marked yet."""
+    points = sum(each.points or 0 for each in marks)
+    waiting = sum(each.points is None for each in marks)
+    return marks[0].student, points, sum(each.question.points for each in marks), waiting
+
+
+def harmless(cell: str) -> str:
+    """A cell that no spreadsheet takes for a formula."""
+    return f"'{cell}" if cell[:1] in ("=", "+", "-", "@", "\t") and not is_number(cell) else cell
+
+
+def is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def as_csv(rows: Iterable[Sequence[object]]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue().encode("utf-8")

@@ -1,0 +1,130 @@
+"""Predict a number: what the student's own program will answer, in a case that nobody else has.
+
+Each maker works an answer out in closed form, then has the student's program run the case. Where
+both do not agree to a hundredth of the tolerance, the question is not asked.
+"""
+
+import math
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from grader.judge.failures import Broke, NotYet
+from grader.questions.program import Program, Unlike
+from grader.questions.question import Question, Wrong
+from grader.words import digits
+
+SHARE = 0.02  # of an answer that it may be off: for rounding on paper, and no more
+AGREE = 0.01  # of the tolerance, by which two ways to an answer may differ
+TRIES = 200  # draws until the numbers tell right from wrong
+
+Draw = dict[str, int]
+
+
+class Unsuited(Exception):
+    """These numbers do not tell right from wrong: others are drawn."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a maker found out about its case: the answer in two ways, and the wrong ones."""
+
+    text: str
+    answer: float  # in closed form
+    measured: float  # what the student's program gave
+    unit: str
+    why: str
+    wrong: Sequence[tuple[float, str]] = ()
+    share: float = SHARE
+    whole: bool = False  # a count: only this very number is right
+
+
+@dataclass(frozen=True)
+class Maker:
+    """Makes one question about some TODOs, of numbers that are drawn from `draws`."""
+
+    name: str
+    todos: tuple[str, ...]
+    draws: dict[str, Sequence[int]]
+    find: Callable[[Program, Draw], Found]
+    slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
+
+
+def maker(
+    slot: int, todos: str, **draws: Sequence[int]
+) -> Callable[[Callable[[Program, Draw], Found]], Maker]:
+    """Make a maker of a function that finds out about one case."""
+
+    def made(find: Callable[[Program, Draw], Found]) -> Maker:
+        name = find.__name__.replace("_", "-")
+        return Maker(name, tuple(todos.split()), draws, find, slot)
+
+    return made
+
+
+def drawn(each: Maker, seed: str) -> list[Draw]:
+    """The numbers that a seed draws for a maker, and those to take where the first are unsuited."""
+    rng = random.Random(f"{seed}/{each.name}")
+    return [{name: rng.choice(few) for name, few in each.draws.items()} for _ in range(TRIES)]
+
+
+def number_question(each: Maker, program: Program, seed: str, points: int) -> Question:
+    """The question of a maker to one student; raises Unlike where it must not be asked."""
+    for draw in drawn(each, seed):
+        try:
+            found = each.find(program, draw)
+            return posed(each, found, points)
+        except Unsuited:
+            continue
+        except NotYet as failure:
+            raise Unlike(f"their program gave {failure.got}") from failure
+        except Broke as failure:
+            raise Unlike(f"their program broke: {failure.got}") from failure
+    raise Unlike(f"{TRIES} draws gave no numbers that tell right from wrong")
+
+
+def posed(each: Maker, found: Found, points: int) -> Question:
+    """The question; raises Unsuited where a wrong answer would count as a right one.
+
+    Raises Unlike where the two ways to the answer differ.
+    """
+    tolerance = 0.0 if found.whole else rounded_up(abs(found.answer) * found.share)
+    agree = AGREE * tolerance or 1e-9
+    if not math.isclose(found.answer, found.measured, rel_tol=0.0, abs_tol=agree):
+        raise Unlike(
+            f"closed form and their program differ: {digits(found.answer)} and "
+            f"{digits(found.measured)} {found.unit}"
+        )
+    if any(abs(value - found.answer) <= 2 * tolerance for value, _ in found.wrong):
+        raise Unsuited
+    wrong = [Wrong(digits(value), why) for value, why in distinct(found.wrong, tolerance)]
+    within = "" if found.whole else f" An answer counts up to {digits(tolerance)} {found.unit} off."
+    return Question(
+        each.name,
+        "number",
+        each.todos,
+        f"{found.text}{within}",
+        points,
+        digits(found.answer),
+        tolerance,
+        found.unit,
+        tuple(wrong),
+        found.why,
+    )
+
+
+def distinct(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple[float, str]]:
+    """Wrong answers that can be told from each other, the first of each kind."""
+    kept: list[tuple[float, str]] = []
+    for value, why in wrong:
+        if all(abs(value - other) > 2 * tolerance for other, _ in kept):
+            kept.append((value, why))
+    return kept
+
+
+def rounded_up(value: float) -> float:
+    """The next larger number of two digits."""
+    if value == 0:
+        return 0.0
+    power = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{math.ceil(value / power - 1e-9) * power:.3g}")

@@ -1,0 +1,50 @@
+"""A sheet as a page to print or to open, its key, and one for practice, whose answers open."""
+
+import re
+from pathlib import Path
+from typing import Literal
+
+from markupsafe import Markup, escape
+
+from grader.player.page import filled, one_line
+from grader.questions.question import KINDS, Picture, Sheet
+from grader.words import digits
+
+TEMPLATES = Path(__file__).with_name("templates")
+PageKind = Literal["sheet", "key", "practice"]
+
+
+def page(sheet: Sheet, title: str, kind: PageKind) -> str:
+    """One page that needs nothing else."""
+    return filled(
+        TEMPLATES / "sheet.html",
+        (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
+        sheet=sheet,
+        title=title,
+        kind=kind,
+        kinds=KINDS,
+        worded=worded,
+        drawn=drawn,
+        number_of=digits,
+    )
+
+
+def worded(text: str, tag: str = "p") -> Markup:
+    """A text with a paragraph for each line, and its code as code; all else is plain text."""
+    paragraphs = [with_code(one_line(line)) for line in text.splitlines()]
+    if not tag:
+        return Markup(" ").join(paragraphs)
+    return Markup("").join(Markup("<p>{}</p>").format(each) for each in paragraphs)
+
+
+def with_code(line: str) -> Markup:
+    parts = re.split(r"`([^`]*)`", line)
+    return Markup("").join(
+        Markup("<code>{}</code>").format(part) if number % 2 else escape(part)
+        for number, part in enumerate(parts)
+    )
+
+
+def drawn(picture: Picture) -> Markup:
+    """A picture of ours, which has numbers of a submission in it and no words."""
+    return Markup(picture.svg)

@@ -1,0 +1,148 @@
+"""Films of a scene as pictures: where bodies are at some moments, and a click plays all of it.
+
+A picture is one SVG that runs no script. Everything in it is a number: no word of a submission.
+"""
+
+import math
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+from grader.questions.question import Picture
+
+MOMENTS = 4  # at which a picture shows the bodies, the last one clearest
+SPOKE = 0.85  # of a radius
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is drawn of a body: a disc where it has a radius, else a box."""
+
+    radius: float  # px
+    half: tuple[float, float]
+    moves: bool
+    place: tuple[float, float]  # of a static one
+
+
+@dataclass(frozen=True)
+class Film:
+    """The rows of bodies, x, y, vx, vy, angle, omega, at equal distances in time."""
+
+    looks: Sequence[Look]
+    rows: Sequence[Sequence[float]]
+    seconds: float
+    rods: Sequence[tuple[int, int]] = ()  # numbers of the bodies that each holds
+
+    def place(self, row: int, body: int) -> tuple[float, float]:
+        x, y = self.rows[row][6 * body : 6 * body + 2]
+        return x, y
+
+    def angle(self, row: int, body: int) -> float:
+        return self.rows[row][6 * body + 4]
+
+    @property
+    def moving(self) -> list[int]:
+        return [number for number, look in enumerate(self.looks) if look.moves]
+
+    @property
+    def moments(self) -> list[int]:
+        """The rows that a picture shows, the last one among them."""
+        last = len(self.rows) - 1
+        return [round(last * (number + 1) / MOMENTS) for number in range(MOMENTS)]
+
+
+def difference(one: Film, other: Film) -> float:
+    """How far the films are apart for an eye, px: at the place or rim that differs most."""
+    apart = [0.0]
+    for row in one.moments:
+        for body in one.moving:
+            turned = abs(one.angle(row, body) - other.angle(row, body)) % (2 * math.pi)
+            rim = min(turned, 2 * math.pi - turned) * one.looks[body].radius
+            apart += [math.dist(one.place(row, body), other.place(row, body)), rim]
+    return max(apart)
+
+
+def picture(film: Film, name: str, alt: str, frame: tuple[float, float, float, float]) -> Picture:
+    """The film as a picture; `frame` is x, y, width and height of what is shown, px."""
+    key = "film" + number_of(name, film)
+    parts = [still(look) for look in film.looks if not look.moves]
+    parts += [trail(film, body) for body in film.moving]
+    for number, row in enumerate(film.moments, 1):
+        shown = "".join(disc(film, row, body) for body in film.moving)
+        rods = "".join(rod(film, row, *ends) for ends in film.rods)
+        parts.append(f'<g opacity="{(number / MOMENTS) ** 2:.2f}">{rods}{shown}</g>')
+    parts.append(f'<g opacity="0">{appears(key, film)}{moving_discs(key, film)}</g>')
+    box = " ".join(f"{each:g}" for each in frame)
+    drawn = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" id="{key}" viewBox="{box}" role="img" '
+        f'aria-label="{escape(alt)}">{"".join(parts)}</svg>'
+    )
+    return Picture(name, alt, drawn)
+
+
+# As attributes, so that a picture looks the same alone, as in Moodle; a page's style goes before.
+FIXED, BALL, LINE = "#b3b9c6", "#1f6fd6", "#5a6275"
+
+
+def number_of(name: str, film: Film) -> str:
+    """A number by which a picture's clicks are told from those of others; the same in each run."""
+    return str(zlib.crc32(repr([name, *film.rows[-1]]).encode()))
+
+
+def still(look: Look) -> str:
+    x, y = look.place
+    if look.radius:
+        return f'<circle class="fixed" fill="{FIXED}" cx="{x:g}" cy="{y:g}" r="{look.radius:g}"/>'
+    wide, high = look.half
+    return (
+        f'<rect class="fixed" fill="{FIXED}" x="{x - wide:g}" y="{y - high:g}" '
+        f'width="{2 * wide:g}" height="{2 * high:g}"/>'
+    )
+
+
+def trail(film: Film, body: int) -> str:
+    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (film.place(n, body) for n in rows_of(film)))
+    look = f'fill="none" stroke="{BALL}" stroke-width="2" opacity="0.3"'
+    return f'<polyline class="trail" {look} points="{points}"/>'
+
+
+def rows_of(film: Film) -> range:
+    return range(len(film.rows))
+
+
+def disc(film: Film, row: int, body: int) -> str:
+    (x, y), radius = film.place(row, body), film.looks[body].radius
+    angle, long = film.angle(row, body), SPOKE * radius
+    return (
+        f'<circle class="ball" fill="{BALL}" cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}"/>'
+        f'<line class="spoke" stroke="#fff" stroke-width="3" x1="{x:.1f}" y1="{y:.1f}" '
+        f'x2="{x + long * math.cos(angle):.1f}" y2="{y + long * math.sin(angle):.1f}"/>'
+    )
+
+
+def rod(film: Film, row: int, first: int, second: int) -> str:
+    (x1, y1), (x2, y2) = film.place(row, first), film.place(row, second)
+    ends = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"'
+    return f'<line class="rod" stroke="{LINE}" stroke-width="3" {ends}/>'
+
+
+def appears(key: str, film: Film) -> str:
+    return f'<set attributeName="opacity" to="1" begin="{key}.click" dur="{film.seconds:g}s"/>'
+
+
+def moving_discs(key: str, film: Film) -> str:
+    """Each ball, moved from row to row once the picture is clicked on."""
+    balls = []
+    for body in film.moving:
+        places = [film.place(row, body) for row in rows_of(film)]
+        (x, y), radius = places[0], film.looks[body].radius
+        moves = "".join(
+            f'<animate attributeName="{name}" begin="{key}.click" dur="{film.seconds:g}s" '
+            f'values="{";".join(f"{place[axis]:.1f}" for place in places)}"/>'
+            for axis, name in enumerate(("cx", "cy"))
+        )
+        balls.append(
+            f'<circle fill="#c25700" cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}">{moves}</circle>'
+        )
+    return "".join(balls)

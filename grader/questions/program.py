@@ -1,0 +1,134 @@
+"""A student's program as questions see it: what is right in it, its text, and ways to run it.
+
+Nothing of it is imported here: it runs in children of the sandbox, as when it is graded.
+"""
+
+import re
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from grader.judge.children import Worker
+from grader.judge.course import Course
+from grader.judge.definitions import Program as Modules
+from grader.judge.grade import Options, grading
+from grader.judge.lab import Lab
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.judge.sandbox import Sandbox
+from grader.judge.submission import Submission
+from grader.todo_regions import python_files, read_source
+
+CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
+FUNCTIONS = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
+
+
+class Unlike(Exception):
+    """The two ways to an answer differ, or the program gives none: not to be asked."""
+
+
+@dataclass(frozen=True)
+class Text:
+    """A function as it stands in a file of a tree."""
+
+    file: str
+    first: int  # its lines, counted from 1
+    last: int
+    source: str  # moved to the left edge
+
+
+@dataclass(eq=False)  # each is itself, so that what is known of it can be kept
+class Tree:
+    """The submission or the reference: its text, and children that run it, changed or not."""
+
+    submission: Submission
+    sandbox: Sandbox
+
+    @cached_property
+    def texts(self) -> dict[str, str]:
+        """Its Python files."""
+        folder = self.submission.folder
+        return {
+            path.relative_to(folder).as_posix(): read_source(path) for path in python_files(folder)
+        }
+
+    @cached_property
+    def modules(self) -> Modules:
+        return Modules({Path(name): text for name, text in self.texts.items()})
+
+    def function(self, target: str) -> Text | None:
+        """Where `module:name` is defined; None where that cannot be told."""
+        found = self.modules.definition(*target.split(":"))
+        if found is None or found.function is None:
+            return None
+        file = self.modules.paths[found.module].as_posix()
+        source = self.modules.source(found.module, found.function)
+        return Text(file, found.function.lineno, found.function.end_lineno, source)
+
+    def with_function(self, target: str, source: str) -> dict[str, str]:
+        """The one file that changes where a function gets another source."""
+        text = self.function(target)
+        if text is None:
+            raise Unlike(f"there is no {target.partition(':')[2]} to be found in its text")
+        lines = self.texts[text.file].splitlines()
+        head = lines[text.first - 1]
+        indent = head[: len(head) - len(head.lstrip())]
+        new = textwrap.indent(source, indent).splitlines()
+        return {text.file: "\n".join([*lines[: text.first - 1], *new, *lines[text.last :]]) + "\n"}
+
+    def with_constant(self, name: str, value: str) -> dict[str, str]:
+        """The files that change where a constant gets another value."""
+        line = re.compile(rf"^{name}\s*=.*$", re.MULTILINE)
+        changed = {
+            file: line.sub(f"{name} = {value}", text)
+            for file, text in self.texts.items()
+            if line.search(text)
+        }
+        if not changed:
+            raise Unlike(f"there is no constant {name} in its text")
+        return changed
+
+    @contextmanager
+    def lab(self, module: str, changes: Mapping[str, str] | None = None) -> Iterator[Lab]:
+        """A lab of this tree, its files changed or not."""
+        sandbox = self.sandbox.changed(changes) if changes else self.sandbox
+        lab = Lab(module, lambda: sandbox.open_child(CPU_SECONDS), [])
+        lab.ran("a question")
+        with lab.opened():
+            yield lab
+
+
+@dataclass
+class Program:
+    """A student's program, and the reference beside it."""
+
+    own: Tree
+    reference: Tree
+    right: frozenset[str]  # the TODOs that pass all their checks
+    given: frozenset[str] = frozenset()  # those that the course hands out done
+
+    def can_show(self, todos: Iterable[str]) -> bool:
+        """Whether what hangs on these TODOs is as it should be."""
+        return (self.right | self.given).issuperset(todos)
+
+
+@contextmanager
+def opened_program(
+    path: Path, options: Options, worker: Worker | None = None, result: Result | None = None
+) -> Iterator[Program]:
+    """Grade what questions may be about, unless a result is there, and hold the program open."""
+    asked = askable(options.course)
+    with grading(path, replace(options, only=asked), worker) as run:
+        found = result or run.run()
+        right = {todo.id for todo in found.todos if todo.state == "passed" and todo.id in asked}
+        own = Tree(run.submission, run.sandbox)
+        given = frozenset(todo.id for todo in options.course.given if not todo.bonus)
+        yield Program(own, Tree(run.right_submission, run.right_sandbox), frozenset(right), given)
+
+
+def askable(course: Course) -> frozenset[str]:
+    """The TODOs of a course that questions can be about: those of its programs, no bonus."""
+    return frozenset(todo.id for todo in course.rubric.counted if todo.function)

@@ -1,0 +1,121 @@
+"""What a question is made of, whatever its kind, and how an answer to it is read."""
+
+import re
+from typing import Literal
+
+from msgspec import Struct
+
+Kind = Literal["number", "film", "line", "why"]
+KINDS: dict[Kind, str] = {
+    "number": "predict a number",
+    "film": "predict a film",
+    "line": "find the line",
+    "why": "say why",
+}
+NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?", re.IGNORECASE)
+
+
+class Wrong(Struct, frozen=True):
+    """A wrong answer that people give, and the misunderstanding that leads to it."""
+
+    answer: str
+    why: str
+
+
+class Picture(Struct, frozen=True):
+    """A drawing as SVG, and what it shows for those who cannot see it."""
+
+    name: str  # of its file, without an ending
+    alt: str
+    svg: str
+
+
+class Question(Struct, frozen=True):
+    """One question with its key.
+
+    `text` has a paragraph a line, and code between backticks. `answer` is a number, the number of a
+    line, or for films the letters of the choices in the order of the films; empty where a person
+    marks all of it. `by_hand` of the `points` are such.
+    """
+
+    name: str  # of what made it, such as "impulse"
+    kind: Kind
+    todos: tuple[str, ...]  # that it is about
+    text: str
+    points: int
+    answer: str = ""
+    tolerance: float = 0.0  # of a number, either way
+    unit: str = ""
+    wrong: tuple[Wrong, ...] = ()
+    why: str = ""  # how the answer comes about, for the key
+    code: tuple[str, ...] = ()  # numbered lines
+    choices: tuple[str, ...] = ()  # of films: what was changed, called a, b, c and so on
+    pictures: tuple[Picture, ...] = ()
+    rubric: tuple[str, ...] = ()  # a point each, for who marks by hand
+    by_hand: int = 0
+
+    @property
+    def by_machine(self) -> int:
+        return self.points - self.by_hand
+
+
+class Sheet(Struct, frozen=True):
+    """The questions of one student, and what was not asked."""
+
+    student: str
+    seed: str  # with which it can be made again
+    questions: tuple[Question, ...]
+    dropped: tuple[str, ...] = ()  # a sentence for each question that could not be asked
+
+    @property
+    def points(self) -> int:
+        return sum(each.points for each in self.questions)
+
+
+class Unreadable(Exception):
+    """An answer that is none; the message says what was expected."""
+
+
+def earned(question: Question, answer: str) -> int:
+    """The points that an answer has earned without a person; raises Unreadable."""
+    text = answer.strip()
+    match question.kind:
+        case "number":
+            right = abs(number_in(text, question.unit) - float(question.answer))
+            return question.by_machine * (right <= question.tolerance)
+        case "line":
+            found = re.fullmatch(r"(?:line\s*)?(\d{1,3})", text, re.IGNORECASE)
+            if found is None:
+                raise Unreadable(f"“{text[:40]}” is no number of a line, such as 4")
+            return question.by_machine * (found[1] == question.answer)
+        case "film":
+            letters, count = re.sub(r"[\s,;/-]", "", text).lower(), len(question.answer)
+            if not re.fullmatch(rf"[a-z]{{{count}}}", letters):
+                raise Unreadable(f"“{text[:40]}” is not {count} letters, one for each film in turn")
+            right = sum(map(str.__eq__, letters, question.answer))
+            return question.by_machine * right // count
+        case "why":
+            return 0
+
+
+def number_in(text: str, unit: str = "") -> float:
+    """The one number of an answer, with a point or a comma, and with or without its unit."""
+    rest = text.removesuffix(unit).strip() if unit else text
+    plain = rest.replace("\u2212", "-").replace(" ", "")
+    if re.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}", plain):
+        raise Unreadable(f"“{text[:40]}” may be a whole number or not: write it without a comma")
+    if not NUMBER.fullmatch(plain):
+        unit_too = f", or 3.5 {unit}" if unit else ""
+        raise Unreadable(f"“{text[:40]}” is not one number, such as 3.5{unit_too}")
+    return float(plain.replace(",", "."))
+
+
+def meant(question: Question, answer: str) -> str:
+    """The misunderstanding behind a wrong answer, where it is a known one."""
+    try:
+        given = number_in(answer.strip(), question.unit)
+        off = [abs(given - float(each.answer)) for each in question.wrong]
+    except (Unreadable, ValueError):
+        return ""
+    known = zip(question.wrong, off, strict=True)
+    return next((each.why for each, by in known if by <= question.tolerance), "")

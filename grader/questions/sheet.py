@@ -1,0 +1,86 @@
+"""The sheet of one student: the same kinds for everybody, about TODOs that are right in theirs."""
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+
+from grader.judge.course import Asked
+from grader.questions import cases_of_contacts, cases_of_integrators, cases_of_time
+from grader.questions.films import film_question
+from grader.questions.lines import line_question, line_questions
+from grader.questions.numbers import Maker, number_question
+from grader.questions.program import Program, Unlike
+from grader.questions.question import Question, Sheet
+from grader.questions.reasons import reason_question, reasons_for
+
+MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
+SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
+NO_SENSE = (ArithmeticError, ValueError, IndexError, RecursionError)
+Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
+
+
+def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    """The questions to a student. The same program and seed always give the same ones."""
+    own = f"{seed}/{student}"
+    dropped: list[str] = []
+    found: list[Question] = []
+    numbers = numbers_to_ask(program, own, asked)
+    found += made(numbers, asked.number, dropped)
+    found += made(films_to_ask(program, own, asked), asked.film, dropped)
+    found += made(lines_to_ask(program, own, asked), asked.line, dropped)
+    missing = asked.number + asked.film + asked.line - len(found)
+    found += made(numbers, missing, dropped)  # where there is no film to ask about, a number
+    found += made(reasons_to_ask(program, asked), asked.why, dropped)
+    return Sheet(student, seed, tuple(found), tuple(dropped))
+
+
+def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
+    """The first `count` questions that may be asked; the others are noted."""
+    found: list[Question] = []
+    while len(found) < count and (each := next(asks, None)):
+        name, ask = each
+        try:
+            found.append(ask())
+        except Unlike as why:
+            dropped.append(f"{name}: {why}")
+        except NO_SENSE as error:  # made of numbers or of code that nobody expects
+            dropped.append(f"{name}: it could not be worked out ({type(error).__name__})")
+    return found
+
+
+def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for each in in_turn(MAKERS, program):
+        yield each.name, partial(number_question, each, program, seed, asked.worth("number"))
+
+
+def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for number in range(asked.film):
+        own = f"{seed}/{number}"
+        yield "films", partial(film_question, program, own, asked.worth("film"))
+
+
+def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
+    for todo in line_questions(program):
+        yield (
+            f"line of TODO {todo}",
+            partial(line_question, todo, program, seed, asked.worth("line")),
+        )
+
+
+def reasons_to_ask(program: Program, asked: Asked) -> Iterator[Ask]:
+    for each in reasons_for(program):
+        yield each.name, partial(reason_question, each, program, asked.worth("why"))
+
+
+def in_turn(makers: Iterable[Maker], program: Program) -> Iterator[Maker]:
+    """Those whose TODOs are all right: the first of each slot, then the second of each.
+
+    What a course hands out done may take part in a question, and is not what it is about.
+    """
+    able = [
+        each
+        for each in makers
+        if program.can_show(each.todos) and program.right.intersection(each.todos)
+    ]
+    slots = [[each for each in able if each.slot == slot] for slot in SLOTS]
+    for rank in range(max(map(len, slots))):
+        yield from (slot[rank] for slot in slots if rank < len(slot))

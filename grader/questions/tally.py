@@ -1,0 +1,110 @@
+"""How often classes answered questions rightly so far, kept in a small file, and its page."""
+
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+from grader.judge.submission import CannotGrade
+from grader.player.page import filled
+from grader.questions.marking import Mark
+from grader.questions.page import TEMPLATES, drawn, worded
+from grader.questions.question import KINDS, Question, Sheet
+from grader.report.files import write_whole
+from grader.words import digits
+
+
+class Count(Struct):
+    """The answers to one question of a class: how many, how many right, and known wrong ones."""
+
+    answered: int = 0
+    right: int = 0
+    wrong: dict[str, int] = {}
+
+
+Tally = dict[str, dict[str, Count]]  # by class and by the question's name
+
+
+def read_tally(path: Path) -> Tally:
+    """What is kept; nothing where there is no file yet."""
+    if not path.is_file():
+        return {}
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=Tally)
+    except (OSError, msgspec.DecodeError) as error:
+        raise CannotGrade(f"{path} is no tally of answers: move it away") from error
+
+
+def add_class(path: Path, sheets: Iterable[Sheet], marks: Iterable[Mark]) -> Tally:
+    """The tally with the marks of a class; one that is marked again takes its own place."""
+    tally = read_tally(path)
+    names = sorted(f"{sheet.seed}/{sheet.student}" for sheet in sheets)
+    tally[hashlib.sha256("\n".join(names).encode()).hexdigest()[:16]] = counted(marks)
+    write_whole(msgspec.json.format(msgspec.json.encode(tally)) + b"\n", path)
+    return tally
+
+
+def counted(marks: Iterable[Mark]) -> dict[str, Count]:
+    """The answers by question; those that nobody gave or could read are not counted."""
+    found: dict[str, Count] = {}
+    for each in marks:
+        if each.points is None or not each.answer:
+            continue
+        count = found.setdefault(each.question.name, Count())
+        count.answered += 1
+        count.right += each.right
+        if not each.right and each.note:
+            count.wrong[each.note] = count.wrong.get(each.note, 0) + 1
+    return found
+
+
+@dataclass(frozen=True)
+class Row:
+    """A question on the instructor's page: an example, and what classes made of it."""
+
+    example: Question
+    classes: int
+    answered: int
+    right: int
+    wrong: list[tuple[str, int]]
+
+    @property
+    def share(self) -> str:
+        return f"{self.right / self.answered:.0%}" if self.answered else "-"
+
+
+def rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
+    examples = {each.name: each for sheet in reversed(sheets) for each in sheet.questions}
+    order = list(KINDS)
+    for name, example in sorted(
+        examples.items(), key=lambda each: (order.index(each[1].kind), each[0])
+    ):
+        counts = [each[name] for each in tally.values() if name in each]
+        wrong: Counter[str] = Counter()
+        for count in counts:
+            wrong.update(count.wrong)
+        yield Row(
+            example,
+            len(counts),
+            sum(each.answered for each in counts),
+            sum(each.right for each in counts),
+            wrong.most_common(5),
+        )
+
+
+def write_bank(path: Path, sheets: Sequence[Sheet], tally: Tally) -> None:
+    """The instructor's page of all questions that these sheets have."""
+    page = filled(
+        TEMPLATES / "bank.html",
+        (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
+        rows=list(rows(sheets, tally)),
+        kinds=KINDS,
+        worded=worded,
+        drawn=drawn,
+        number_of=digits,
+    )
+    write_whole(page.encode("utf-8"), path)
