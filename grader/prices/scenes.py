@@ -173,7 +173,6 @@ class Swing:
         peg = lab.circle((0.0, 0.0), 6.0, 0.0)
         bob = lab.circle(self.place(math.radians(self.degrees)), 24.0, self.mass)
         rod = lab.thing(lab.call("DistanceJoint", peg, bob), "a DistanceJoint")
-        # Apart, they would touch nothing; the engine may look at the pair all the same.
         return Built(lab.world(peg, bob, gravity=(0.0, G), joints=[rod]), [bob])
 
     def place(self, angle: float) -> Pair:
