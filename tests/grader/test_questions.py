@@ -34,7 +34,7 @@ from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn, number_question
 from grader.questions.page import page
-from grader.questions.program import Program, opened_program
+from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
 from grader.questions.tally import add_class, write_bank
@@ -146,6 +146,20 @@ def test_a_ball_of_no_earthly_mass_is_not_asked_about(hand_in: HandIn, solution:
         sheet = sheet_of(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
     assert [each.name for each in sheet.questions] == ["steps"]
     assert sheet.dropped[0].startswith("impulse: ")
+
+
+def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Result):
+    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
+    ends = scenes.replace("    world = World()\n", "    raise SystemExit\n")
+    assert ends != scenes
+    leaves = ends.replace("raise SystemExit", "__import__('os')._exit(3)")
+    with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
+        for _ in range(4):
+            with pytest.raises(Unlike):
+                number_question(MAKERS[0], program, "1", 2)
+        assert program.own.deaths == 3
+        with pytest.raises(Unlike, match="too often"):
+            number_question(MAKERS[0], program, "1", 2)
 
 
 # ---------------------------------------------------------------- films, lines, reasons
