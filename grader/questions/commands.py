@@ -68,9 +68,14 @@ def questions_command(
     options = Options(shipped_reference(), isolation, course=taken)
     making = Making(out, options, seed, practice, results, tally)
     try:
-        made = make_class(making, path, roster) if class_ else [make_one(making, path, student)]
+        if class_:
+            made = make_class(making, path, roster, console)
+        else:
+            made = [make_one(making, path, student)]
     except (CannotGrade, OSError) as error:
         stop(str(error), "ask")
+    except KeyboardInterrupt:
+        stop("stopped; sheets that are made stay, and the same command makes them again", "ask")
     for each in made:
         console.print(clean(each.words), soft_wrap=True)
     count = plural(sum(each.sheet is not None for each in made), "sheet")

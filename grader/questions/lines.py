@@ -25,6 +25,7 @@ from grader.words import digits
 
 MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
 TRIES = 12  # changes of one function
+FAR = 3 * VISIBLE  # px, by which rounding may have led two films apart
 LEAST = 0.02  # of a number, by which it must change
 ENDLESS = ("while", "for")  # changed heads of loops may never end
 FILMS = ("3", "4", "2", "1")  # TODOs whose changes a film shows
@@ -52,16 +53,18 @@ def line_question(todo: str, program: Program, seed: str, points: int) -> Questi
     text = program.own.function(FUNCTIONS[todo])
     if text is None or len(text.source) > MOST_CODE:
         raise Unlike("the function is not found in its text, or is too long to be read")
+    scene = random.Random(f"{seed}/line").choice(SEEDS)  # one for all TODOs: its films are kept
+    if todo in FILMS:
+        both = (film_as_it_is(tree, scene) for tree in (program.own, program.reference))
+        if difference(*both) > FAR:
+            raise Unlike("its film of the program as it is is not that of the reference")
     possible = list(one_line_changes(program.own, todo, text))
     rng.shuffle(possible)
-    scene = rng.choice(SEEDS)
     for change in possible[:TRIES]:
         try:
             show = film_of if todo in FILMS else numbers_of
             words, pictures = show(todo, program, change, scene)
-        except Unlike:
-            continue
-        except NotYet:
+        except (Unlike, NotYet):
             continue
         except Broke as failure:
             if failure.raised is None:  # its process is gone: one is enough
@@ -108,14 +111,13 @@ def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
     before = code.splitlines()
     for _, after in changes(code, names_in(function)):
         lines = after.splitlines()
-        numbers = [
-            n for n, pair in enumerate(zip(before, lines, strict=False)) if len(set(pair)) > 1
-        ]
-        if len(lines) != len(before) or len(numbers) != 1 or numbers[0] + 1 not in own:
+        pairs = enumerate(zip(before, lines, strict=False), 1)
+        differ = [(number, *pair) for number, pair in pairs if len(set(pair)) > 1]
+        if len(lines) != len(before) or len(differ) != 1:
             continue
-        was, now = before[numbers[0]], lines[numbers[0]]
-        if not was.strip().startswith(ENDLESS) and alike(was, now):
-            yield Changed(after, numbers[0] + 1, was, now)
+        number, was, now = differ[0]
+        if number in own and not was.strip().startswith(ENDLESS) and alike(was, now):
+            yield Changed(after, number, was, now)
 
 
 def own_lines(

@@ -6,12 +6,14 @@ from functools import cached_property
 from pathlib import Path
 
 import msgspec
+from rich.console import Console
 
 from grader.classroom.grading import people_of
 from grader.classroom.intake.found import CannotTake, Found
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import opened_submission, pack
 from grader.classroom.names import portable
+from grader.classroom.progress import Counter
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options
 from grader.judge.result import Result
@@ -125,13 +127,17 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     return replace(made, words="\n".join([*notes, made.words]))
 
 
-def make_class(making: Making, path: Path, roster: Path | None) -> list[Made]:
+def make_class(making: Making, path: Path, roster: Path | None, console: Console) -> list[Made]:
     """A sheet for each submission of a class; each of a group gets one of their own."""
     worker = start_worker()
     try:
         with opened_class(path, people_of(path, roster)) as intake:
             troubles = [Made(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
-            made = [made_of(making, each, worker) for each in intake.found]
+            made = []
+            with Counter("making sheets", len(intake.found), console) as counter:
+                for each in intake.found:
+                    made.append(made_of(making, each, worker))
+                    counter.reached(len(made))
         making.finish()
         return [*troubles, *made]
     finally:

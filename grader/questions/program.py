@@ -23,6 +23,7 @@ from grader.judge.submission import Submission
 from grader.todo_regions import python_files, read_source
 
 CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
+MOST_DEATHS = 3  # after which nothing more is asked of a program
 FUNCTIONS = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
 
 
@@ -46,6 +47,7 @@ class Tree:
 
     submission: Submission
     sandbox: Sandbox
+    deaths: int = 0  # of children that ended before they had answered
 
     @cached_property
     def texts(self) -> dict[str, str]:
@@ -94,11 +96,16 @@ class Tree:
     @contextmanager
     def lab(self, module: str, changes: Mapping[str, str] | None = None) -> Iterator[Lab]:
         """A lab of this tree, its files changed or not."""
+        if self.deaths >= MOST_DEATHS:
+            raise Unlike("its process ended too often")
         sandbox = self.sandbox.changed(changes) if changes else self.sandbox
         lab = Lab(module, lambda: sandbox.open_child(CPU_SECONDS), [])
         lab.ran("a question")
         with lab.opened():
-            yield lab
+            try:
+                yield lab
+            finally:
+                self.deaths += lab.ended
 
 
 @dataclass

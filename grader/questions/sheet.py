@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
 from grader.judge.course import Asked
+from grader.judge.failures import Broke, NotYet
 from grader.questions import cases_of_contacts, cases_of_integrators, cases_of_time
 from grader.questions.films import film_question
 from grader.questions.lines import line_question, line_questions
@@ -11,10 +12,10 @@ from grader.questions.numbers import Maker, number_question
 from grader.questions.program import Program, Unlike
 from grader.questions.question import Question, Sheet
 from grader.questions.reasons import reason_question, reasons_for
+from grader.words import clean
 
 MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
-NO_SENSE = (ArithmeticError, ValueError, IndexError, RecursionError)
 Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
 
 
@@ -40,11 +41,21 @@ def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
         name, ask = each
         try:
             found.append(ask())
-        except Unlike as why:
-            dropped.append(f"{name}: {why}")
-        except NO_SENSE as error:  # made of numbers or of code that nobody expects
-            dropped.append(f"{name}: it could not be worked out ({type(error).__name__})")
+        except Exception as error:
+            dropped.append(f"{name}: {why_not(error)}")
     return found
+
+
+def why_not(error: Exception) -> str:
+    """Why a question is not asked; raises what has nothing to do with the program."""
+    match error:
+        case Unlike():
+            return str(error)
+        case NotYet() | Broke():
+            return f"their program gave {clean(error.got)}"
+        case ArithmeticError() | ValueError() | IndexError() | RecursionError():
+            return f"it could not be worked out ({type(error).__name__})"
+    raise error
 
 
 def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:

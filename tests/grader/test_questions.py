@@ -22,6 +22,7 @@ from typer.testing import CliRunner
 
 from grader.judge.children import Worker
 from grader.judge.course import Asked, WrongCourse, read_course
+from grader.judge.failures import Broke
 from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
@@ -34,7 +35,7 @@ from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn, number_question
 from grader.questions.page import page
-from grader.questions.program import Program, opened_program
+from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
 from grader.questions.tally import add_class, write_bank
@@ -146,6 +147,31 @@ def test_a_ball_of_no_earthly_mass_is_not_asked_about(hand_in: HandIn, solution:
         sheet = sheet_of(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
     assert [each.name for each in sheet.questions] == ["steps"]
     assert sheet.dropped[0].startswith("impulse: ")
+
+
+def test_a_program_whose_scene_breaks_has_a_sheet_all_the_same(hand_in: HandIn, solution: Result):
+    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
+    breaks = scenes.replace("    world = World()\n", "    raise KeyError('\x1b[2J')\n")
+    assert breaks != scenes
+    with program_of(hand_in("solution", mini_engine__scenes_py=breaks), solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(why=0))
+    assert [each.kind for each in sheet.questions] == ["number"] * 3 + ["line", "number"]
+    assert sheet.dropped[0].startswith("impulse: their program gave KeyError")
+    assert all(words.isprintable() for words in sheet.dropped)
+
+
+def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Result):
+    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
+    ends = scenes.replace("    world = World()\n", "    raise SystemExit\n")
+    assert ends != scenes
+    leaves = ends.replace("raise SystemExit", "__import__('os')._exit(3)")
+    with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
+        for _ in range(4):
+            with pytest.raises((Unlike, Broke)):
+                number_question(MAKERS[0], program, "1", 2)
+        assert program.own.deaths == 3
+        with pytest.raises(Unlike, match="too often"):
+            number_question(MAKERS[0], program, "1", 2)
 
 
 # ---------------------------------------------------------------- films, lines, reasons
