@@ -178,6 +178,7 @@ def test_an_empty_folder_is_refused(tmp_path: Path):
     assert CliRunner().invoke(commands.app, ["dashboard", str(tmp_path)]).exit_code == 2
 
 
+@pytest.mark.soak
 def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
     """From a class and its results, by the command."""
     member = next(each for each in members(KIT) if each.name == "5-spin-is-not-damped")

@@ -183,6 +183,7 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
     assert all(each["Look at"].endswith(", TODO") for each in failed)
 
 
+@pytest.mark.soak
 def test_an_import_that_went_away_is_told_where_nothing_runs(hand_in):
     tree = hand_in("solution")
     change(tree, "mini_engine/joints.py", "from .constants import BETA\n", "")

@@ -138,7 +138,7 @@ def test_settings_are_in_it(tmp_path: Path):
     ("tree", "done", "points"),
     [
         ("starter", "integrators.py", 6),
-        ("starter", None, 0),
+        pytest.param("starter", None, 0, marks=pytest.mark.soak),
         pytest.param("solution", None, 100, marks=pytest.mark.soak),
     ],
 )
@@ -192,6 +192,7 @@ def for_everybody(path: Path) -> bool:
     return path.exists() and all(each.stat().st_mode & 0o001 for each in [path, *path.parents])
 
 
+@pytest.mark.soak
 def test_root_without_namespaces_and_landlock_keeps_marks_and_reference(open_top: Path):
     program = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     burglar = open_top / "submission" / "integrators.py"

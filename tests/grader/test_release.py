@@ -560,7 +560,9 @@ def test_only_what_runs_is_required():
 NO_FORK = "import os; del os.fork; "  # as on Windows
 
 
-@pytest.mark.parametrize(("first", "folder"), [("", "mini_engine"), (NO_FORK, ".")])
+@pytest.mark.parametrize(
+    ("first", "folder"), [pytest.param("", "mini_engine", marks=pytest.mark.soak), (NO_FORK, ".")]
+)
 def test_a_student_unpacks_checks_and_hands_in(
     released: Released, tmp_path: Path, first: str, folder: str
 ):

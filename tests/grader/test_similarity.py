@@ -47,6 +47,7 @@ def shares(packages: list[Package]) -> list[Pair]:
     return alike([prints_of(each) for each in packages], 0.0)
 
 
+@pytest.mark.soak
 def test_independent_right_answers_stay_below_what_is_expected(right):
     whole = shares([right[name] for name in WHOLE])
     assert whole and max(each.share for each in whole) < 0.3 < EXPECTED

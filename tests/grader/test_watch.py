@@ -237,6 +237,7 @@ def test_files_that_come_go_and_move(open_session):
     assert session.watch.result.points == 10 and session.is_up_to_date()
 
 
+@pytest.mark.soak
 def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
     session = open_session("solution")
     (session.folder / SOLVER).unlink()  # of no TODO that is asked about

@@ -68,5 +68,6 @@ def test_a_check_needs_what_it_fails_without(todo: Todo, tmp_path: Path, worker:
     want_needs([todo], tmp_path, worker)
 
 
+@pytest.mark.soak
 def test_so_it_is_for_some(tmp_path: Path, worker: Worker):
     want_needs([todo for todo in TASKS if todo.id in FEW], tmp_path, worker)
