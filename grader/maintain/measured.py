@@ -1,0 +1,22 @@
+"""What the figures of the measured pages show: numbers of handouts/results.json, for a script."""
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+WITHIN = re.compile(r"(?P<scene>.+), (?P<engine>\w+): (?P<error>.+) within (?P<ms>\d+) ms, least")
+
+
+def measured(results: Mapping[str, Mapping[str, float]]) -> str:
+    """The script that a page loads before its figures."""
+    data = {"budgets": list(budgets(results["accuracy.md"]))}
+    return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
+
+
+def budgets(lines: Mapping[str, float]) -> Iterator[dict[str, Any]]:
+    """The least error of each scene and engine in so many ms of a frame, over the repeats."""
+    for line, least in lines.items():
+        if found := WITHIN.fullmatch(line):
+            most = lines[line.removesuffix("least") + "most"]
+            yield found.groupdict() | {"ms": int(found["ms"]), "least": least, "most": most}
