@@ -7,10 +7,26 @@ from typing import Any
 
 WITHIN = re.compile(r"(?P<scene>.+), (?P<engine>\w+): (?P<error>.+) within (?P<ms>\d+) ms, least")
 
+BALLS = (10, 40, 200)
+PIECES = (  # of a step: what all effects that may run at once add to it
+    "move only",
+    "contacts",
+    "friction",
+    "bounce",
+    "10 rods",
+    "10 springs",
+    "damping",
+    "10 bullets, slow",
+    "sleep, all awake",
+)
+
 
 def measured(results: Mapping[str, Mapping[str, float]]) -> str:
     """The script that a page loads before its figures."""
-    data = {"budgets": list(budgets(results["accuracy.md"]))}
+    data = {
+        "budgets": list(budgets(results["accuracy.md"])),
+        "prices": prices(results["effects.md"]),
+    }
     return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
 
 
@@ -20,3 +36,11 @@ def budgets(lines: Mapping[str, float]) -> Iterator[dict[str, Any]]:
         if found := WITHIN.fullmatch(line):
             most = lines[line.removesuffix("least") + "most"]
             yield found.groupdict() | {"ms": int(found["ms"]), "least": least, "most": most}
+
+
+def prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """What each piece of a step costs, in opcodes, by the number of balls in the pile."""
+    return {
+        str(balls): {piece: lines[f"{balls} balls, {piece}: price in opcodes"] for piece in PIECES}
+        for balls in BALLS
+    }

@@ -15,6 +15,7 @@ from grader.maintain.pages import write_pages
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text("utf-8"))
+SCRIPT = measured(RESULTS).partition("= ")[2].removesuffix(";\n")
 PAGE = (HANDOUTS / "accuracy.md").read_text("utf-8")
 
 
@@ -28,12 +29,18 @@ def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
         assert screen.complaints == []
 
 
-@pytest.fixture
-def figure(screen: Screen) -> Any:
-    screen.page.reload()
-    figure = screen.page.locator('figure[data-figure="accuracy-budgets"]')
+def opened(screen: Screen, name: str) -> Any:
+    """A figure as it is when its page has just been loaded."""
+    page = name.partition("-")[0]
+    screen.page.goto(re.sub(r"\w+\.html.*", f"{page}.html", screen.page.url))
+    figure = screen.page.locator(f'figure[data-figure="{name}"]')
     figure.scroll_into_view_if_needed()
     return figure
+
+
+@pytest.fixture
+def figure(screen: Screen) -> Any:
+    return opened(screen, "accuracy-budgets")
 
 
 def off(engine: str, ms: int, scene: str = "tower of 20", error: str = "sink") -> str:
@@ -44,8 +51,7 @@ def off(engine: str, ms: int, scene: str = "tower of 20", error: str = "sink") -
 
 
 def test_every_number_of_the_table_is_there() -> None:
-    script = measured(RESULTS)
-    data = json.loads(script.partition("= ")[2].removesuffix(";\n"))["budgets"]
+    data = json.loads(SCRIPT)["budgets"]
     assert len({(cell["scene"], cell["engine"], cell["ms"]) for cell in data}) == len(data) == 90
     for cell in data:
         row = rf"^\| {cell['scene']}: {cell['error']} \((px|of the exact)\) \| {cell['ms']} ms \|"
@@ -92,7 +98,40 @@ def test_engines_are_switched_off_and_on(screen: Screen, figure: Any) -> None:
     assert words.inner_text().startswith(off("pymunk", 1, "100 kg on 1 kg"))
 
 
-def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, figure: Any) -> None:
+def test_prices_add_up_to_those_of_all_together() -> None:
+    for balls, prices in json.loads(SCRIPT)["prices"].items():
+        together = RESULTS["effects.md"][f"{balls} balls, all of them together: price in opcodes"]
+        assert sum(prices.values()) == pytest.approx(together, rel=0.01)
+
+
+def test_what_is_declared_is_paid_for(screen: Screen) -> None:
+    figure, prices = opened(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
+    words, drawing = figure.locator("output"), figure.locator("svg")
+    every = sum(prices["40"].values())
+    assert f"the price of contacts is {prices['40']['contacts']:,} opcodes" in words.inner_text()
+    assert f"added up: {every:,} opcodes" in (drawing.text_content() or "")
+    drawing.focus()
+    screen.page.keyboard.press("ArrowRight")
+    assert f"the price of friction is {prices['40']['friction']:,} opcodes" in words.inner_text()
+    figure.get_by_label("10 rods").uncheck()
+    less = every - prices["40"]["10 rods"]
+    assert f"added up: {less:,} opcodes" in (drawing.text_content() or "")
+    box = drawing.bounding_box()
+    screen.page.mouse.move(box["x"] + 12, box["y"] + 70)
+    assert f"the price of move only is {prices['40']['move only']:,} opcodes" in words.inner_text()
+    figure.get_by_label("contacts").uncheck()
+    assert figure.get_by_label("friction").is_disabled()
+    figure.get_by_label("balls").focus()
+    screen.page.keyboard.press("ArrowRight")
+    left = ("move only", "10 springs", "damping", "sleep, all awake")
+    assert f"added up: {sum(prices['200'][each] for each in left):,} " in (
+        drawing.text_content() or ""
+    )
+
+
+@pytest.mark.parametrize("name", ["accuracy-budgets", "effects-stacked"])
+def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> None:
+    figure = opened(screen, name)
     screen.page.set_viewport_size({"width": 390, "height": 800})
     assert screen.page.evaluate("document.documentElement.scrollWidth") <= 390
     screen.page.emulate_media(media="print")
