@@ -29,35 +29,23 @@ touch.figure("accuracy-budgets", (figure) => {
     return value < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(2)));
   }
 
-  figure.picture.setAttribute("tabindex", 0);
-  figure.picture.style.touchAction = "pan-y"; // a finger that goes up or down moves the page
-  for (const kind of ["pointerdown", "pointermove"]) {
-    figure.picture.addEventListener(kind, (event) => {
-      const { left, top } = figure.picture.getBoundingClientRect();
-      const far = ({ x, y }) => Math.hypot(x - event.clientX + left, y - event.clientY + top);
-      const nearest = marks.reduce((a, b) => (far(b) < far(a) ? b : a), marks[0]);
-      if (nearest && nearest.cell !== read) choose(nearest);
-    });
-  }
-  figure.picture.addEventListener("keydown", (event) => {
-    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const here = marks.find((mark) => mark.cell === read);
-    if (!way || !here) return;
-    event.preventDefault();
-    const line = way[0] ? alike("engine", here, "x") : alike("ms", here, "y");
-    const next = line[line.indexOf(here) + way[0] + way[1]];
-    if (next) choose(next);
-  });
+  figure.reading(
+    (x, y) => {
+      const far = (mark) => Math.hypot(mark.x - x, mark.y - y);
+      if (marks.length) read = marks.reduce((a, b) => (far(b) < far(a) ? b : a)).cell;
+    },
+    (dx, dy) => {
+      const here = marks.find((mark) => mark.cell === read);
+      if (!here) return;
+      const line = dx ? alike("engine", here, "x") : alike("ms", here, "y");
+      read = (line[line.indexOf(here) + dx + dy] || here).cell;
+    },
+  );
 
   /** The marks of the same engine or time as this one, in the order of their places. */
   function alike(key, here, along) {
     const same = marks.filter((mark) => mark.cell[key] === here.cell[key]);
     return same.sort((a, b) => a[along] - b[along]);
-  }
-
-  function choose(mark) {
-    read = mark.cell;
-    figure.redraw();
   }
 
   function tell() {

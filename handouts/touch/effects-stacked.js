@@ -18,27 +18,16 @@ touch.figure("effects-stacked", (figure) => {
   let read = titles[1]; // the piece whose price is told
   let pieces = [];
 
-  figure.picture.setAttribute("tabindex", 0);
-  figure.picture.style.touchAction = "pan-y";
-  for (const kind of ["pointerdown", "pointermove"]) {
-    figure.picture.addEventListener(kind, (event) => {
-      const x = event.clientX - figure.picture.getBoundingClientRect().left;
+  figure.reading(
+    (x) => {
       const under = pieces.find((piece) => piece.left <= x && x < piece.right);
-      if (under && under.title !== read) choose(under);
-    });
-  }
-  figure.picture.addEventListener("keydown", (event) => {
-    const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const next = way && pieces[pieces.findIndex(({ title }) => title === read) + way];
-    if (!way) return;
-    event.preventDefault();
-    if (next) choose(next);
-  });
-
-  function choose(piece) {
-    read = piece.title;
-    figure.redraw();
-  }
+      if (under) read = under.title;
+    },
+    (dx) => {
+      const next = pieces[pieces.findIndex(({ title }) => title === read) + dx];
+      if (next) read = next.title;
+    },
+  );
 
   const runs = (title) =>
     title === titles[0] || (declared[title].checked && (!NEEDS[title] || declared[NEEDS[title]].checked));
