@@ -31,7 +31,7 @@ def measured(results: Mapping[str, Mapping[str, float]]) -> str:
 
 
 def budgets(lines: Mapping[str, float]) -> Iterator[dict[str, Any]]:
-    """The least error of each scene and engine in so many ms of a frame, over the repeats."""
+    """Each scene's error by engine and ms of a frame: of the fastest repeat and the slowest."""
     for line, least in lines.items():
         if found := WITHIN.fullmatch(line):
             most = lines[line.removesuffix("least") + "most"]

@@ -70,7 +70,7 @@ touch.figure("accuracy-budgets", (figure) => {
       top: 34,
       width: figure.width - 150,
       height: 270,
-      x: [-0.2, times.length - 0.8],
+      x: [-0.2, times.length - 0.95],
       y: [-9, top],
       xs: times.map((_, i) => i),
       ys: Array.from({ length: top + 10 }, (_, i) => i - 9),
