@@ -1,6 +1,7 @@
 """The handouts as pages that open with a double click, for the folder that students get."""
 
 import html
+import json
 import re
 import shutil
 from collections.abc import Iterable, Mapping
@@ -12,11 +13,12 @@ from markdown_it.token import Token
 from grader.judge.course import FULL, Course
 from grader.maintain.formulas import typeset
 from grader.maintain.handouts import handouts_of
+from grader.maintain.measured import measured
 from grader.player.page import TEMPLATES
 
 STAGE = TEMPLATES / "stage.js"
 
-SHARED = ("touch", "laws", "stage", "films")  # of all movable figures
+SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figures
 START = "index.md"  # its links are in the order in which the pages are read
 FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
@@ -74,9 +76,12 @@ def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
 
 
 def lay_out_touch(handouts: Path, folder: Path) -> None:
-    """The scripts and films of movable figures, with the stage that replays are played on."""
+    """The scripts and films of movable figures, with the stage of replays and what was measured."""
     shutil.copytree(handouts / "touch", folder / "touch")
     shutil.copyfile(STAGE, folder / "touch" / STAGE.name)
+    results = json.loads((handouts / "results.json").read_text(encoding="utf-8"))
+    script = folder / "touch" / "measured.js"
+    script.write_text(measured(results), encoding="utf-8", newline="\n")
 
 
 def figures_in(text: str) -> list[str]:

@@ -33,6 +33,8 @@ const touch = {
   },
 };
 
+const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
 class Figure {
   constructor(name, still, build) {
     const { element } = touch;
@@ -151,8 +153,7 @@ class Figure {
       put(event.clientX - left, event.clientY - top);
     });
     handle.addEventListener("keydown", (event) => {
-      const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-      const way = ways[event.key];
+      const way = WAYS[event.key];
       if (!way) return;
       event.preventDefault();
       const far = event.shiftKey ? 1 : 5;
@@ -160,6 +161,26 @@ class Figure {
       put(x + far * way[0], y + far * way[1]);
     });
     this.handles.push(handle);
+  }
+
+  /** Parts of the drawing are read: `at(x, y)` chooses what is pointed at, `go(dx, dy)` a neighbour. */
+  reading(at, go) {
+    this.picture.setAttribute("tabindex", 0);
+    this.picture.style.touchAction = "pan-y"; // a finger that goes up or down moves the page
+    const pointed = (event) => {
+      const { left, top } = this.picture.getBoundingClientRect();
+      at(event.clientX - left, event.clientY - top);
+      this.redraw();
+    };
+    this.picture.addEventListener("pointerdown", pointed);
+    this.picture.addEventListener("pointermove", pointed);
+    this.picture.addEventListener("keydown", (event) => {
+      const way = WAYS[event.key];
+      if (!way) return;
+      event.preventDefault();
+      go(...way);
+      this.redraw();
+    });
   }
 
   // ------------------------------------------------------------ drawing

@@ -201,7 +201,7 @@ def test_drawings_are_no_white_slabs_in_the_dark(browser: Any, pages: Path) -> N
     """White paper comes out as dark as the page; what is drawn in black, bright."""
     screen = Screen(browser, pages / "accuracy.html")
     screen.page.emulate_media(color_scheme="dark")
-    drawing = screen.page.locator('img[src$=".svg"]').first
+    drawing = screen.page.locator('img[src$=".svg"]:visible').first
     drawing.scroll_into_view_if_needed()
     box = drawing.bounding_box()
     shot = screen.page.screenshot()

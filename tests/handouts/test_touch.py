@@ -16,6 +16,7 @@ import mini_engine
 from grader.checks import exact
 from grader.checks.exact import Disc, Lever, Rect, Rod
 from grader.judge.course import FULL
+from grader.maintain.pages import SHARED as LOADED
 from grader.maintain.pages import figures_in, write_pages
 
 KIT = Path(__file__).parents[2]
@@ -23,13 +24,15 @@ TOUCH = KIT / "handouts" / "touch"
 SHARED = ("touch", "laws", "films")
 NAMES = sorted(path.stem for path in TOUCH.glob("*.js") if path.stem not in SHARED)
 PLAYED = ("predict", "tower")  # by films: see test_films.py
-MOVED = [name for name in NAMES if name not in PLAYED]
+MEASURED = ("accuracy-budgets", "effects-stacked")  # see test_measured.py
+MOVED = [name for name in NAMES if name not in PLAYED + MEASURED]
 POINTS = 1000
+SHOWING = ("lesson.md", "lab-sheet.md", "accuracy.md", "effects.md")  # the pages with such figures
 METHODS = ["explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4"]
 
 
 def test_each_has_a_still_picture_that_the_lesson_shows() -> None:
-    texts = [(KIT / "handouts" / name).read_text("utf-8") for name in ("lesson.md", "lab-sheet.md")]
+    texts = [(KIT / "handouts" / name).read_text("utf-8") for name in SHOWING]
     shown = [Path(each).stem for text in texts for each in figures_in(text)]
     kinds = {name.partition("-")[0] for name in shown}
     assert len(NAMES) >= 10 and set(NAMES) <= {*shown, *kinds}
@@ -37,7 +40,7 @@ def test_each_has_a_still_picture_that_the_lesson_shows() -> None:
 
 def test_the_site_loads_every_one_of_them() -> None:
     settings = (KIT / "handouts" / "site" / "mkdocs.yml").read_text("utf-8")
-    assert re.findall(r"touch/(\S+)\.js", settings) == ["touch", "laws", "stage", "films", *NAMES]
+    assert re.findall(r"touch/(\S+)\.js", settings) == [*LOADED, *NAMES]
 
 
 def test_pages_without_such_a_figure_load_nothing(pages: Path) -> None:
