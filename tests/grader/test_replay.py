@@ -13,7 +13,7 @@ from typing import Any
 
 import msgspec
 import pytest
-from conftest import only_some
+from conftest import Once, only_some
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 import grader.judge.replay as replays
@@ -42,7 +42,7 @@ from grader.protocol import (
     Shot,
     Vec,
 )
-from grader.report.files import as_json
+from grader.report.files import as_json, write_json
 
 MISTAKES = (
     "1-clamp-is-turned-round",
@@ -58,28 +58,34 @@ DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
 # ---------------------------------------------------------------- one submission with many mistakes
 
 
-@pytest.fixture(scope="module")
-def mistaken(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The solution with a mistake in each of several TODOs."""
-    folder = tmp_path_factory.mktemp("replays") / "mistaken"
-    chosen = [m for m in members(KIT) if m.name in MISTAKES and m.form == "package"]
-    chosen[0].build(KIT, folder)
-    for member in chosen[1:]:
-        assert member.source is not None
-        patch(member.source, folder)
-    return folder
+@pytest.fixture(scope="session")
+def mistaken(once: Once) -> Path:
+    """The solution with a mistake in each of several TODOs, and beside it what grading makes of it.
+
+    One of the processes that run the tests grades it for all.
+    """
+
+    def fill(top: Path) -> None:
+        folder = top / "mistaken"
+        chosen = [m for m in members(KIT) if m.name in MISTAKES and m.form == "package"]
+        chosen[0].build(KIT, folder)
+        for member in chosen[1:]:
+            assert member.source is not None
+            patch(member.source, folder)
+        todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
+        options = Options(shipped_reference(), only=todos, replays=top / "pages")
+        write_json(grade(folder, options, shared_worker()), top / "result.json")
+
+    return once("replays-of-mistakes", fill) / "mistaken"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def graded(mistaken: Path) -> Result:
-    todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
-    folder = mistaken.parent / "pages"
-    options = Options(shipped_reference(), only=todos, replays=folder)
-    return grade(mistaken, options, shared_worker())
+    return msgspec.json.decode((mistaken.parent / "result.json").read_bytes(), type=Result)
 
 
-@pytest.fixture(scope="module")
-def pages(mistaken: Path, graded: Result) -> Path:
+@pytest.fixture(scope="session")
+def pages(mistaken: Path) -> Path:
     return mistaken.parent / "pages"
 
 
