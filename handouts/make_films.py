@@ -21,6 +21,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from make_figures import BLUE, GREY, INK, Svg
+from make_pictures import environment_in
 
 from grader.maintain.bank import patch
 from grader.todo_regions import python_files, regions_in, replaced
@@ -53,16 +54,10 @@ def tree_of(todo, variant, folder):
 
 def run_in(tree, program, *arguments):
     """What a program of this folder prints, run by the code of a tree."""
-    environment = {
-        **os.environ,
-        "SDL_VIDEODRIVER": "dummy",
-        "SDL_AUDIODRIVER": "dummy",
-        "PYGAME_HIDE_SUPPORT_PROMPT": "1",
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "PYTHONPATH": str(tree),
-    }
     command = [sys.executable, str(Path(__file__).with_name(program)), *arguments]
-    done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        command, cwd=tree, env=environment_in(tree), capture_output=True, text=True
+    )
     if done.returncode:
         sys.exit(f"{' '.join([program, *arguments])} failed in {tree}:\n{done.stderr}")
     return json.loads(done.stdout)

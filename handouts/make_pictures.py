@@ -64,10 +64,9 @@ def done_before(todo):
     return program[: program.index(todo)]
 
 
-def take(tree, picture, shot):
-    """Take one picture in a fresh process that knows nothing but this tree."""
-    order = json.dumps({**shot, "picture": str(picture)})
-    environment = {
+def environment_in(tree):
+    """For a process without a window that knows nothing but this tree."""
+    return {
         **os.environ,
         "SDL_VIDEODRIVER": "dummy",
         "SDL_AUDIODRIVER": "dummy",
@@ -75,8 +74,13 @@ def take(tree, picture, shot):
         "PYTHONDONTWRITEBYTECODE": "1",
         "PYTHONPATH": str(tree),
     }
+
+
+def take(tree, picture, shot):
+    """Take one picture in a fresh process that knows nothing but this tree."""
+    order = json.dumps({**shot, "picture": str(picture)})
     command = [sys.executable, str(Path(__file__).resolve()), "--shoot", order]
-    subprocess.run(command, cwd=tree, env=environment, check=True)
+    subprocess.run(command, cwd=tree, env=environment_in(tree), check=True)
 
 
 def take_all(only):
