@@ -227,11 +227,14 @@ def seconds_in_queue(pid: int) -> float:
 def schedule_of(pid: int, what: int) -> list[float]:
     """Of each thread of a process the seconds that it worked (0) or waited (1); where Linux tells.
 
-    Raises OSError where the process is gone.
+    A thread may end while it is read. Raises OSError where the process is gone.
     """
     if not TELLS_OF_QUEUES:
         return []
-    told = [path.read_text("ascii") for path in Path(f"/proc/{pid}/task").glob("*/schedstat")]
+    told = []
+    for thread in os.listdir(f"/proc/{pid}/task"):
+        with suppress(FileNotFoundError, ProcessLookupError):
+            told.append(Path(f"/proc/{pid}/task/{thread}/schedstat").read_text("ascii"))
     return [int(each.split()[what]) / 1e9 for each in told]
 
 

@@ -130,3 +130,14 @@ def test_time_in_which_the_judge_itself_waits_for_a_processor_is_nobodys_rest(
     queued[os.getpid()] = 9.5
     child._look()
     assert child.rested == pytest.approx(1.5)
+
+
+@LINUX
+def test_a_thread_that_ends_while_it_is_looked_at_is_passed_over(monkeypatch: pytest.MonkeyPatch):
+    """Others of the process are still told of; of a process that is gone, nothing is."""
+    usual = os.listdir
+    monkeypatch.setattr(os, "listdir", lambda path: ["999999999", *usual(path)])
+    assert children.seconds_in_queue(os.getpid()) >= 0
+    assert children.worked_seconds(os.getpid()) > 0
+    with pytest.raises(OSError):
+        children.seconds_in_queue(999_999_999)
