@@ -1,10 +1,12 @@
-"""How many frames a lab program may run. Nothing to do here.
+"""How many frames a lab program may run, and how it pauses. Nothing to do here.
 
-For a person there is no limit. A checker sets the environment variable LAB_FRAMES.
+For a person there is no limit of frames. A checker sets the environment variable LAB_FRAMES.
 """
 
 import math
 import os
+
+import pygame
 
 frames_left = None  # None: LAB_FRAMES has not been read yet
 
@@ -26,3 +28,20 @@ def read_lab_frames():
     if not text.isdecimal():
         raise ValueError(f"LAB_FRAMES is {text!r}, but it must be a whole number of frames.")
     return int(text)
+
+
+def pause(one_step, draw):
+    """Hold the program still until Space is pressed again; each N calls one_step().
+
+    draw() shows the scene. Closing the window ends the pause, and then the program.
+    """
+    while True:
+        draw()
+        event = pygame.event.wait()
+        key = event.key if event.type == pygame.KEYDOWN else None
+        if key == pygame.K_n:
+            one_step()
+        elif event.type == pygame.QUIT:
+            pygame.event.post(event)  # the program's own loop reads it again
+        if key == pygame.K_SPACE or event.type == pygame.QUIT:
+            return

@@ -4,12 +4,13 @@ Lengths are in px, times in s, angles in rad. pymunk has no "up": y grows down, 
 """
 
 import random
+from functools import partial
 
 import pygame
 import pymunk
 from pygame import Vector2
 
-from lab_runtime import frame_budget
+from lab_runtime import frame_budget, pause
 
 WIDTH, HEIGHT = 900, 600  # px
 STEP = 1 / 120  # s, one physics step
@@ -21,7 +22,7 @@ BALL, PEG = 1, 2  # collision types
 GREY = (84, 90, 104)
 BACKGROUND = (22, 25, 33)
 INK = (225, 228, 235)
-HELP = "click: drop a ball    B: drop a box    R: reset"
+HELP = "click: drop a ball    B: drop a box    R: reset    Space: pause, then N: one step"
 
 
 def empty_space():
@@ -172,8 +173,20 @@ def draw(screen, font, space):
     status = f"moving bodies: {len(space.bodies)}"
     screen.blit(font.render(status, True, INK), (12, 10))
     screen.blit(font.render(f"hits of pegs: {space.counter['hits']}", True, INK), (310, 10))
+    screen.blit(font.render(f"rod error: {rod_error(space):.2f} px", True, INK), (12, 34))
     screen.blit(font.render(HELP, True, INK), (12, HEIGHT - 29))
     pygame.display.flip()
+
+
+def rod_error(space):
+    """How far the rods are from their lengths, in px."""
+    rods = [joint for joint in space.constraints if isinstance(joint, pymunk.PinJoint)]
+    return sum(abs(rod_length(rod) - rod.distance) for rod in rods)
+
+
+def rod_length(rod):
+    """How far the two ends of a rod are from each other, in px."""
+    return rod.a.local_to_world(rod.anchor_a).get_distance(rod.b.local_to_world(rod.anchor_b))
 
 
 def draw_shape(screen, shape):
@@ -212,6 +225,8 @@ def main():
                 running = False
             elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
                 drop_ball(space, rng, event.pos)
+            elif event.type == pygame.KEYDOWN and event.key == pygame.K_SPACE:
+                pause(partial(space.step, STEP), partial(draw, screen, font, space))
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_b:
                 drop_box(space, rng)
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_r:

@@ -1,7 +1,4 @@
-"""Every number that tunes the engine, with its unit. Nothing to do here.
-
-Lengths are in px, times in s, angles in rad. y grows down, as on the screen.
-"""
+"""Every number that tunes the engine, in px, s and rad; y grows down. Nothing to do here."""
 
 WIDTH, HEIGHT = 900, 600  # px
 STEP = 1 / 120  # s, one physics step

@@ -9,8 +9,7 @@ from .validate import require
 class DistanceJoint:
     """A rigid rod between the centres of a and b that keeps the distance they start with.
 
-    It pulls and pushes, and turns neither body. Raises ValueError when a and b are the same body
-    or both static.
+    It pulls and pushes, and turns neither body. Raises ValueError for one body twice or two static.
     """
 
     def __init__(self, a, b):

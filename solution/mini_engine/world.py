@@ -32,8 +32,7 @@ class World:
 
     def add(self, body):
         """Add a body and return it. Raises ValueError when it is here already."""
-        found = f"in this world already (at {body.pos})"
-        require(body not in self.bodies, "World.add's body", found, "a new one")
+        require(body not in self.bodies, "World.add's body", f"here already, at {body.pos}", "new")
         self.bodies.append(body)
         return body
 

@@ -1,7 +1,6 @@
 """A small 2D physics engine of rolling balls. Every public name can be imported from here.
 
-Read in this order: shapes, body, contacts, solver, joints, world, scenes, game_loop. None of them
-knows bonus/, which holds the bonus tasks: a world and a window that can do more.
+Read in this order: shapes, body, contacts, solver, joints, world, scenes, game_loop; then bonus/.
 """
 
 from .body import Body

@@ -5,7 +5,7 @@ import random
 import pygame
 from pygame import Vector2
 
-from lab_runtime import frame_budget
+from lab_runtime import frame_budget, pause
 
 from .constants import HEIGHT, MAX_BALLS, MAX_STEPS, STEP, WIDTH
 from .scenes import ball, make_world
@@ -14,7 +14,7 @@ from .shapes import Box
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
 BACKGROUND = (22, 25, 33)
 INK = (225, 228, 235)
-HELP = "click: drop a ball    R: reset"
+HELP = "click: drop a ball    R: reset    Space: pause, then N: one step"
 
 
 def advance(world, accumulator, frame_seconds):
@@ -51,6 +51,8 @@ class Window:
         """Do what a key is for."""
         if key == pygame.K_r:
             self.reset()
+        elif key == pygame.K_SPACE:
+            pause(lambda: self.world.step(STEP), self.draw)
 
     def drop_ball(self, pos):
         """Drop a ball at pos and return it; None where MAX_BALLS bodies can move already."""
@@ -94,9 +96,14 @@ class Window:
 
     def texts(self):
         """The lines of text, each as (place, text)."""
-        moving, touching = len(self.world.moving_bodies()), len(self.world.contacts)
-        status = f"moving bodies: {moving}    contacts: {touching}"
-        return [((12, 10), status), ((12, HEIGHT - 29), HELP)]
+        world = self.world
+        status = f"moving bodies: {len(world.moving_bodies())}    contacts: {len(world.contacts)}"
+        rod = f"rod error: {self.rod_error():.2f} px"
+        return [((12, 10), status), ((12, 34), rod), ((12, HEIGHT - 38), HELP)]
+
+    def rod_error(self):
+        """How far the rods are from their lengths, in px."""
+        return sum(abs((rod.b.pos - rod.a.pos).length() - rod.length) for rod in self.world.joints)
 
 
 def main(kind=Window):
@@ -117,6 +124,5 @@ def main(kind=Window):
         total_steps += steps
         window.draw()
     pygame.quit()
-    rod = window.world.joints[0]
     print(f"Fixed steps: {total_steps}")
-    print(f"Pendulum length error: {abs((rod.b.pos - rod.a.pos).length() - rod.length):.2f} px")
+    print(f"Pendulum length error: {window.rod_error():.2f} px")

@@ -96,7 +96,7 @@ class BonusWindow(Window):
     def texts(self):
         """Add how many are asleep, and the keys."""
         asleep = f"asleep: {len(self.sleepers())}" if self.world.sleeping else ""
-        return [*super().texts(), ((310, 10), asleep), ((310, HEIGHT - 29), BONUS_HELP)]
+        return [*super().texts(), ((310, 10), asleep), ((12, HEIGHT - 20), BONUS_HELP)]
 
 
 def add_spring(world):
