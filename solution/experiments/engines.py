@@ -363,7 +363,8 @@ class Box2d(Undeclaring):
         found = []
         for contact in self.world.contacts:
             if contact.touching:
-                (x, y), (nx, ny) = contact.worldManifold.points[0], contact.worldManifold.normal
+                manifold = contact.worldManifold  # a copy: its parts end with it
+                (x, y), (nx, ny) = manifold.points[0], manifold.normal
                 found.append(Touch(PX_PER_M * x, PX_PER_M * y, nx, ny, None))
         return found
 
