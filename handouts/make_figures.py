@@ -1,11 +1,14 @@
-"""Draw the figures of the lesson, as SVG files in handouts/figures.
+"""Draw the figures of the lesson and of the hard cases, as SVG files in handouts/figures.
 
     python handouts/make_figures.py
 
-What they show is computed by the solution's own engine. The same run gives the same files.
+What they show is computed by the solution's own engine, or stands in results.json. The same run
+gives the same files.
 """
 
+import json
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -367,7 +370,54 @@ def rolling():
     svg.save("rolling.svg")
 
 
-ALL = [step_order, accumulator, damping, spirals, contact, effective_mass, totals, rolling, rod]
+# ---------------------------------------------------------------- hard cases
+
+
+ENGINES = {"lesson": RED, "stable": BLUE, "pymunk": ORANGE, "box2d": GREEN}
+
+
+def limits():
+    """How far each engine holds, in shares of what must hold, on one axis."""
+    lines = json.loads((HERE / "results.json").read_text(encoding="utf-8"))["hard-cases.md"]
+    rows = [line.removesuffix(": must hold") for line in lines if re.match("limit.*hold$", line)]
+    svg = Svg(760, 90 + 58 * len(rows), "How far each engine holds, by what is made harder")
+    plot = Plot(svg, 30, 60, 700, 58 * len(rows) - 25, (-2, 2), (len(rows) - 0.5, -0.55))
+    name = "times what the stable engine must hold"
+    plot.axes([], [], name, "")
+    for power in range(-2, 3):
+        svg.line(plot.at(power, -0.55), plot.at(power, len(rows) - 0.5), color=PALE, width=1)
+        svg.text(plot.at(power, 0)[0], svg.size[1] - 36, f"{10.0**power:g}", GREY, 13, "middle")
+    svg.line(plot.at(0, -0.55), plot.at(0, len(rows) - 0.5), color=INK, width=2)
+    for i, (engine, color) in enumerate(ENGINES.items()):
+        mark(svg, engine, (40 + 130 * i, 22), color)
+        svg.text(54 + 130 * i, 27, engine, color)
+    for i, row in enumerate(rows):
+        svg.text(36, plot.at(0, i)[1] - 12, row.removeprefix("limit: "), INK, 13)
+        for engine, color in ENGINES.items():
+            share = lines[f"{row}: {engine}"] / lines[f"{row}: must hold"]
+            x, y = plot.at(math.log10(share), i)
+            mark(svg, engine, (x, y + 8), color)
+    svg.save("hard-cases-limits.svg")
+
+
+def mark(svg, engine, place, color):
+    """A mark that tells an engine without its colour."""
+    x, y = place
+    shapes = {
+        "stable": [(-6, -6), (6, -6), (6, 6), (-6, 6)],
+        "pymunk": [(0, -8), (8, 6), (-8, 6)],
+        "box2d": [(0, -8), (8, 0), (0, 8), (-8, 0)],
+    }
+    if engine not in shapes:
+        return svg.circle(x, y, 6, color)
+    path = " ".join(f"{say(x + dx)},{say(y + dy)}" for dx, dy in shapes[engine])
+    svg.add("polygon", points=path, fill=color)
+
+
+ALL = [
+    *(step_order, accumulator, damping, spirals, contact),
+    *(effective_mass, totals, rolling, rod, limits),
+]
 
 
 def main():

@@ -20,6 +20,7 @@ from pathlib import Path
 
 from experiments import accuracy_tables, budgets, figures, race, smooth, statements
 from experiments.answers import Effort, study
+from experiments.charts import all_charts, rounded
 from experiments.compiled import time_compiled
 from experiments.dials import QUESTIONS, dials, questions
 from experiments.table import Progress, write_markdown
@@ -167,7 +168,8 @@ def main(arguments=None):
         draw(results, options.out, progress)
     if options.markdown:
         tables = accuracy_tables.short_tables(results)
-        write_markdown(options.markdown, tables, results["statements"])
+        charts = charts_shown(results, options.markdown)
+        write_markdown(options.markdown, tables, results["statements"], charts=charts)
         copy_figures(options.out, options.markdown)
 
 
@@ -191,9 +193,20 @@ def copy_figures(folder, handout):
             shutil.copyfile(folder / name, place)
 
 
+def charts_shown(results, handout):
+    """The charts behind the figures that a handout shows, by the names of the figures."""
+    names = figures_shown(handout)
+    return {
+        f"accuracy-{name}": rounded(chart)
+        for name, chart in all_charts(results)
+        if f"{name}.svg" in names
+    }
+
+
 def figures_shown(handout):
     """The names of this program's SVG figures that a handout shows, as in the results' folder."""
-    return re.findall(r"figures/accuracy-([\w-]+\.svg)", handout.read_text(encoding="utf-8"))
+    text = handout.read_text(encoding="utf-8") if handout.exists() else ""
+    return re.findall(r"figures/accuracy-([\w-]+\.svg)", text)
 
 
 def read(arguments):

@@ -21,11 +21,13 @@ PIECES = (  # of a step: what all effects that may run at once add to it
 )
 
 
-def measured(results: Mapping[str, Mapping[str, float]]) -> str:
+def measured(results: Mapping[str, Mapping[str, Any]]) -> str:
     """The script that a page loads before its figures."""
     data = {
         "budgets": list(budgets(results["accuracy.md"])),
         "prices": prices(results["effects.md"]),
+        "charts": results["charts"],
+        "limits": limits(results["hard-cases.md"]),
     }
     return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
 
@@ -36,6 +38,16 @@ def budgets(lines: Mapping[str, float]) -> Iterator[dict[str, Any]]:
         if found := WITHIN.fullmatch(line):
             most = lines[line.removesuffix("least") + "most"]
             yield found.groupdict() | {"ms": int(found["ms"]), "least": least, "most": most}
+
+
+def limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """How far each engine holds, by what is made harder, and how far the stable one must."""
+    found: dict[str, dict[str, Any]] = {}
+    for line, far in lines.items():
+        if line.startswith("limit: "):
+            _, title, words, who = line.split(": ", 3)
+            found.setdefault(f"{title}: {words}", {})[who] = far
+    return [{"title": title, "far": far} for title, far in found.items()]
 
 
 def prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:

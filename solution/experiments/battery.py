@@ -186,14 +186,21 @@ def table_rows(case, cells):
 
 
 def lines_of(case, cells):
-    """What each engine came to, by names for results.json. cells as in table_rows."""
-    return {
-        f"{case.title}: {figure.words}: {name}": number(answers[i], 6)
-        if isinstance(answers[i], str) or not math.isfinite(answers[i])
-        else answers[i]
-        for i, figure in enumerate(case.figures)
-        for name, answers in cells.items()
-    }
+    """What each engine came to, by names for results.json, and what must hold. cells as above."""
+    lines = bounds_of(case)
+    for i, figure in enumerate(case.figures):
+        for name, answers in cells.items():
+            known = not isinstance(answers[i], str) and math.isfinite(answers[i])
+            lines[f"{case.title}: {figure.words}: {name}"] = (
+                answers[i] if known else number(answers[i], 6)
+            )
+    return lines
+
+
+def bounds_of(case):
+    """What must hold of those figures that have a rule, by names for results.json."""
+    ruled = [figure for figure in case.figures if figure.rule]
+    return {f"{case.title}: {figure.words}: must hold": figure.limit for figure in ruled}
 
 
 # ---------------------------------------------------------------- the program

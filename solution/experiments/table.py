@@ -34,10 +34,10 @@ class Table:
         return "\n\n".join(filter(None, parts)) + "\n"
 
 
-def write_markdown(path, tables, lines):
+def write_markdown(path, tables, lines, **more):
     """Put the tables between the two markers of a file, or into a file of their own.
 
-    lines, which the text around them rests on, go into results.json beside it.
+    lines, which the text around them rests on, go into results.json beside it, and so does more.
     """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"
@@ -48,7 +48,8 @@ def write_markdown(path, tables, lines):
     path.write_text(f"{before}{BEGIN}\n{block}{END}{after}", encoding="utf-8")
     results = path.with_name("results.json")
     kept = json.loads(results.read_text(encoding="utf-8")) if results.exists() else {}
-    text = json.dumps(kept | {path.name: lines}, indent=1, sort_keys=True, ensure_ascii=False)
+    kept |= {path.name: lines, **more}
+    text = json.dumps(kept, indent=1, sort_keys=True, ensure_ascii=False)
     results.write_text(text + "\n", encoding="utf-8")
 
 

@@ -53,7 +53,8 @@ def test_a_claim_stands_in_its_handout_and_its_lines_say_so(page: str, says: str
 
 
 def test_every_page_with_measurements_has_claims() -> None:
-    assert set(CLAIMS) == set(RESULTS) == {"accuracy.md", "effects.md", "hard-cases.md"}
+    pages = {"accuracy.md", "effects.md", "hard-cases.md"}
+    assert set(CLAIMS) == set(RESULTS) - {"charts"} == pages
 
 
 @pytest.mark.parametrize(

@@ -199,7 +199,7 @@ def test_the_tower_tells_what_was_recorded(browser: Any, pages: Path) -> None:
 
 def test_drawings_are_no_white_slabs_in_the_dark(browser: Any, pages: Path) -> None:
     """White paper comes out as dark as the page; what is drawn in black, bright."""
-    screen = Screen(browser, pages / "accuracy.html")
+    screen = Screen(browser, pages / "lesson.html")
     screen.page.emulate_media(color_scheme="dark")
     drawing = screen.page.locator('img[src$=".svg"]:visible').first
     drawing.scroll_into_view_if_needed()

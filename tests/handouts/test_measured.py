@@ -31,8 +31,8 @@ def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
 
 def opened(screen: Screen, name: str) -> Any:
     """A figure as it is when its page has just been loaded."""
-    page = name.partition("-")[0]
-    screen.page.goto(re.sub(r"\w+\.html.*", f"{page}.html", screen.page.url))
+    page = "hard-cases" if name.startswith("hard-cases") else name.partition("-")[0]
+    screen.page.goto(re.sub(r"[\w-]+\.html.*", f"{page}.html", screen.page.url))
     figure = screen.page.locator(f'figure[data-figure="{name}"]')
     figure.scroll_into_view_if_needed()
     return figure
@@ -129,12 +129,122 @@ def test_what_is_declared_is_paid_for(screen: Screen) -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["accuracy-budgets", "effects-stacked"])
+# ---------------------------------------------------------------- curves
+
+
+CHARTS = json.loads(SCRIPT)["charts"]
+
+
+def curve_of(name: str, look: str, panel: int = 0) -> dict[str, Any]:
+    return next(each for each in CHARTS[name]["panels"][panel]["curves"] if each["look"] == look)
+
+
+def test_every_figure_of_curves_has_its_data() -> None:
+    shown = re.findall(r"figures/(accuracy-[\w-]+)\.svg", PAGE)
+    assert {*CHARTS, "accuracy-budgets"} == set(shown) and len(CHARTS) == len(shown) - 1
+
+
+@pytest.mark.parametrize("name", CHARTS)
+def test_no_point_of_a_curve_lies_beyond_its_axes(name: str) -> None:
+    bottom, top = CHARTS[name]["ends"]
+    for panel in CHARTS[name]["panels"]:
+        for curve in panel["curves"]:
+            assert curve["points"] or curve["high"] or curve["low"]
+            assert all(x > 0 and bottom < y < top for x, y in curve["points"])
+            pairs = zip(curve.get("range", []), curve["points"], strict=False)
+            assert all(least <= y <= most for (least, most), (_, y) in pairs)
+
+
+@pytest.mark.parametrize(
+    ("name", "look", "place", "line"),
+    [
+        ("accuracy-dials-tower-sink", "as it is", 0, "tower of 20 balls: sink, lesson as it is"),
+        ("accuracy-dials-tower-sink", "step", 0, "tower of 20 balls: sink, lesson, step 1/60"),
+        ("accuracy-dials-tower-sink", "step", -1, "tower of 20 balls: sink, lesson, step 1/480"),
+        ("accuracy-dials-tower-sink", "passes", -1, "tower of 20 balls: sink, lesson, passes 64"),
+        ("accuracy-smooth-energy", "rk4", 0, "orbit, rk4: energy error of the first round"),
+        ("accuracy-smooth-energy", "rk4", -1, "orbit, rk4: energy error of the last round"),
+    ],
+)
+def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line: str) -> None:
+    points = sorted(curve_of(name, look)["points"])
+    assert points[place][1] == pytest.approx(RESULTS["accuracy.md"][line], rel=1e-3)
+
+
+def told(curve: dict[str, Any], place: int, unit: str) -> str:
+    """How the figure begins to say a point."""
+    number = float(f"{curve['points'][place][1]:.3g}")
+    return f"{curve['name']}: sink {number:g}{unit}; time per frame of 1/60 s: "
+
+
+def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
+    figure = opened(screen, "accuracy-dials-tower-sink")
+    words, keys = figure.locator("output"), screen.page.keyboard
+    passes, step = (curve_of("accuracy-dials-tower-sink", look) for look in ("passes", "step"))
+    figure.locator("svg").first.focus()
+    keys.press("ArrowRight")
+    assert words.inner_text().startswith(told(passes, 1, " px"))
+    keys.press("ArrowDown")
+    assert words.inner_text().startswith("step: sink ")
+    for _ in range(9):
+        keys.press("ArrowRight")
+    assert words.inner_text().startswith(told(step, -1, " px"))
+    figure.get_by_label("step", exact=True).uncheck()
+    assert not words.inner_text().startswith("step")
+    figure.locator("select").select_option("solves of contacts and rods per second")
+    assert "; solves of contacts and rods per second: " in words.inner_text()
+    for look in ("passes", "shared substeps", "edits", "as it is"):
+        figure.get_by_label(look, exact=True).uncheck()
+    assert words.inner_text() == "All curves are switched off."
+
+
+def test_a_time_is_told_with_the_range_of_its_repeats(screen: Screen) -> None:
+    figure = opened(screen, "accuracy-piles")
+    mark = figure.locator("svg circle[r='4.5']").first.bounding_box()
+    screen.page.mouse.move(mark["x"] + 4, mark["y"] + 4)
+    said = figure.locator("output").inner_text()
+    assert re.fullmatch(
+        r"lesson: time per frame of 1/60 s [\d.]+ ms, [\d.]+ to [\d.]+ ms in repeats; "
+        r"balls in the settled pile: 8\.",
+        said,
+    )
+
+
+def test_what_holds_how_far_is_read_by_keys_and_pointer(screen: Screen) -> None:
+    lines = RESULTS["hard-cases.md"]
+    figure = opened(screen, "hard-cases-limits")
+    words = figure.locator("output")
+    title = "tower of equal balls: balls that stand"
+    figure.locator("svg").focus()
+    while title not in words.inner_text():
+        screen.page.keyboard.press("ArrowDown")
+    needed = lines[f"limit: {title}: must hold"]
+    assert words.inner_text() == f"{title}: lesson 2, must hold: more than {needed}."
+    for _ in ENGINES_BY_TOWER[1:]:
+        screen.page.keyboard.press("ArrowRight")
+    best = ENGINES_BY_TOWER[-1]
+    assert words.inner_text().startswith(f"{title}: {best} {lines[f'limit: {title}: {best}']}")
+    figure.get_by_label(best).uncheck()
+    assert best not in words.inner_text()
+
+
+ENGINES_BY_TOWER = sorted(
+    ("lesson", "stable", "pymunk", "box2d"),
+    key=lambda engine: RESULTS["hard-cases.md"][
+        f"limit: tower of equal balls: balls that stand: {engine}"
+    ],
+)
+
+
+@pytest.mark.parametrize(
+    "name", ["accuracy-budgets", "effects-stacked", "hard-cases-limits", *CHARTS]
+)
 def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> None:
     figure = opened(screen, name)
     screen.page.set_viewport_size({"width": 390, "height": 800})
     assert screen.page.evaluate("document.documentElement.scrollWidth") <= 390
     screen.page.emulate_media(media="print")
-    assert figure.locator("img.still").is_visible() and not figure.locator("svg").is_visible()
+    assert figure.locator("img.still").is_visible()
+    assert not figure.locator("svg").first.is_visible()
     screen.page.emulate_media(media="screen")
     screen.page.set_viewport_size({"width": 1280, "height": 720})

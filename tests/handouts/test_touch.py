@@ -24,10 +24,13 @@ TOUCH = KIT / "handouts" / "touch"
 SHARED = ("touch", "laws", "films")
 NAMES = sorted(path.stem for path in TOUCH.glob("*.js") if path.stem not in SHARED)
 PLAYED = ("predict", "tower")  # by films: see test_films.py
-MEASURED = ("accuracy-budgets", "effects-stacked")  # see test_measured.py
+MEASURED = (  # see test_measured.py
+    *("accuracy", "accuracy-budgets"),
+    *("effects-stacked", "hard-cases-limits"),
+)
 MOVED = [name for name in NAMES if name not in PLAYED + MEASURED]
 POINTS = 1000
-SHOWING = ("lesson.md", "lab-sheet.md", "accuracy.md", "effects.md")  # the pages with such figures
+SHOWING = ("lesson.md", "lab-sheet.md", "accuracy.md", "effects.md", "hard-cases.md")
 METHODS = ["explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4"]
 
 
