@@ -43,6 +43,11 @@ main > nav ul { columns: 18rem }
 .pages { display: flex; flex-wrap: wrap; gap: .3rem 1.5rem }
 .pages .next { margin-left: auto }
 footer { border-top: 1px solid #8888; margin-top: 3rem; padding-top: 1rem }
+@media print {
+  h1, h2, h3 { break-after: avoid }
+  img, pre, tr { break-inside: avoid }
+  .pages { display: none }
+}
 """
 PAGE = """<!doctype html>
 <html lang="en">

@@ -28,6 +28,7 @@ TOO_LONG = (
     "B3-only-the-nearest",
     "B3-a-pair-once-per-cell",
     "2-no-spin-terms",
+    "2-divides-by-the-inverse",
     "sends-a-million-lists",
 )
 SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
