@@ -2,7 +2,8 @@
 
 import pygame
 
-HEIGHT = 46  # px, of one strip
+HEIGHT = 54  # px, of one strip
+TEXT = 16  # px of it, for the words above the curve
 SECONDS = 8.0  # that it shows
 INK, DIM, LINE = (225, 228, 235), (150, 156, 170), (110, 175, 235)
 
@@ -29,7 +30,8 @@ def draw_strips(screen, font, show, area):
         points = [(time, read(figures)) for time, figures in show.history]
         points = [(time, value) for time, value in points if value is not None]
         most = max([least, *(abs(value) for _, value in points)])
-        for place in curve(points, show.time, most, box):
+        below = pygame.Rect(box.left, box.top + TEXT, box.width, box.height - TEXT)
+        for place in curve(points, show.time, most, below):
             pygame.draw.lines(screen, LINE, False, place, 2)
         now = f"{points[-1][1]:.2f} {unit}" if points else "n/a"
         screen.blit(font.render(f"{name}  {now}", True, INK), (box.left + 2, box.top - 2))
