@@ -204,7 +204,7 @@ def of_the_bank(released: Released, chosen: list[Member]) -> list[tuple[Path, fr
 
 
 def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released):
-    assert len(SAMPLE) >= 4
+    assert len({m.todos for m in SAMPLE}) >= 3, "of three files and more"
     assert share_named(compare(released, of_the_bank(released, SAMPLE))) > 0.7
 
 
