@@ -40,14 +40,16 @@ def imports_below(root: Path) -> list[Import]:
 def imports_in(path: Path, base: Path) -> Iterator[Import]:
     tree = ast.parse(path.read_bytes())
     for_types = {id(node) for guard in type_guards(tree) for node in below(guard.body)}
+    package = package_of(path, base)
     for node in ast.walk(tree):
-        for module, name in names_of(node, package_of(path, base)):
+        for module, name in names_of(node, package):
             source = file_of(f"{module}.{name}", base) or file_of(module, base)
             for each in [source, *packages_around(source, base)] if source else []:
                 if each != path and (each == source or each not in packages_around(path, base)):
                     yield Import(path, node.lineno, each, name or module, id(node) in for_types)
 
 
+@cache
 def packages_around(path: Path, base: Path) -> list[Path]:
     """The packages a file is in, which Python imports before it."""
     folders = path.relative_to(base).parents
@@ -57,8 +59,16 @@ def packages_around(path: Path, base: Path) -> list[Path]:
 def type_guards(tree: ast.Module) -> Iterator[ast.If]:
     """Every `if TYPE_CHECKING:`."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
+        if isinstance(node, ast.If) and last_name(node.test) == "TYPE_CHECKING":
             yield node
+
+
+def last_name(expression: ast.expr) -> str:
+    """The name, or what stands behind its last dot; empty for anything else."""
+    match expression:
+        case ast.Name(name) | ast.Attribute(attr=name):
+            return name
+    return ""
 
 
 def below(statements: list[ast.stmt]) -> Iterator[ast.AST]:
@@ -86,9 +96,10 @@ def names_of(node: ast.AST, package: list[str]) -> Iterator[tuple[str, str]]:
 
 def is_import_call(function: ast.expr) -> bool:
     """Whether it is import_module or __import__: here a name in quotes is an import as well."""
-    return ast.unparse(function).rpartition(".")[2] in ("import_module", "__import__")
+    return last_name(function) in ("import_module", "__import__")
 
 
+@cache
 def file_of(module: str, base: Path) -> Path | None:
     """The file of ours that a module is read from."""
     place = base.joinpath(*module.strip(".").split("."))
