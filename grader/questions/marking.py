@@ -147,6 +147,8 @@ def mark_of(student: str, number: int, question: Question, given: Given | None) 
             person = int(given.by_hand)
         else:
             waits = True
+            if question.by_machine:
+                notes.append(f"{machine} of {question.by_machine} so far")
             notes.append(f"waits for a person: 0 to {question.by_hand} in the column {BY_HAND}")
     worth = None if waits else machine + person
     return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)

@@ -315,9 +315,12 @@ def test_answers_on_paper_are_marked_and_none_is_dropped_silently(
     assert "half of it" in (handed_back / "points.csv").read_text()
 
 
-def test_what_a_person_marks_waits_for_one(handed_back: Path):
-    found = marked(handed_back, "student;question;answer;points\nada;6;x;\nada;7;y;4\n")
-    assert [each.points for each in found.marks[5:]] == [None, None]
+def test_what_a_person_marks_waits_for_one(handed_back: Path, whole_sheet: Sheet):
+    line = whole_sheet.questions[4].answer
+    rows = f"ada;5;{line};\nada;6;x;\nada;7;y;4\n"
+    found = marked(handed_back, f"student;question;answer;points\n{rows}")
+    assert [each.points for each in found.marks[4:]] == [None, None, None]
+    assert found.marks[4].note.startswith("2 of 2 so far; waits for a person: 0 to 1")
     assert all("waits for a person: 0 to 3" in each.note for each in found.marks[5:])
 
 
