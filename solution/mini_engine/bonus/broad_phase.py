@@ -17,7 +17,7 @@ def extent(body):
 
 
 def near_pairs(bodies):
-    """The pairs of bodies that may touch, as in combinations(bodies, 2): same order, each once.
+    """The pairs of bodies that may touch, each once and with the earlier body first.
 
     The plane is cut into square cells. A dictionary tells which bodies lie in which cell (x, y),
     with x and y whole numbers; a large body lies in many. Only bodies that share a cell may touch.
@@ -30,5 +30,6 @@ def near_pairs(bodies):
             for y in range(int(low.y // CELL), int(high.y // CELL) + 1):
                 cells.setdefault((x, y), []).append(number)
     pairs = {pair for numbers in cells.values() for pair in combinations(numbers, 2)}
+    # In the order of all pairs, so that the same run comes out, bit for bit.
     return [(bodies[i], bodies[j]) for i, j in sorted(pairs)]
     # END TODO B3
