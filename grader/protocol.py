@@ -474,6 +474,7 @@ class ChildSetup(Struct, frozen=True):
     compiles: bool  # whether this child fills that folder, and does nothing else
     loads: list[str] = []  # libraries that are slow to load, to be loaded before the fork
     bans: list[str] = []  # modules that it may import elsewhere, and not here
+    shown: list[str] = []  # folders of the submission that it only reads: it needs no copy of them
 
 
 class Ready(Struct, frozen=True):

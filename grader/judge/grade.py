@@ -1,5 +1,6 @@
 """Grading one submission, from a path to a Result."""
 
+import os
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -25,7 +26,7 @@ from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
-from grader.todo_regions import read_source, regions_in, shape_of
+from grader.todo_regions import python_files, read_source, regions_in, shape_of
 
 KIT = Path(__file__).parents[2]
 
@@ -119,8 +120,37 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
 def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
     """The sandbox of a tree: the grader and the reference are out of its children's reach."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
-    loads = ["numpy"] if tree.uses_numpy else []
-    return Sandbox(tree.folder, work, worker, options.isolation, hidden, loads, options.trusted)
+    return Sandbox(
+        tree.folder,
+        work,
+        worker,
+        options.isolation,
+        hidden,
+        loads=["numpy"] if tree.uses_numpy else [],
+        trusted=options.trusted,
+        shown=as_in_reference(tree.folder, options.reference),
+    )
+
+
+def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
+    """The folders of a tree that hold no program and are just as the reference has them.
+
+    They were handed out to be used. A folder of the student's own, which a program may write to, is
+    never among them.
+    """
+    if reference is None or os.name != "posix":  # Windows may not allow a link
+        return []
+    programs = {todo.module for todo in load_rubric().todos}
+    folders = [each.name for each in sorted(tree.iterdir()) if each.is_dir()]
+    return [
+        name for name in folders if name not in programs and alike(tree / name, reference / name)
+    ]
+
+
+def alike(folder: Path, other: Path) -> bool:
+    """Whether a folder holds the same Python files as another, and nothing else."""
+    ours = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    return ours == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
 
 
 @cache

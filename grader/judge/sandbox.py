@@ -29,6 +29,7 @@ class Sandbox:
     trusted: bool = False  # one's own work
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
     bans: list[str] = field(default_factory=list)  # modules that it may not import, by name
+    shown: list[str] = field(default_factory=list)  # folders that children need not copy
 
     def open_child(self, cpu_seconds: int) -> Child:
         """A child with this budget, of processor seconds.
@@ -88,6 +89,7 @@ class Sandbox:
             compiles=compiles,
             loads=self.loads,
             bans=self.bans,
+            shown=self.shown,
         )
 
     def _layers_around(self, child: Child) -> list[str]:

@@ -75,7 +75,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
     folder = Path(setup.scratch, name)
-    own_copy(submission, str(folder), setup.bytecode)
+    own_copy(submission, str(folder), setup)
     sys.dont_write_bytecode = True
     if setup.confine and "system-calls" not in without:
         layers += refuse_system_calls()  # last: what came before needs some of them
@@ -224,21 +224,28 @@ def folders_of(submission: str) -> list[str]:
     return sorted("" if each == "." else each for each in parents)
 
 
-def own_copy(submission: str, folder: str, bytecode: str) -> None:
+def own_copy(submission: str, folder: str, setup: ChildSetup) -> None:
     """The submission once more, for this child alone: it may write there, and it ends with it.
 
     Files keep their times, by which Python knows whether what was compiled before is still good.
     By the system's own calls: every child does this for every file, and needs the time for little
-    else.
+    else. What is only to be read is a link to where it is now.
     """
+    shown = tuple(f"{each}/" for each in setup.shown)
     for inside in folders_of(submission):
-        here, compiled = os.path.join(folder, inside), os.path.join(bytecode, inside)
+        if f"{inside}/".startswith(shown):
+            continue
+        here, compiled = os.path.join(folder, inside), os.path.join(setup.bytecode, inside)
         with contextlib.suppress(OSError):  # more than a child may have: to be missed
             os.mkdir(here)
         if os.path.isdir(compiled):
             with contextlib.suppress(OSError):  # Windows may not allow it: each compiles for itself
                 os.symlink(compiled, os.path.join(here, "__pycache__"), target_is_directory=True)
+    for name in setup.shown:
+        os.symlink(os.path.join(setup.submission, name), os.path.join(folder, name))
     for path, kept in files_of(submission).items():
+        if path.startswith(shown):
+            continue
         target = os.path.join(folder, path)
         with contextlib.suppress(OSError):  # or larger
             descriptor = os.open(target, NEW_FILE, 0o666)
