@@ -151,21 +151,52 @@ def in_rar(source: str) -> Files:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
                 raise Refused("the archive is encrypted: ask for one without a password")
-            for member in archive.infolist():
-                if member.is_file() and not member.file_redir:
-                    large = member.file_size > MAX_FILE
-                    yield member.filename, None if large else archive.read(member)
-    except rarfile.RarCannotExec as error:
-        raise Refused(
-            "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
-            "bsdtar, or ask for a zip"
-        ) from error
+            plain = [each for each in archive.infolist() if each.is_file() and not each.file_redir]
     except rarfile.BadRarFile as error:
         if "next volume" in str(error):
             raise Refused(PART) from error
         raise
     except rarfile.NeedFirstVolume as error:
         raise Refused(PART) from error
+    yield from ((each.filename, None) for each in plain if each.file_size > MAX_FILE)
+    wanted = [each.filename for each in plain if each.file_size <= MAX_FILE]
+    tools, failed = unpackers(rarfile), []
+    for name in tools or ["no tool"]:
+        rarfile.CURRENT_SETUP = tools.get(name)
+        try:
+            with rarfile.RarFile(source) as archive:
+                contents = [archive.read(each) for each in wanted]
+        except rarfile.RarCannotExec as error:
+            raise Refused(
+                "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
+                "bsdtar, or ask for a zip"
+            ) from error
+        except rarfile.Error:  # some lack what this archive takes, and say so in words of their own
+            failed.append(name)
+            continue
+        yield from zip(wanted, contents, strict=True)
+        return
+    raise Refused(
+        f"the archive is broken, or {' and '.join(failed)} cannot unpack it here: ask for a zip"
+    )
+
+
+def unpackers(rarfile: Any) -> dict[str, Any]:
+    """The programs of this machine that unpack a .rar, the best first."""
+    kinds = {
+        "unrar": rarfile.UNRAR_CONFIG,
+        "unar": rarfile.UNAR_CONFIG,
+        "7z": rarfile.SEVENZIP_CONFIG,
+        "7zz": rarfile.SEVENZIP2_CONFIG,
+        "bsdtar": rarfile.BSDTAR_CONFIG,
+    }
+    tools = {name: rarfile.ToolSetup(kind) for name, kind in kinds.items()}
+    # rarfile puts a -- behind -f, which is the file's name to bsdtar
+    tools["bsdtar"].open_cmdline = lambda password, path, *names: [
+        *(rarfile.BSDTAR_TOOL, "-x", "--to-stdout", "-f", path),
+        *filter(None, names),
+    ]
+    return {name: tool for name, tool in tools.items() if tool.check()}
 
 
 def library(name: str, format: str) -> Any:
