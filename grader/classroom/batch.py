@@ -62,7 +62,7 @@ class Run:
         for members in works.values():
             first = members[0]
             try:
-                package = pack(first)
+                package = pack(first, self.course.modules)
             except CannotTake as error:
                 for found in members:
                     self.trouble(found, str(error))
@@ -112,6 +112,7 @@ class Run:
             reasons=[*counted, *final.reasons],
             notes=[
                 *self.said.get(found.name, []),
+                *outcome.broken,
                 *([f"open task: +{open_task}"] * (open_task > 0)),
             ],
             late=bool(self.adjustments.days_late(found)),

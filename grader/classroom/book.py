@@ -46,6 +46,7 @@ class Outcome(Struct, frozen=True):
     by_hand: bool = False  # the final points were set by a person, whatever was graded
     due: datetime | None = None  # for this student
     notes: list[str] = []  # what taking it in has to say
+    broken: list[str] = []  # programs that cannot be imported, and why
     group: list[str] = []  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
 
@@ -133,7 +134,18 @@ def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
         graded=datetime.now(UTC).replace(microsecond=0),
         key=key,
         content=hashlib.sha256(result).hexdigest(),
+        broken=not_imported(decoded),
     )
+
+
+def not_imported(result: Result) -> list[str]:
+    """The programs whose every point is lost before the first question is asked, and why."""
+    lost: dict[str, str] = {}
+    for todo in result.counted:
+        for check in todo.checks:
+            if check.state == "error" and check.ran.startswith("import "):
+                lost.setdefault(check.ran, check.got.partition("\n")[0][:100])
+    return [f"{ran} fails: {why}" for ran, why in lost.items()]
 
 
 def lines(outcomes: Iterable[Outcome]) -> bytes:

@@ -339,6 +339,9 @@ def marks_command(
         Path | None, typer.Option(help="What the parts are worth; marks.toml of the course.")
     ] = None,
     so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+    others_known: Annotated[
+        bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
+    ] = False,
     taken: TakenFile = None,
 ) -> None:
     """Make one mark per student, in the gradebook's own form.
@@ -365,7 +368,7 @@ def marks_command(
             told = [f"{each.name}: {why(each)}" for each in outcomes if why(each)]
         else:
             scores, told = parts_from_gradebook(course or Path("."), marking), []
-        made = marks(listed, column, scores, marking, so_far)
+        made = marks(listed, column, scores, marking, so_far, others_known)
     except (CannotRead, NoCourse, NoResults) as error:
         stop(str(error), "go on")
     out.parent.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,7 @@ from grader.classroom.intake.packing import pack
 from grader.classroom.marks import Marking, load_marking, total_of
 from grader.classroom.names import folded, in_short
 from grader.classroom.roster import GROUPS, CannotRead, ClassList, Roster, names_in, read_roster
-from grader.judge.course import FULL, WrongCourse, read_course
+from grader.judge.course import FULL, Course, WrongCourse, read_course
 from grader.judge.submission import CannotGrade
 
 TITLED = {"canvas": "(", "blackboard": "["}  # what follows an assignment's title in a column
@@ -65,7 +65,7 @@ def faults_of_course(files: Files, path: Path | None = None) -> Iterator[str]:
     try:
         with opened_class(files.submissions, people) as intake:
             names = [*(each.name for each in intake.found), *intake.troubles]
-            yield from faults_of_submissions(intake, people, adjustments)
+            yield from faults_of_submissions(intake, people, adjustments, course)
     except CannotGrade as error:
         yield str(error)
         return
@@ -75,6 +75,8 @@ def faults_of_course(files: Files, path: Path | None = None) -> Iterator[str]:
 
 def faults_of_roster(roster: Roster, key: str) -> Iterator[str]:
     """Whom a class list does not tell from others, or at all."""
+    if roster.doubt:
+        yield roster.doubt
     nameless = sum(not row[key].strip() for row in roster.rows)
     if nameless:
         yield f"{roster.path}: {nameless} rows have no {key!r}: nobody's work will be theirs"
@@ -115,12 +117,12 @@ def faults_of_total(roster: Roster, marking: Marking) -> Iterator[str]:
 
 
 def faults_of_submissions(
-    intake: Intake, people: ClassList, adjustments: Adjustments
+    intake: Intake, people: ClassList, adjustments: Adjustments, course: Course = FULL
 ) -> Iterator[str]:
     yield from (f"{name}: {words}" for name, words in sorted(intake.troubles.items()))
     for found in intake.found:
         try:
-            pack(found)
+            pack(found, course.modules)
         except CannotTake as error:
             yield f"{found.name}: {error}"
     names = [*(each.name for each in intake.found), *intake.troubles]

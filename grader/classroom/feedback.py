@@ -102,7 +102,9 @@ def for_moodle(source: Path, members: list[Returned]) -> Iterator[tuple[str, byt
     for each in members:
         own = each.participant if each.found.handed_in_by else ""
         file = PAGE if own else each.file
-        yield f"{own or first}_assignsubmission_file_{file}", each.page
+        name, _, number = (own or first).rpartition("_")
+        name = name.replace("_", " ")  # Moodle takes what follows the first one for the number
+        yield f"{name}_{number}_assignsubmission_file_{file}", each.page
 
 
 def for_canvas(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
@@ -151,7 +153,8 @@ def as_text(entry: Entry) -> str:
 
 def by_address(roster: Roster, key: str, entries: list[Entry], pages: Path) -> Feedback:
     """The pages by addresses, for mailing, and a list of them; a group's go to all of it."""
-    column = next((name for name in ADDRESSES if has_addresses(roster, name)), None)
+    columns = [*ADDRESSES, *roster.columns]
+    column = next((name for name in columns if has_addresses(roster, name)), None)
     if column is None:
         raise CannotRead(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
     made = Feedback()

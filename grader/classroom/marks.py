@@ -17,6 +17,7 @@ import msgspec
 from msgspec import Struct
 
 from grader.classroom.book import NOTHING, Outcome
+from grader.classroom.names import in_short
 from grader.classroom.owners import match
 from grader.classroom.roster import (
     BLACKBOARD,
@@ -33,6 +34,7 @@ from grader.report.sinks.tables import harmless
 from grader.words import clean
 
 TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.]+)")  # Blackboard's and Brightspace's columns
+COMMAS = ("worksheet", "brightspace")  # taken back in UTF-8 and with commas alone
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
@@ -133,12 +135,18 @@ class Marks:
 
 
 def marks(
-    roster: Roster, key: str, scores: dict[str, Parts], marking: Marking, so_far: bool = False
+    roster: Roster,
+    key: str,
+    scores: dict[str, Parts],
+    marking: Marking,
+    so_far: bool = False,
+    others_known: bool = False,
 ) -> Marks:
     """The class list with a mark for each student.
 
     A mark that still waits for a person is left empty, unless `so_far`. So is a row that could be
-    more than one student's: nobody gets another's mark, nor a zero for bearing another's name.
+    more than one student's: nobody gets another's mark, nor a zero for bearing another's name. And
+    as long as work has no owner nobody is known to have handed in nothing, unless `others_known`.
     """
     absent = [
         name for name, parts in scores.items() if not any(p.handed_in for p in parts.values())
@@ -146,6 +154,7 @@ def marks(
     owners = match(roster, key, scores, absent)
     rows: list[Marked] = []
     notes: list[str] = []
+    unowned: list[str] = []
     given = 0
     for row in roster.rows:
         found = owners.of(row)
@@ -163,23 +172,36 @@ def marks(
                 notes.append(f"{row[key]}: no mark yet, {', '.join(left)} must be graded by hand")
             if mates := owners.mates(row):
                 notes.append(f"{row[key]}: the mark of {' and '.join(mates)}, of the same group")
+        elif owners.strangers and not others_known:
+            mark, words = "", ""
+            unowned.append(row[key])
         else:
             notes.append(f"{row[key]}: nothing handed in")
         given += mark != ""
         rows.append((row, mark, words))
     for student in sorted(owners.strangers):
         notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
+    if unowned:
+        notes.append(
+            f"{in_short(unowned)}: no mark, as that may be their work: say whose it is in a column "
+            "Called, or with --others-known that it is nobody's here"
+        )
     worth = total_of(roster, marking.title)
     if worth is not None and worth != marking.total:
         notes.append(f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}")
     table = TABLES[roster.kind](roster, key, rows, marking)
-    return Marks(as_csv(table, roster), given, notes, roster.encoding)
+    encoding = "utf-8" if roster.kind in COMMAS else roster.encoding
+    return Marks(as_csv(table, roster), given, notes, encoding)
 
 
 def summary(parts: Parts, marking: Marking) -> str:
     """What makes the mark, for the column of feedback."""
     return "; ".join(
-        f"{name} {parts[name].points:g} / {parts[name].max_points:g}"
+        (
+            f"{name} not graded"
+            if parts[name].waiting and not parts[name].max_points
+            else f"{name} {parts[name].points:g} / {parts[name].max_points:g}"
+        )
         + f" ({clean(parts[name].note)})" * bool(parts[name].note)
         for name in marking.shares
         if name in parts
@@ -203,7 +225,7 @@ def canvas_table(roster: Roster, key: str, rows: list[Marked], marking: Marking)
 def plain_table(roster: Roster, key: str, rows: list[Marked], marking: Marking) -> list[list[str]]:
     """Moodle's gradebook asks at import which column is which."""
     own = [name for name in roster.columns if name in MOODLE or name == key]
-    table = [[*own, "Grade", "Feedback"]]
+    table = [[*(roster.titles.get(name, name) for name in own), "Grade", "Feedback"]]
     table += [[*(row[name] for name in own), mark, words] for row, mark, words in rows]
     return table
 
@@ -213,7 +235,7 @@ def worksheet_table(
 ) -> list[list[str]]:
     """Moodle's grading worksheet goes back as it came: by its Identifier, two columns filled."""
     filled = {"Grade": 1, "Feedback comments": 2}
-    table = [roster.columns]
+    table = [[roster.titles.get(name, name) for name in roster.columns]]
     for marked in rows:
         cells = {name: str(marked[at]) for name, at in filled.items()}
         table.append([cells.get(name, marked[0][name]) for name in roster.columns])
@@ -268,6 +290,7 @@ TABLES: dict[Kind, Callable[[Roster, str, list[Marked], Marking], list[list[str]
 
 def as_csv(table: list[list[str]], roster: Roster) -> str:
     out = io.StringIO(newline="")
-    writer = csv.writer(out, delimiter=roster.delimiter, lineterminator="\r\n")
+    delimiter = "," if roster.kind in COMMAS else roster.delimiter
+    writer = csv.writer(out, delimiter=delimiter, lineterminator="\r\n")
     writer.writerows([harmless(cell) for cell in row] for row in table)
     return roster.mark + out.getvalue()

@@ -14,6 +14,12 @@ def folded(words: str) -> str:
     return unicodedata.normalize("NFC", words).strip().casefold()
 
 
+def without_zeros(words: str) -> str:
+    """A number as a spreadsheet leaves it, without the zeros before it; anything else folded."""
+    plain = folded(words)
+    return plain.lstrip("0") or "0" if plain.isdecimal() else plain
+
+
 def names_of(cell: str) -> list[str]:
     """What a student may be called in the gradebook: the cell, or the first half of an address."""
     return [name for name in dict.fromkeys([folded(cell), folded(cell).partition("@")[0]]) if name]

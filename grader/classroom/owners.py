@@ -8,8 +8,8 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from grader.classroom.names import folded, names_of
-from grader.classroom.roster import KEYS, Roster, groups_of, names_in
+from grader.classroom.names import folded, names_of, without_zeros
+from grader.classroom.roster import KEYS, Roster, groups_of, names_in, number_in
 
 NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # as exports name their files
 Row = dict[str, str]
@@ -70,7 +70,7 @@ def found(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
 
 def share(roster: Roster, owners: Owners, absent: set[str]) -> None:
     """Who handed in nothing has what the one of the group has who did."""
-    for rows in groups_of(roster):
+    for rows in groups_of(roster).values():
         handed_in = [name for row in rows for name in owners.of(row) if name not in absent]
         for row in rows:
             if handed_in and not owners.of(row):
@@ -87,16 +87,20 @@ def ways_by(key: str) -> list[tuple[Labels, Callable[[str], list[str]]]]:
     return [
         (lambda row: [row[key]], lambda name: [name]),
         (lambda row: [row.get(column, "") for column in (*KEYS, "ID")], lambda name: [name]),
-        (lambda row: [row.get("ID", ""), row.get("Identifier", "")], numbers_of),
+        (lambda row: [row.get("ID", ""), number_in(row)], number_of),
         (lambda row: names_of(row[key]), names_of),
         (names_in, lambda name: [name, plain_name(name)]),
+        (
+            lambda row: [without_zeros(row.get(column, "")) for column in (key, *KEYS, "ID")],
+            lambda name: [without_zeros(name)],
+        ),
     ]
 
 
-def numbers_of(name: str) -> list[str]:
-    """Canvas's ID and Moodle's Identifier, as they stand behind a name."""
+def number_of(name: str) -> list[str]:
+    """Canvas's ID or that of Moodle's Identifier, as it stands behind a name."""
     match = NUMBERED.fullmatch(name)
-    return [match["number"], f"Participant {match['number']}"] if match else []
+    return [match["number"]] if match else []
 
 
 def plain_name(name: str) -> str:

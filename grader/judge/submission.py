@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import msgspec
 
@@ -64,9 +64,9 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 
 
 def copy_tree(path: Path, submission: Submission) -> None:
-    """Plain files only, Python's first: no links, nothing hidden, and no more than the bounds."""
+    """Plain files only, the lab's first: no links, nothing hidden, and no more than the bounds."""
     files = size = 0
-    for source in sorted(plain_files(path), key=lambda each: (each.suffix != ".py", each)):
+    for source in sorted(plain_files(path), key=lambda each: weight(each.relative_to(path))):
         inside = source.relative_to(path)
         length = source.stat().st_size
         if files + 1 > MAX_FILES or size + length > MAX_BYTES:
@@ -76,6 +76,12 @@ def copy_tree(path: Path, submission: Submission) -> None:
         target = submission.folder / inside
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
+
+
+def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
+    """The order in which files are taken while there is room: the lab's own before all others."""
+    of_lab = inside.parts[0].removesuffix(".py") in {todo.module for todo in load_rubric().todos}
+    return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
 
 def supply_given(folder: Path) -> None:
@@ -198,6 +204,6 @@ def region_of(text: str, todo: str) -> Region | None:
         return None
 
 
-def module_of(inside: Path) -> str:
+def module_of(inside: PurePath) -> str:
     """The module or package that a file, named from the submission's folder, belongs to."""
     return inside.parts[0].removesuffix(".py")

@@ -81,7 +81,8 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
         name: each for name, each in table.oracles.items() if f"def {name}(" in texts["exact.py"]
     }
     table = msgspec.structs.replace(table, oracles=asked)
-    texts["recorded.json"] = json.dumps(msgspec.to_builtins(table), separators=(",", ":"))
+    recorded = msgspec.to_builtins(table)
+    texts["recorded.json"] = json.dumps(recorded, separators=(",", ":"), sort_keys=True)
     for name, text in texts.items():
         (checks / name).write_text(text, encoding="utf-8", newline="\n")
 
@@ -175,15 +176,16 @@ def record(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
             seen += watch(path, todos, without_properties(rubric), worker)
     finally:
         worker.close()
-    asked = {todo.id for todo in rubric.todos}
+    asked = [todo.id for todo in rubric.todos]
     for todo in asked:
         misconceptions.load_known(todo)
     mistakes = [
         RecordedMistake(
             each.todo, each.id, each.meaning, each.about, answers(each.model, each.about, seen)
         )
+        for todo in asked  # the same order in every process, whatever was loaded before
         for each in misconceptions.known
-        if each.todo in asked
+        if each.todo == todo
     ]
     right, traits = (
         {about: answers(model, about, seen) for about, model in models.items()}

@@ -345,13 +345,13 @@ def until(true: Callable[[], bool]) -> None:
 
 def test_the_exit_status_says_whether_all_could_be_graded(tmp_path):
     (tmp_path / "class" / "ann").mkdir(parents=True)
-    (tmp_path / "class" / "ann" / "integrators.py").touch()
+    (tmp_path / "class" / "ann" / "integrators.py").write_text("x = 1\n", encoding="utf-8")
     out = ["--out", str(tmp_path / "marks")]
     done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, stdout=subprocess.DEVNULL)
     assert done.returncode == 0
     (tmp_path / "class" / "ben.zip").write_bytes(b"")
     done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, capture_output=True)
-    assert done.returncode == 2 and b"the zip is broken" in done.stdout
+    assert done.returncode == 2 and b"the archive is broken" in done.stdout
     assert json.loads((tmp_path / "marks" / "ann.json").read_bytes())["points"] == 0
     nowhere = subprocess.run(command(tmp_path / "nowhere"), cwd=KIT, capture_output=True)
     assert nowhere.returncode == 2 and b"no folder of submissions" in nowhere.stderr

@@ -94,7 +94,7 @@ def test_each_gradebook_reads_its_marks_back(tmp_path, text, key, read):
         assert file.given == 4
         assert any("ben" in note and "no mark yet" in note for note in file.notes)
     if text is WORKSHEET:
-        assert told[BEN][1] == "engine 0 / 0 (the archive is broken)"
+        assert told[BEN][1] == "engine not graded (the archive is broken)"
         assert "broken" in told[CEM][1] and told[DORA][1] == "nothing handed in"
 
 

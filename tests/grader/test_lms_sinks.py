@@ -137,5 +137,5 @@ def test_canvas_gets_points_after_adjustments_and_none_where_none_could_be_found
 def test_moodle_gets_the_reason_as_feedback(graded: Path):
     (zoe, ben, _), _ = marks(graded, MOODLE)
     assert zoe["Feedback"] == "engine 2 / 7 (1 day late: -1)"
-    assert (ben["Grade"], ben["Feedback"]) == ("", "engine 0 / 0 (=no zip)")
+    assert (ben["Grade"], ben["Feedback"]) == ("", "engine not graded (=no zip)")
     assert marks(graded, MOODLE, "--so-far")[0][1]["Grade"] == "0.0"

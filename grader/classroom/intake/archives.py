@@ -16,17 +16,17 @@ from pathlib import Path, PurePosixPath
 
 from grader.classroom.intake import repack
 from grader.classroom.intake.found import CannotTake
-from grader.classroom.intake.places import is_system_file
+from grader.classroom.intake.pieces import weight
+from grader.classroom.intake.places import SIGNS, is_system_file
 from grader.classroom.names import folded, portable
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES
 from grader.judge.workplace import work_folder
 
 MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
-MENTIONED = 5  # of the files that are left out
+SPARED = 100  # files of a submission's allowance that only the lab's own are given
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
 PATIENCE = 4 * repack.SECONDS  # s on the clock: the last resort where nothing else ends it
-SIGNS = (b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ")  # whatever the name says
 
 
 @dataclass
@@ -37,25 +37,30 @@ class Bounds:
     bytes: int = MAX_BYTES
     left_out: list[str] = field(default_factory=list)
 
-    def take(self, name: str, length: int) -> bool:
-        if not self.files or length > self.bytes:
-            self.mention(name)
+    def take(self, name: str, length: int, spared: int = 0) -> bool:
+        """Whether there is room for a file, with that for so many others left."""
+        if self.files <= spared or length > self.bytes:
+            self.left_out.append(name)
             return False
         self.files, self.bytes = self.files - 1, self.bytes - length
         return True
 
-    def mention(self, name: str) -> None:
-        if len(self.left_out) < MENTIONED:
-            self.left_out.append(f"{name}: too much")
+    @property
+    def notes(self) -> list[str]:
+        """One for all that was too much."""
+        if not self.left_out:
+            return []
+        more = len(self.left_out) - 1
+        others = f" and {more} more {'file' if more == 1 else 'files'}" if more else ""
+        return [f"left out {self.left_out[0]}{others}: too much"]
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
-    """Unpack what may be part of a submission, Python's files first, within the bounds."""
+    """Unpack what may be part of a submission, the lab's files first, within the bounds."""
     check_size(path)
     with checked_archive(path) as (archive, too_large):
-        for large in too_large:
-            bounds.mention(large)
-        members = sorted(members_of(archive), key=lambda each: (each[0].suffix != ".py", each[0]))
+        bounds.left_out += too_large
+        members = sorted(members_of(archive), key=lambda each: weight(each[0]))
         if not members:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
@@ -64,7 +69,8 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
             ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
             if ignored or environments & set(name.parents):
                 continue
-            if bounds.take(name.as_posix(), member.file_size):
+            spared = SPARED if weight(name)[0] else 0
+            if bounds.take(name.as_posix(), member.file_size, spared):
                 write_member(archive, member, folder / name)
 
 
@@ -84,7 +90,11 @@ def checked_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
     """Open an archive of any known kind, by what it is; and the files that are too large for it."""
     with open(path, "rb") as file:
         sign = file.read(8)
-    if path.suffix.lower() == ".zip" and not sign.startswith(SIGNS):
+    if not sign:
+        raise CannotTake("the archive is broken: it has no bytes")
+    if sign.startswith(b"PK\x03\x04") or (
+        path.suffix.lower() == ".zip" and not sign.startswith(SIGNS)
+    ):
         with checked_zip(path) as archive:
             yield archive, []
         return
@@ -126,7 +136,11 @@ def checked_zip(path: Path) -> Iterator[zipfile.ZipFile]:
     except RuntimeError as error:
         raise CannotTake("the zip is encrypted: ask for one without a password") from error
     except Exception as error:  # zipfile and zlib have many; the bytes are a stranger's
-        raise CannotTake(f"the zip is broken ({type(error).__name__}: {error!s:.100})") from error
+        cut = path.suffix.lower() == ".zip" and not zipfile.is_zipfile(path)
+        why = ": it is cut off, or no zip" if cut else ""
+        raise CannotTake(
+            f"the zip is broken{why} ({type(error).__name__}: {error!s:.100})"
+        ) from error
 
 
 def check_size(path: Path) -> None:

@@ -27,10 +27,11 @@ def upload(path: Path, people: ClassList) -> Upload | None:
     if match is None:
         return None
     user, full = receipt(path.with_name(f"{match['attempt']}.txt"))
-    user = user or match["user"]
+    user = user or listed_user(match, people) or match["user"]
     name = people.name_of(["Username"], user)
     name = name or people.name_of(["SIS Login ID", "Email address", "ID number"], user)
     name = name or (people.name_of(["name"], full) if full and not people.knows("Username") else "")
+    name = name or people.one_of_group(user)
     when = None
     with suppress(ValueError):
         when = datetime.strptime(match["when"], "%Y-%m-%d-%H-%M-%S")
@@ -43,6 +44,16 @@ def upload(path: Path, people: ClassList) -> Upload | None:
         attempt=match["when"],
         owner=user,
     )
+
+
+def listed_user(match: re.Match[str], people: ClassList) -> str:
+    """The user of the class list whose name is the longest end of what stands there.
+
+    `Lab_1_kl_6` is user `kl_6` of `Lab_1`, or `6` of `Lab_1_kl`: the list knows.
+    """
+    parts = f"{match['assignment']}_{match['user']}".split("_")
+    ends = ("_".join(parts[at:]) for at in range(1, len(parts)))
+    return next((end for end in ends if people.name_of(["Username"], end)), "")
 
 
 def own_name(path: Path) -> str | None:

@@ -7,9 +7,10 @@ from grader.classroom.intake.found import Upload
 from grader.classroom.names import portable
 from grader.classroom.roster import ClassList
 
-FILE = re.compile(r"(?P<name>\w+?)_(?P<late>LATE_)?(?P<user>\d+)_\d+_(?P<file>.+)")
+NAME = r"(?P<name>(?:\w|[^\x00-\x7f])+?)"  # letters, and the marks on them that are none to Python
+FILE = re.compile(rf"{NAME}_(?P<late>LATE_)?(?P<user>\d+)_\d+_(?P<file>.+)")
 ANONYMOUS = re.compile(r"(?P<late>LATE_)?(?P<name>anon)_(?P<user>[^\W_]+)_\d+_(?P<file>.+)")
-NO_FILE = re.compile(r"(?P<name>\w+)_(text|link)\.html")
+NO_FILE = re.compile(rf"{NAME}_(text|link)\.html")
 
 
 def upload(path: Path, people: ClassList) -> Upload | None:

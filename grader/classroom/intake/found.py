@@ -52,6 +52,7 @@ class Upload:
     empty: bool = False  # a text or a link was handed in, and no file
     handed_in: datetime | None = None
     attempt: str = ""  # of several the last in order counts
+    timeless: bool = False  # which of several is the last is not known
     owner: str = ""  # what the LMS itself calls the student; two of one name are two all the same
 
 

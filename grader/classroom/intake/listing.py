@@ -1,5 +1,6 @@
 """Listing a class: whose each file and folder is, each submission once, and what is left out."""
 
+import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -93,15 +94,18 @@ def by_name(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Fo
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
     for path in paths:
-        if path.is_symlink():
-            intake.notes.append(f"{path.name} is a link, and links are not followed")
-        elif (upload := upload_at(path, people)) is None:
-            loose.mention(path, intake)
+        upload = None if path.is_symlink() else upload_at(path, people)
+        if upload is None:
+            loose.mention(path, intake, people)
         elif upload.empty:
             empty[upload.name] = path
         else:
             groups.setdefault((upload.name, upload.owner), []).append(upload)
     for (name, _), group in groups.items():
+        if any(each.timeless for each in group) and len({each.attempt for each in group}) > 1:
+            told = " and ".join(sorted({each.path.name for each in group}))
+            intake.troubles[name] = f"handed in more than once, and when is not read: {told}"
+            continue
         last = max(each.attempt for each in group)
         if before := sorted({each.attempt for each in group if each.attempt != last}):
             intake.notes.append(f"{name}: of {len(before) + 1} attempts the last counts, of {last}")
@@ -142,8 +146,15 @@ def without_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
             intake.notes.append(f"{' and '.join(places)} are the same: the first counts")
             yield group[0]
         else:
-            words = f"handed in more than once, as {' and '.join(places)}: leave one"
-            intake.troubles[group[0].name] = words
+            words = f"handed in more than once, as {' and '.join(told_apart(places))}: leave one"
+            other = ", or rename one where they are two students'" * (len(set(places)) > 1)
+            intake.troubles[group[0].name] = words + other
+
+
+def told_apart(names: list[str]) -> list[str]:
+    """Names as they are, or letter by letter where they look the same."""
+    same = len({unicodedata.normalize("NFC", name) for name in names}) < len(set(names))
+    return [ascii(name) for name in names] if same else names
 
 
 def digest_or_trouble(each: Found) -> str:

@@ -15,7 +15,7 @@ def upload(path: Path, people: ClassList) -> Upload | None:
     match = NAME.fullmatch(path.name)
     if match is None:
         return None
-    known = people.name_of(["Identifier"], f"Participant {match['id']}", match["id"])
+    known = people.name_of(["Identifier"], match["id"])
     if known is None and not people.knows("Identifier"):
         known = people.name_of(["name"], match["name"], *without_group(match["name"]))
     name = known or f"{match['name']}_{match['id']}"

@@ -2,9 +2,10 @@
 
 import re
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from filecmp import cmp
+from pathlib import Path, PurePosixPath
 
 from grader.classroom.intake import blackboard, brightspace, canvas, moodle
 from grader.classroom.intake.archives import Bounds, check_size, unzip
@@ -14,18 +15,19 @@ from grader.classroom.intake.pieces import (
     ManyPrograms,
     arranged,
     meant,
+    no_program,
     nothing_of_the_lab,
+    weight,
 )
 from grader.classroom.intake.places import (
     DEEPEST,
     is_archive,
     modules,
-    python_first,
     stem_of,
     unwrapped,
 )
-from grader.classroom.names import portable
-from grader.judge.submission import CannotGrade, plain_files
+from grader.classroom.names import in_short, portable
+from grader.judge.submission import CannotGrade, module_of, plain_files
 from grader.judge.workplace import work_folder
 
 COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file that comes again
@@ -65,25 +67,39 @@ def lies_well(path: Path) -> bool:
     return as_it_is or not (laid.files or archives_in(path))
 
 
-def pack(found: Found) -> Package:
+def pack(found: Found, asked: Collection[str] = ()) -> Package:
     """Read what may be taken of a submission, wherever in it the programs lie.
 
-    Raises CannotTake where there is none of them, or something could not be read: this is no work
-    worth nothing, but for a person to look at.
+    Raises CannotTake where there is none of those that the course asks for, or something could not
+    be read: this is no work worth nothing, but for a person to look at.
     """
     bounds, files = Bounds(), []
+    asked = asked or modules()
     try:
         with opened(found) as (folder, laid, notes):
-            if not laid.files:
-                raise nothing_of_the_lab(folder)
-            for name in sorted(laid.files, key=lambda each: (not each.endswith(".py"), each)):
+            if not any(module_of(PurePosixPath(name)) in asked for name in laid.files):
+                raise nothing_of_the_lab(folder, asked, notes)
+            for name in sorted(laid.files, key=lambda each: weight(PurePosixPath(each))):
                 path = laid.files[name]
                 if bounds.take(name, path.stat().st_size):
                     files.append((name, path.read_bytes()))
     except OSError as error:
-        raise CannotTake(f"it cannot be read: {error}") from error
-    left_out = [f"left out {each}" for each in bounds.left_out]
-    return Package(found.name, sorted(files), [*notes, *laid.notes, *left_out])
+        raise CannotTake(f"it cannot be read: {error.strerror or type(error).__name__}") from error
+    notes += no_programs(files, asked)
+    return Package(found.name, sorted(files), [*notes, *laid.notes, *bounds.notes])
+
+
+def no_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
+    """Notes on programs that say nothing; raises CannotTake where one is no Python at all."""
+    held = {name: content for name, content in files if module_of(PurePosixPath(name)) in asked}
+    empty = {name for name, content in held.items() if no_program(content) == "empty"}
+    if held and len(empty) == len(held):
+        raise CannotTake(f"there is nothing in what was handed in: {in_short(sorted(held))}")
+    for name, content in sorted(held.items()):
+        if name.endswith(".py") and name not in empty and (words := no_program(content)):
+            raise CannotTake(f"{name} is {words}: ask for the program itself")
+    alone = (f"{name} is empty" for name in sorted(empty) if "/" not in name)
+    return list(alone)
 
 
 @contextmanager
@@ -109,14 +125,13 @@ def opened(found: Found) -> Iterator[tuple[Path, Arranged, list[str]]]:
     if len(found.sources) == 1 and folder.is_dir():
         laid = arranged(folder)
         if complete(laid) or not archives_in(folder):
-            yield folder, laid, unopened(folder)
+            yield folder, laid, unopened(folder, laid)
             return
     with work_folder() as temporary:
         bounds = Bounds()
         gather_all(found, temporary, bounds)
         laid = unpacked(found, temporary, bounds)
-        left_out = [f"left out {each}" for each in bounds.left_out]
-        yield temporary, laid, [*unopened(temporary), *left_out]
+        yield temporary, laid, [*unopened(temporary, laid), *bounds.notes]
 
 
 def complete(laid: Arranged) -> bool:
@@ -129,9 +144,11 @@ def archives_in(folder: Path) -> list[Path]:
     return sorted(path for path in plain_files(folder) if is_archive(path))
 
 
-def unopened(folder: Path) -> list[str]:
+def unopened(folder: Path, laid: Arranged) -> list[str]:
     names = [path.relative_to(folder).as_posix() for path in archives_in(folder)]
-    return [f"{name} was not opened: all programs lie beside it" for name in names]
+    enough = "all programs lie beside it"
+    deep = f"archives are opened {DEEPEST} deep, one in the other"
+    return [f"{name} was not opened: {enough if complete(laid) else deep}" for name in names]
 
 
 def unpacked(found: Found, folder: Path, bounds: Bounds) -> Arranged:
@@ -162,11 +179,18 @@ def unpacked(found: Found, folder: Path, bounds: Bounds) -> Arranged:
 
 
 def gather_all(found: Found, folder: Path, bounds: Bounds) -> None:
-    """Gather what was handed in under the names it had."""
+    """Gather what was handed in under the names it had, the same file but once."""
+    known: dict[tuple[str, int], list[Path]] = {}
     for source in found.sources:
+        if source.is_file():
+            alike = known.setdefault((first_name(source), source.stat().st_size), [])
+            if any(cmp(source, each, shallow=False) for each in alike):
+                continue
+            alike.append(source)
         if source.is_dir():
-            for path in python_first(plain_files(source)):
-                gather(path, folder / path.relative_to(source), bounds)
+            paths = (path.relative_to(source).as_posix() for path in plain_files(source))
+            for inside in sorted(map(PurePosixPath, paths), key=weight):
+                gather(source / inside, folder / inside, bounds)
         else:
             gather(source, free(folder / first_name(source)), bounds)
 

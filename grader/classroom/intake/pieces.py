@@ -1,8 +1,8 @@
 """The lab's files in what was handed in: at any depth, and under names that others have changed.
 
-Browsers and learning systems put `(1)`, `-2` or `copy` into a name. Python can import no such
-name, so nobody meant it for a file of their own: it is taken as what it was, and that is said.
-Where two files could be the same one, a person must choose.
+Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
+own. Python can import no such name, so nobody meant it for a file of their own: it is taken as what
+it was, and that is said. Where two files could be the same one, a person must choose.
 """
 
 import re
@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from grader.classroom.intake.found import CannotTake
-from grader.classroom.intake.places import modules
+from grader.classroom.intake.places import ARCHIVES, modules
 from grader.classroom.names import folded
 from grader.judge.submission import load_given, plain_files
 from grader.todo_regions import regions_in
@@ -27,6 +27,15 @@ ADDED = re.compile(
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
+SIGNS = {  # how a file begins that somebody saved under a program's name
+    b"pk\x03\x04": "a zip or an Office document",
+    b"%pdf": "a PDF",
+    b"{\\rtf": "a text of a word processor",
+    b"<!doctype": "a web page",
+    b"<html": "a web page",
+    b"<?xml": "XML",
+    b'{"cells"': "a notebook",
+}
 
 
 class ManyPrograms(CannotTake):
@@ -101,7 +110,8 @@ def arranged(folder: Path) -> Arranged:
     """
     paths = sorted(PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     notes: list[str] = []
-    pieces = [chosen(each, folder, notes) for each in by_module(candidates(paths))]
+    found = candidates(paths)
+    pieces = [chosen(each, folder, notes) for each in by_module([*found, *renamed(paths, found)])]
     if PACKAGE not in {piece.module for piece in pieces}:
         pieces += loose_package(paths, folder)
     if not pieces:
@@ -145,6 +155,30 @@ def candidates(paths: list[PurePosixPath]) -> list[Piece]:
             name = module.removesuffix(".py")
             found.append(Piece(name, path, ((module, path),), path.name == module))
     return found
+
+
+def renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
+    """Files under names of people's own, for the programs of which there is nothing else."""
+    lacking = sorted(modules() - {piece.module for piece in found})
+    pieces = []
+    for path in paths:
+        module = next((each for each in lacking if is_renamed(path.name, each)), None)
+        if module and not covered(path, found):
+            pieces.append(Piece(module, path, ((f"{module}.py", path),), exact=False))
+    return pieces
+
+
+def is_renamed(name: str, module: str) -> bool:
+    """Whether a name that Python cannot import has the program's in it, as a word of its own.
+
+    A text file is one, too: some systems refuse what ends in `.py`.
+    """
+    stem, _, suffix = folded(unquote(name).strip()).rpartition(".")
+    stem = stem.removesuffix(".py")
+    if suffix == "txt":
+        return stem == module
+    alone = re.search(rf"(?<!\w){module}(?!\w)", stem)
+    return suffix == "py" and not stem.isidentifier() and alone is not None
 
 
 def covered(path: PurePosixPath, pieces: list[Piece]) -> bool:
@@ -246,13 +280,37 @@ def top_of(pieces: list[Piece]) -> PurePosixPath:
     return min(parents, key=lambda each: (-parents.count(each), len(each.parts), each))
 
 
+def weight(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
+    """The order in which files are taken while there is room: what may be the lab's comes first."""
+    programs = [*modules(), *(f"{name}.py" for name in modules())]
+    of_lab = any(meant(part, programs) for part in path.parts)
+    packed = path.suffix.lower() in ARCHIVES
+    return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
+
+
 # ---------------------------------------------------------------- saying that there is nothing
 
 
-def nothing_of_the_lab(folder: Path) -> CannotTake:
+def nothing_of_the_lab(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> CannotTake:
     """What is told where a person must look."""
     names = sorted(path.relative_to(folder).as_posix() for path in plain_files(folder))
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
-    held = f"it holds {', '.join(names[:MENTIONED])}{more}" if names else "it holds no file"
-    asked = ", ".join(sorted(modules()))
-    return CannotTake(f"nothing of the lab was found ({asked}): {held}")
+    held = f"it holds {', '.join(names[:MENTIONED])}{more}"
+    if not names:
+        hidden = "but hidden files, links or what programs leave behind"
+        held = f"it holds nothing {hidden}" if any(folder.iterdir()) else "it holds no file"
+    words = "; ".join([held, *notes])
+    return CannotTake(f"nothing of the lab was found ({', '.join(sorted(asked))}): {words}")
+
+
+def no_program(content: bytes) -> str:
+    """What a file is that bears a program's name and is none; empty where it may be Python."""
+    if not content.strip():
+        return "empty"
+    head = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:64].lower()
+    for sign, words in SIGNS.items():
+        if head.startswith(sign):
+            return words
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return "text in UTF-16, which Python does not read"
+    return "no text" if b"\0" in content else ""

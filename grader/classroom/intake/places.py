@@ -1,6 +1,5 @@
 """Where in a folder the work lies, and what lies about there besides."""
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from grader.judge.rubric import load_rubric
@@ -8,6 +7,7 @@ from grader.judge.submission import IGNORED
 
 DEEPEST = 3  # folders around a program, and archives inside archives
 SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
+SIGNS = (b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ")  # of what is no zip
 ARCHIVES = (".zip", ".7z", ".rar", ".tar", ".tgz", ".tbz2", ".txz", ".gz", ".bz2", ".xz")
 
 
@@ -21,17 +21,18 @@ def is_system_file(name: str) -> bool:
 
 
 def is_archive(path: Path) -> bool:
-    return path.suffix.lower() in ARCHIVES
+    """By its name; what has no suffix is looked into."""
+    if path.suffix or not path.is_file():
+        return path.suffix.lower() in ARCHIVES
+    with open(path, "rb") as file:
+        return file.read(8).startswith((b"PK\x03\x04", *SIGNS))
 
 
 def stem_of(path: Path) -> str:
     """A file's name without its suffix, of which `work.tar.gz` has two."""
-    stem = path.stem if is_archive(path) else path.name
-    return stem[:-4] if is_archive(path) and stem.lower().endswith(".tar") else stem
-
-
-def python_first(paths: Iterable[Path]) -> list[Path]:
-    return sorted(paths, key=lambda each: (each.suffix != ".py", each))
+    packed = path.suffix.lower() in ARCHIVES
+    stem = path.stem if packed else path.name
+    return stem[:-4] if packed and stem.lower().endswith(".tar") else stem
 
 
 def unwrapped(folder: Path) -> Path:

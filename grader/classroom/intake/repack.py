@@ -5,12 +5,16 @@ that read these formats meet a stranger's bytes here, and nothing else of the gr
 the names of files that are too large, a line each, or why there is no zip.
 """
 
+import bz2
+import gzip
 import importlib
 import io
+import lzma
 import sys
 import tarfile
 import zipfile
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 try:
@@ -24,6 +28,7 @@ MAX_FILES = 200_000
 MEMORY = 2 * 1024**3  # bytes
 SECONDS = 60  # of the processor
 PEEK = 8  # bytes that tell a format
+PART = "this .rar is one part of several: ask for one zip"
 REFUSED = 3  # exit status: what is printed is a sentence for people
 
 Files = Iterator[tuple[str, bytes | None]]  # None: too large
@@ -93,12 +98,29 @@ def files_of(source: str) -> Files:
 
 
 def in_tar(source: str) -> Files:
+    if not tarfile.is_tarfile(source):
+        yield one_file(source)
+        return
     with tarfile.open(source) as archive:
         for member in archive:
             if member.isreg() and member.size > MAX_FILE:
                 yield member.name, None
             elif member.isreg() and (content := archive.extractfile(member)) is not None:
                 yield member.name, content.read()
+
+
+def one_file(source: str) -> tuple[str, bytes | None]:
+    """A single file that was made smaller, as `integrators.py.gz`: its name is the archive's."""
+    kinds: dict[bytes, Any] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open, b"\xfd7zXZ": lzma.open}
+    with open(source, "rb") as file:
+        head = file.read(PEEK)
+    opened = next((kind for sign, kind in kinds.items() if head.startswith(sign)), None)
+    if opened is None:
+        raise Refused("the archive is broken, or of no kind that is read here: ask for a zip")
+    with opened(source) as file:
+        content = file.read(MAX_FILE + 1)
+    name = Path(source).name.removeprefix(".")
+    return Path(name).stem, None if len(content) > MAX_FILE else content
 
 
 def in_7z(source: str) -> Files:
@@ -129,17 +151,52 @@ def in_rar(source: str) -> Files:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
                 raise Refused("the archive is encrypted: ask for one without a password")
-            for member in archive.infolist():
-                if member.is_file() and not member.file_redir:
-                    large = member.file_size > MAX_FILE
-                    yield member.filename, None if large else archive.read(member)
-    except rarfile.RarCannotExec as error:
-        raise Refused(
-            "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
-            "bsdtar, or ask for a zip"
-        ) from error
+            plain = [each for each in archive.infolist() if each.is_file() and not each.file_redir]
+    except rarfile.BadRarFile as error:
+        if "next volume" in str(error):
+            raise Refused(PART) from error
+        raise
     except rarfile.NeedFirstVolume as error:
-        raise Refused("this .rar is one part of several: ask for one zip") from error
+        raise Refused(PART) from error
+    yield from ((each.filename, None) for each in plain if each.file_size > MAX_FILE)
+    wanted = [each.filename for each in plain if each.file_size <= MAX_FILE]
+    tools, failed = unpackers(rarfile), []
+    for name in tools or ["no tool"]:
+        rarfile.CURRENT_SETUP = tools.get(name)
+        try:
+            with rarfile.RarFile(source) as archive:
+                contents = [archive.read(each) for each in wanted]
+        except rarfile.RarCannotExec as error:
+            raise Refused(
+                "this machine has nothing that unpacks a .rar: install one of unrar, unar, 7z and "
+                "bsdtar, or ask for a zip"
+            ) from error
+        except rarfile.Error:  # some lack what this archive takes, and say so in words of their own
+            failed.append(name)
+            continue
+        yield from zip(wanted, contents, strict=True)
+        return
+    raise Refused(
+        f"the archive is broken, or {' and '.join(failed)} cannot unpack it here: ask for a zip"
+    )
+
+
+def unpackers(rarfile: Any) -> dict[str, Any]:
+    """The programs of this machine that unpack a .rar, the best first."""
+    kinds = {
+        "unrar": rarfile.UNRAR_CONFIG,
+        "unar": rarfile.UNAR_CONFIG,
+        "7z": rarfile.SEVENZIP_CONFIG,
+        "7zz": rarfile.SEVENZIP2_CONFIG,
+        "bsdtar": rarfile.BSDTAR_CONFIG,
+    }
+    tools = {name: rarfile.ToolSetup(kind) for name, kind in kinds.items()}
+    # rarfile puts a -- behind -f, which is the file's name to bsdtar
+    tools["bsdtar"].open_cmdline = lambda password, path, *names: [
+        *(rarfile.BSDTAR_TOOL, "-x", "--to-stdout", "-f", path),
+        *filter(None, names),
+    ]
+    return {name: tool for name, tool in tools.items() if tool.check()}
 
 
 def library(name: str, format: str) -> Any:

@@ -70,4 +70,4 @@ def as_csv(table: Iterable[Iterable[str | float]]) -> str:
 def harmless(cell: str) -> str:
     """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
     plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
-    return f"'{cell}" if plain.startswith(FORMULA) else cell
+    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
