@@ -15,7 +15,7 @@ class Effort:
 
     def __init__(self, quick=False, scale=1.0):
         self.quick, self.scale = quick, scale
-        self.repeats = 3 if quick else 7  # of each time
+        self.repeats = 3 if quick else 5  # of each time
         self.rounds = 1 if quick else 4  # in a repeat
 
     def seconds(self, question):

@@ -206,6 +206,28 @@ def closed_box(seed=1, half=150.0, thick=50.0, radii=(6, 22), fast=400.0, pairs=
     return Scene([*walls, *balls], (*BOUNCE, "Rods"), rods, exact={"escapes": 0.0})
 
 
+def wild_box(seed=1):
+    """A closed box with all effects at once: springs of any stiffness, some tied to the middle of a
+    wall, bullets of up to 200,000 px/s, rods, sleep, and gravity from anywhere or none.
+    """
+    rng = random.Random(f"wild {seed}")
+    scene = closed_box(
+        seed, rng.uniform(80, 160), rng.choice((20.0, 50.0)), (rng.uniform(4, 9), 18), pairs=5
+    )
+    walls, moving = range(4), scene.moving()
+    for _ in range(6):
+        a, b = rng.sample(moving, 2)
+        a = rng.choice(walls) if rng.random() < 0.2 else a
+        stiffness, damping = 10 ** rng.uniform(0, 6), 10 ** rng.uniform(-2, 2)
+        scene.springs.append(Spring(a, b, stiffness, damping, rng.uniform(0, 80)))
+    for i in rng.sample(moving, 3):
+        fast, way = rng.choice((1000, 5000, 50_000, 200_000)), rng.uniform(0, 2 * math.pi)
+        scene.bodies[i].vel = (fast * math.cos(way), fast * math.sin(way))
+        scene.bodies[i].bullet = True
+    gravity = rng.choice(((0, G), (G, 0), (0, 0), (500.0, -700.0)))
+    return replace(scene, effects=EFFECTS, gravity=gravity)
+
+
 def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
     """1 kg that flies at a wall start px away, and behind it mass kg on a rod of 30 px.
 

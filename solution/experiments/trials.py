@@ -6,6 +6,7 @@ steps (s) to run them, and a scene. It returns figures by name. Lengths in px, s
 
 import math
 from dataclasses import replace
+from itertools import repeat
 
 from .measures import (
     GaveUp,
@@ -82,14 +83,17 @@ def rest(bench, scene):
     return {"drift": drift, "depth": depth, "share": depth / ball.radius, "speed": speed(after)}
 
 
-def escape(bench, scene):
-    """1 if a ball gets out of the closed box or a number is lost, else 0.
+def escape(bench, scene, steps=None):
+    """1 if a ball gets out of the closed box or a number is lost, else 0; in equal steps or these.
 
     A ball is out when it is all inside a wall, or beyond, after any step, or its centre in the end.
     """
     engine = bench.build(scene)
+    depths = []
     try:
-        depths = watch(engine, bench.seconds, lambda: depth_in_walls(engine), bench.dt)
+        for dt in lasting(bench.seconds, steps() if steps else repeat(bench.dt)):
+            engine.step(dt)
+            depths.append(depth_in_walls(engine))
     except ValueError:
         return {"escapes": 1}
     return {"escapes": 0 if max(depths) < 1 and depths[-1] < 0 else 1}
@@ -280,7 +284,8 @@ def oscillate(bench, scene):
     swings = watch(engine, bench.seconds, lambda: abs(engine.read(1).x - length), bench.dt)
     if not finite(engine):
         raise GaveUp("NaN")
-    return {"swing": max(swings) / scene.exact["swing"]}
+    swing = max(swings) / scene.exact["swing"]
+    return {"swing": swing, "gain": max(swing - 1, 0.0)}
 
 
 def ring_down(bench, scene):

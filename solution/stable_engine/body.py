@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .world import World
 
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
+LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
 
 
 class Body:
@@ -81,9 +82,13 @@ class Body:
 
     def weigh(self, mass: float) -> None:
         """Take over a mass, and the inertia of a disc of that mass."""
+        twice = mass * (self.radius * self.radius)  # kg px², its inertia
+        if mass and not (LEAST < mass < 1 / LEAST and LEAST < twice < 1 / LEAST):
+            found = f"{mass:g} with a radius of {self.radius:g}"
+            require(False, "Body.mass", found, "neither so tiny nor so huge")
         self.m = float(mass)  # kg
         self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
-        self.inv_inertia = 2 / (mass * self.radius**2) if mass else 0.0  # 1/(kg px²)
+        self.inv_inertia = 2 / twice if mass else 0.0  # 1/(kg px²)
 
     @property
     def is_static(self) -> bool:
@@ -100,6 +105,9 @@ class Body:
         not_negative("Body.mass", value)
         rule = "0, as the body is static" if self.is_static else "above 0, as the body can move"
         require((value == 0) == self.is_static, "Body.mass", value, rule)
+        if self.world and value < self.m:
+            for lighter in self.world.lighter_hooks:
+                lighter(self, value / self.m)
         self.weigh(value)
         self.changed()
 
@@ -133,7 +141,7 @@ class Body:
     @pos.setter
     def pos(self, value: Iterable[float]) -> None:
         self.x, self.y = pair("Body.pos", value)
-        self.wake()
+        self.moved()
 
     @property
     def vel(self) -> Vector2:
@@ -143,7 +151,7 @@ class Body:
     @vel.setter
     def vel(self, value: Iterable[float]) -> None:
         self.vx, self.vy = pair("Body.vel", value)
-        self.wake()
+        self.moved()
 
     @property
     def omega(self) -> float:
@@ -153,7 +161,7 @@ class Body:
     @omega.setter
     def omega(self, value: float) -> None:
         self.w = finite("Body.omega", value)
-        self.wake()
+        self.moved()
 
     def apply_impulse(self, impulse: Iterable[float], at: Iterable[float] | None = None) -> None:
         """Push with an impulse in kg px/s, at a place in px: the centre, unless given.
@@ -180,6 +188,13 @@ class Body:
         """Wake this body and all that sleep with it."""
         if self.island:
             self.island.wake()
+
+    def moved(self) -> None:
+        """Wake, and whatever rests on it or is where it is now, if it is static."""
+        self.wake()
+        if self.is_static and self.world:
+            for static_moved in self.world.static_moved_hooks:
+                static_moved(self)
 
     def changed(self) -> None:
         """Wake, and have the effects take over what was set."""

@@ -61,14 +61,15 @@ class Bounce(Effect):
         e is applied to the speed at the surface, which follows from conservation of energy.
         With semi-implicit Euler velocities lag half a substep behind positions.
         """
-        gx, gy = self.world.gravity
-        g = gx * c.nx + gy * c.ny  # px/s², into the surface
-        if g <= 0:
+        gx, gy = self.world.g
+        g = gx * c.nx + gy * c.ny  # px/s², into the surface; negative at a ceiling
+        if g == 0:
             return c.e * closing
         lag = g * h / 2
         fallen = -2 * g * c.gap  # px²/s², what the fall from the surface to here adds to speed²
-        crossing = max((closing + lag) ** 2 - fallen, 0)
-        return sqrt(max(c.e**2 * crossing + fallen, 0)) + lag
+        speed = max(closing + lag, 0.0)
+        crossing = max(speed * speed - fallen, 0.0)
+        return sqrt(max(c.e * c.e * crossing + fallen, 0.0)) + lag
 
 
 def separating(c: Contact) -> bool:

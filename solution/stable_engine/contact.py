@@ -7,6 +7,7 @@ from pygame import Vector2
 from .body import Body
 
 GOLDEN_ANGLE = 2.399963  # rad
+MAX_PUSH_SPEED = 300.0  # px/s
 
 
 class Contact:
@@ -19,7 +20,7 @@ class Contact:
     """
 
     __slots__ = (
-        *("a", "b", "nx", "ny", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e"),
+        *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e", "push"),
         *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw"),
     )
 
@@ -27,7 +28,8 @@ class Contact:
         self.a = a  # always a ball with mass
         self.b = b
         self.nx = self.ny = 0.0  # unit normal from A to B; the tangent is (-ny, nx)
-        self.gap = 0.0  # px, negative when they overlap
+        self.found = 0.0  # px, the gap between them, negative when they overlap
+        self.gap = 0.0  # px, the gap to be solved for: Bounce lets those that part just touch
         self.reach = 0.0  # px
         self.jn = 0.0  # kg px/s, accumulated normal impulse, never negative
         self.jt = 0.0  # kg px/s, accumulated friction impulse
@@ -35,6 +37,7 @@ class Contact:
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
+        self.push = MAX_PUSH_SPEED  # px/s, overlap is pushed out no faster
         self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
         self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins
@@ -81,12 +84,16 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
     return -copysign(1.0, x), 0.0, -a.radius - out_x
 
 
-def behind_face(a: Body, b: Body, nx: float, ny: float) -> tuple[float, float, float]:
-    """A circle whose centre is in a box that it touched before, with the normal of that contact.
+def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
+    """What collide found of two bodies that touched before; c has the normal they had then.
 
-    It leaves through the face it came in by. Through the nearest one, a ball pressed into a thin
-    box beyond the middle would come out on the other side.
+    A circle whose centre has got into a box leaves through the face it came in by. Through the
+    nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.
     """
+    a, b = c.a, c.b
+    if gap >= -a.radius or b.radius:
+        return nx, ny, gap
+    nx, ny = c.nx, c.ny
     if abs(nx) > abs(ny):
         nx, ny = copysign(1.0, nx), 0.0
     else:

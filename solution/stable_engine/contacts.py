@@ -5,19 +5,20 @@ from math import hypot
 
 from .body import Body
 from .broad_phase import BroadPhase
-from .contact import Contact, behind_face, collide
+from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
 from .effect import Effect
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import stop_at_first_hit
+from .validate import refuse
 from .world import World
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
 STIFFENING = 0.07  # of a substep, per step
-MAX_PUSH_SPEED = 300.0  # px/s, overlap is pushed out no faster
 RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
+TOUCHING = 1e-6  # px, bodies that are no further apart touch, but for what numbers are rounded to
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
@@ -46,6 +47,8 @@ class Contacts(Effect):
     rank = 3
 
     def __init__(self, on_hit: OnHit | None = None) -> None:
+        if on_hit is not None and not callable(on_hit):
+            refuse("Contacts.on_hit", on_hit, "a function of two bodies and a speed, or None")
         self.on_hit = on_hit
         self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
         self.touching: list[Contact] = []
@@ -57,6 +60,7 @@ class Contacts(Effect):
         self.sleeping_cache: dict[tuple[int, int], Contact] = {}
         self.ignored: set[tuple[int, int]] = set()
         self.pace = Pace(STIFFENING)
+        self.h = 0.0  # s, the substep of the impulses that are kept
 
     def attach(self, world: World) -> None:
         super().attach(world)
@@ -70,7 +74,7 @@ class Contacts(Effect):
         if is_new:
             self.broad_phase.take(bodies)
         if self.changed:
-            self.touching = self.find_contacts(h * self.world.substeps)
+            self.touching = self.find_contacts(h * self.world.substep_count)
 
     def any_moved(self) -> bool:
         """Whether any body is no longer where contacts were last found."""
@@ -83,15 +87,17 @@ class Contacts(Effect):
     def find_contacts(self, dt: float) -> list[Contact]:
         """The contacts of all bodies where they are now, with the impulses they had before.
 
-        Bodies that overlap are in contact. So are slow ones that may touch within dt seconds: such
+        Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
         other, so they get none.
         """
         margin = SPECULATIVE_SPEED * dt
-        cache, found = self.cache, {}
+        cache, found, deep = self.cache, {}, []
         for a, b in self.broad_phase.near_pairs(self.world.awake, margin):
             nx, ny, gap = collide(a, b)
-            if gap > 0 and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED):
+            if gap > TOUCHING and (
+                gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED
+            ):
                 continue
             pair = a.id, b.id
             c = cache.get(pair)
@@ -103,13 +109,16 @@ class Contacts(Effect):
                     c.nx, c.ny = nx, ny
                     self.hits.append((a, b, max(c.closing_speed(), 0.0)))
             else:
-                if gap < -a.radius and not b.radius:
-                    nx, ny, gap = behind_face(a, b, c.nx, c.ny)
+                nx, ny, gap = the_way_it_came(c, nx, ny, gap)
                 if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                     c.jn = c.jt = 0.0
-            c.nx, c.ny, c.gap = nx, ny, gap
+            c.nx, c.ny, c.gap, c.found, c.push = nx, ny, gap, gap, MAX_PUSH_SPEED
             found[pair] = c
+            if gap < -a.radius or gap < -b.radius < 0:
+                deep.append(c)
         self.cache = found
+        if len(deep) > 1:
+            share_push(deep)
         return list(found.values())
 
     def new_contact(self, a: Body, b: Body) -> Contact:
@@ -137,6 +146,8 @@ class Contacts(Effect):
             after_impact(c, jn)
 
     def prepare(self, h: float) -> None:
+        if h != self.h:
+            self.keep_forces(h)
         hertz = FREQUENCY / self.pace.follow(h)
         self.balls.bias_rate, self.balls.mass_scale = softness(hertz, DAMPING_RATIO, h)
         self.statics.bias_rate, self.statics.mass_scale = softness(2 * hertz, DAMPING_RATIO, h)
@@ -149,6 +160,14 @@ class Contacts(Effect):
             c.ax, c.ay = nx * a.inv_mass, ny * a.inv_mass
             c.bx, c.by = nx * b.inv_mass, ny * b.inv_mass
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
+
+    def keep_forces(self, h: float) -> None:
+        """Begin substeps of another length with the same forces, so with other impulses."""
+        if self.h > 0:
+            for c in self.touching:
+                c.jn *= h / self.h
+                c.jt *= h / self.h
+        self.h = h
 
     def warm_start(self, h: float) -> None:
         for group in self.groups:
@@ -165,7 +184,8 @@ class Contacts(Effect):
         for group in self.groups:
             moves_b, bias_rate, mass_scale = group.moves_b, group.bias_rate, group.mass_scale
             for c in group.contacts:
-                a, b, nx, ny, mn = c.a, c.b, c.nx, c.ny, c.mn
+                a, b = c.a, c.b
+                nx, ny, mn = c.nx, c.ny, c.mn
                 gap = (b.x - a.x) * nx + (b.y - a.y) * ny - c.reach
                 speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
                 before = c.jn
@@ -173,8 +193,8 @@ class Contacts(Effect):
                     jn = before - mn * (speed + gap / h)
                 else:
                     push = bias_rate * gap
-                    if push < -MAX_PUSH_SPEED:
-                        push = -MAX_PUSH_SPEED
+                    if push < -c.push:
+                        push = -c.push
                     jn = mass_scale * (before - mn * speed) - mn * push
                 if jn < 0:
                     jn = 0.0
@@ -190,7 +210,8 @@ class Contacts(Effect):
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:
-                a, b, nx, ny = c.a, c.b, c.nx, c.ny
+                a, b = c.a, c.b
+                nx, ny = c.nx, c.ny
                 speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
                 before = c.jn
                 if not before:
@@ -209,7 +230,7 @@ class Contacts(Effect):
                     b.vy += c.by * jn
 
     def finish(self, h: float) -> None:
-        """Keep the core of a fast ball out of static bodies, and tell of hits.
+        """Keep the core of a ball out of static bodies, however fast it is or hard it is pressed.
 
         Deep in a static body, a ball might leave it on the other side.
 
@@ -220,10 +241,30 @@ class Contacts(Effect):
             distance = abs(body.x - last.x) + abs(body.y - last.y)
             if distance > body.radius > 0 and not body.bullet:
                 self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
+        for c in self.statics.contacts:
+            a, b = c.a, c.b
+            gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
+            if gap < -CORE * a.radius:
+                self.let_no_deeper(c)
+
+    def let_no_deeper(self, c: Contact) -> None:
+        """Put a ball back whose core got into a static body, or deeper than it was, and stop it."""
+        a, b = c.a, c.b
+        nx, ny, gap = the_way_it_came(c, *collide(a, b))
+        back = min(c.found, -CORE * a.radius) - gap
+        if back > 0:
+            a.x -= nx * back
+            a.y -= ny * back
+            closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
+            a.vx -= nx * closing
+            a.vy -= ny * closing
+
+    def tell(self, h: float) -> None:
+        """Tell of hits, those whose bodies are still there."""
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:
-                if a.world and b.world:
+                if a.world is b.world is self.world:
                     self.on_hit(a, b, speed)
 
     def sweep(
@@ -236,7 +277,7 @@ class Contacts(Effect):
         statics = self.world.statics
         if self.ignored:
             statics = [s for s in statics if (body.id, s.id) not in self.ignored]
-        stop_at_first_hit(body, start, radius, overlap, statics, self.world.gravity, h)
+        stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
 
     def of_body(self, body: Body) -> list[Contact]:
         """The contacts of a body, those it sleeps with among them."""
@@ -252,6 +293,31 @@ class Contacts(Effect):
             c.a.wake()
             c.b.wake()
         self.broad_phase.bounds = []
+
+    def lighter(self, body: Body, share: float) -> None:
+        """Lower the impulses of the balls that carry it, by what their load loses.
+
+        They begin the next step with the impulses of this one, and would be thrown up.
+        """
+        contacts = [*self.cache.values(), *self.sleeping_cache.values()]
+        balls = in_touch(body, contacts)
+        mass = sum([ball.m for ball in balls])
+        left = 0.0 if body.is_static else (mass - body.m * (1 - share)) / mass
+        for c in contacts:
+            if c.a in balls:
+                c.jn *= left
+                c.jt *= left
+
+    def static_moved(self, body: Body) -> None:
+        """Wake who sleeps on it, and where it is now."""
+        world = self.world
+        if len(world.awake) + len(world.statics) < len(world.bodies):
+            for c in self.of_body(body):
+                c.a.wake()
+            for other in world.bodies:
+                dx, dy = abs(other.x - body.x), abs(other.y - body.y)
+                if other.asleep and dx < other.hx + body.hx and dy < other.hy + body.hy:
+                    other.wake()
 
     def forget(self, body: Body) -> None:
         """Wake whatever touches it: it may have lain on it."""
@@ -275,6 +341,35 @@ class Contacts(Effect):
         self.broad_phase.bounds = []
         self.cache = self.sleeping_cache | self.cache
         self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.asleep}
+        self.pace.awake_changed(bool(self.sleeping_cache))
+
+
+def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
+    """The balls that touch a body, and those that touch them; static bodies pass nothing on."""
+    beside: dict[Body, list[Body]] = {}
+    for c in contacts:
+        beside.setdefault(c.a, []).append(c.b)
+        beside.setdefault(c.b, []).append(c.a)
+    found, ahead = {body}, [body]
+    while ahead:
+        near = [b for b in beside.get(ahead.pop(), []) if b not in found and not b.is_static]
+        found.update(near)
+        ahead += near
+    return found
+
+
+def share_push(deep: list[Contact]) -> None:
+    """Push the slower, the more of these contacts a ball has: those with a centre in the other.
+
+    Many balls in one place cannot part along all normals at once. Each would be pushed by all.
+    """
+    crowd: dict[Body, int] = {}
+    for c in deep:
+        for body in (c.a, c.b):
+            crowd[body] = crowd.get(body, 0) + 1
+    for c in deep:
+        if not c.b.is_static:
+            c.push = MAX_PUSH_SPEED / max(crowd[c.a], crowd[c.b])
 
 
 def pair_both_ways(a: Body, b: Body) -> set[tuple[int, int]]:

@@ -52,6 +52,9 @@ class Effect:
     def finish(self, h: float) -> None:
         """Look at the result of the step."""
 
+    def tell(self, h: float) -> None:
+        """Tell the program of the step, once all is done: it may change the world as it likes."""
+
     # once per substep
 
     def force(self, h: float) -> None:
@@ -73,6 +76,12 @@ class Effect:
 
     def body_changed(self, body: Body) -> None:
         """The mass, friction or restitution of a body was set: take over the new value."""
+
+    def lighter(self, body: Body, share: float) -> None:
+        """The mass of a body is about to fall to this share of what it was: 0 where it leaves."""
+
+    def static_moved(self, body: Body) -> None:
+        """The place, velocity or spin of a static body was set: wake whom it concerns."""
 
     def forget(self, body: Body) -> None:
         """A body leaves the world: drop all that refers to it."""

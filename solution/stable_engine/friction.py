@@ -27,7 +27,7 @@ class Friction(Effect):
 
     def begin_contact(self, c: Contact) -> None:
         a, b = c.a, c.b
-        spin = a.radius**2 * a.inv_inertia + b.radius**2 * b.inv_inertia
+        spin = a.radius * a.radius * a.inv_inertia + b.radius * b.radius * b.inv_inertia
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
         c.mu = sqrt(a.mu * b.mu)
 
@@ -75,7 +75,8 @@ class Friction(Effect):
             for c in group.contacts:
                 limit, before = c.mu * c.jn, c.jt
                 if limit or before:
-                    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+                    a, b = c.a, c.b
+                    tx, ty = -c.ny, c.nx
                     rims = b.w * b.radius + a.w * a.radius
                     jt = before - c.mt * ((b.vx - a.vx) * tx + (b.vy - a.vy) * ty - rims)
                     if jt > limit:

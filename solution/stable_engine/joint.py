@@ -5,16 +5,17 @@ from typing import ClassVar, Generic, TypeVar
 
 from .body import Body
 from .effect import Effect
-from .validate import refuse, require
+from .validate import not_negative, refuse, require
 
 
 class Joint:
     """A constraint along the line between the centres of a and b, so it turns neither.
 
-    Raises ValueError when a and b are the same body or both static.
+    Its numbers can be set later on, which wakes both. Raises ValueError when one makes no sense, or
+    when a and b are the same body or both static.
     """
 
-    __slots__ = ("a", "b", "distance", "dx", "dy", "length", "m", "nx", "ny")
+    __slots__ = ("a", "b", "distance", "dx", "dy", "m", "nx", "ny", "rest")
     effect: ClassVar[str]  # the name of the effect that owns it
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -29,10 +30,34 @@ class Joint:
         self.b = b
         self.weigh()
         self.measure()
-        self.length = self.distance  # px, at rest
+        self.rest = self.distance  # px, its length
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.a!r}, {self.b!r}, length {self.length:g})"
+        return f"{type(self).__name__}({self.a!r}, {self.b!r}, length {self.rest:g})"
+
+    @property
+    def length(self) -> float:
+        """The distance in px at which it is at rest. Setting it wakes both ends."""
+        return self.rest
+
+    @length.setter
+    def length(self, value: float) -> None:
+        self.rest = self.fitting(value)
+        self.changed()
+
+    def fitting(self, length: float) -> float:
+        """A length as a float. Raises ValueError when it is no length for such a joint."""
+        return not_negative(f"{type(self).__name__}.length", length)
+
+    def changed(self) -> None:
+        """Wake both ends, and have the effects take over what was set."""
+        self.b.wake()
+        self.a.changed()
+
+    def wake(self) -> None:
+        """Wake both ends."""
+        self.a.wake()
+        self.b.wake()
 
     def weigh(self) -> None:
         """Take over the masses of a and b."""
@@ -87,6 +112,11 @@ class Joints(Effect, Generic[AnyJoint]):
         for joint in self.joints:
             if body in (joint.a, joint.b):
                 joint.weigh()
+
+    def static_moved(self, body: Body) -> None:
+        for joint in self.joints:
+            if body in (joint.a, joint.b):
+                joint.wake()
 
     def is_used(self) -> bool:
         return bool(self.joints)

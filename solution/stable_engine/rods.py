@@ -22,9 +22,14 @@ class Rod(Joint):
 
     def __init__(self, a: Body, b: Body) -> None:
         super().__init__(a, b)
-        require(self.length > 0, "Rod.length", self.length, "above 0: move a and b apart first")
+        self.fitting(self.rest)
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
         self.turning = 0.0  # kg px/s, that of relax: what turns the motion of a rod that swings
+
+    def fitting(self, length: float) -> float:
+        found = super().fitting(length)
+        require(found > 0, "Rod.length", found, "above 0: move a and b apart first")
+        return found
 
 
 class Rods(Joints[Rod]):
@@ -44,15 +49,31 @@ class Rods(Joints[Rod]):
 
     def add(self, rod: Rod) -> None:
         super().add(rod)
-        contacts = self.world.effects.get("Contacts")
-        if isinstance(contacts, Contacts) and rod.length < rod.a.radius + rod.b.radius:
-            contacts.ignore_pair(rod.a, rod.b)
+        self.let_touch(rod, rod.rest >= rod.a.radius + rod.b.radius)
 
     def remove(self, rod: Rod) -> None:
         super().remove(rod)
+        self.let_touch(rod, True)
+
+    def body_changed(self, body: Body) -> None:
+        super().body_changed(body)
+        for rod in self.joints:
+            if body in (rod.a, rod.b):
+                self.let_touch(rod, rod.rest >= rod.a.radius + rod.b.radius)
+
+    def let_touch(self, rod: Rod, may: bool) -> None:
+        """Whether the ends of a rod may touch: a contact would fight one that lets them overlap."""
         contacts = self.world.effects.get("Contacts")
-        if isinstance(contacts, Contacts):
+        if not isinstance(contacts, Contacts):
+            return
+        if may:
             contacts.ignored -= pair_both_ways(rod.a, rod.b)
+        else:
+            contacts.ignore_pair(rod.a, rod.b)
+
+    def awake_changed(self) -> None:
+        super().awake_changed()
+        self.pace.awake_changed(len(self.awake) < len(self.joints))
 
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
@@ -68,7 +89,7 @@ class Rods(Joints[Rod]):
             a, b = rod.a, rod.b
             ahead = hypot(rod.dx + (b.vx - a.vx) * h, rod.dy + (b.vy - a.vy) * h)
             speed = (ahead - rod.distance) / h
-            error = rod.distance - rod.length
+            error = rod.distance - rod.rest
             j = mass_scale * (rod.j - rod.m * speed) - rod.m * bias_rate * error
             rod.apply_impulse(j - rod.j)
             rod.j = j

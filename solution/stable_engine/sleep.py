@@ -35,8 +35,8 @@ class Sleep(Effect):
     """Balls that touch or share a joint are an island, which sleeps once all of it has lain still.
 
     Only whole islands may sleep: a ball alone would hang in the air when its neighbours moved on.
-    An island wakes when an awake ball touches it, or when the position, velocity or spin of one of
-    its balls is set. Moving a static body from under it does not wake it.
+    An island wakes when an awake ball touches it, and when anything is set that its rest hangs on:
+    one of its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
 
     rank = 4
@@ -55,11 +55,12 @@ class Sleep(Effect):
             contacts.detect(h)
 
     def finish(self, h: float) -> None:
-        dt = h * self.world.substeps
+        dt = h * self.world.substep_count
         ready = False
         for body in self.world.awake:
             rim = abs(body.w) * body.radius
-            if body.vx**2 + body.vy**2 < STILL_SPEED**2 and rim < STILL_SPEED:
+            speed2 = body.vx * body.vx + body.vy * body.vy
+            if speed2 < STILL_SPEED * STILL_SPEED and rim < STILL_SPEED:
                 body.still += dt
                 ready = ready or body.still > STILL_TIME
             else:

@@ -29,8 +29,17 @@ class Pace:
     def __init__(self, stiffening: float) -> None:
         self.stiffening = stiffening
         self.h = 0.0  # s
+        self.slept = 0.0  # s, the longest at which anybody who sleeps now has fallen asleep
 
     def follow(self, h: float) -> float:
         """The pace (s) of a step that takes substeps of h seconds."""
         self.h = max(h, self.h - self.stiffening * h)
         return self.h
+
+    def awake_changed(self, anybody_sleeps: bool) -> None:
+        """Bodies fell asleep or woke. Sleepers keep the overlap that the pace let in until then.
+
+        However short steps have become, their pace counts once more when they wake.
+        """
+        self.h = max(self.h, self.slept)
+        self.slept = self.h if anybody_sleeps else 0.0

@@ -48,6 +48,15 @@ def positive(field: str, value: float) -> float:
     return found
 
 
+def whole(field: str, value: int) -> int:
+    """value. Raises ValueError when it is no whole number above 0."""
+    rule = "a whole number above 0"
+    if not isinstance(value, int):
+        refuse(field, value, rule)
+    require(value > 0, field, value, rule)
+    return value
+
+
 def pair(field: str, value: Iterable[float]) -> tuple[float, float]:
     """value as two floats. Raises ValueError when it is not a pair of finite numbers."""
     rule = "a pair of finite numbers"

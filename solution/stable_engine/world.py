@@ -11,7 +11,7 @@ from .body import Body
 from .check import complaints, missing
 from .effect import Effect
 from .joint import Joint
-from .validate import pair, refuse, require
+from .validate import pair, refuse, require, whole
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 
@@ -19,8 +19,8 @@ Thing = TypeVar("Thing", bound=Body | Joint)
 class World:
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
-    gravity in px/s². Each step is made of that many substeps. Raises ValueError when a value makes
-    no sense, or when an effect needs another one that is not declared.
+    gravity in px/s². Each step is made of that many substeps. Both can be set later on. Raises
+    ValueError when a value makes no sense, or an effect needs another one that is not declared.
     """
 
     def __init__(
@@ -29,12 +29,8 @@ class World:
         substeps: int = 4,
         effects: Iterable[Effect] = (),
     ) -> None:
-        whole = "a whole number above 0"
-        if not isinstance(substeps, int):
-            refuse("World.substeps", substeps, whole)
-        require(substeps > 0, "World.substeps", substeps, whole)
-        self.gravity = pair("World.gravity", gravity)
-        self.substeps = substeps
+        self.substep_count = whole("World.substeps", substeps)
+        self.g = pair("World.gravity", gravity)  # px/s²
         self.bodies: list[Body] = []
         self.awake: list[Body] = []  # the balls that can move now
         self.statics: list[Body] = []
@@ -59,13 +55,37 @@ class World:
         self.solve_hooks = self.hooks("solve")
         self.relax_hooks = self.hooks("relax")
         self.finish_hooks = self.hooks("finish")
+        self.tell_hooks = self.hooks("tell")
+        self.static_moved_hooks = self.hooks("static_moved")
         self.body_changed_hooks = self.hooks("body_changed")
+        self.lighter_hooks = self.hooks("lighter")
         self.forget_hooks = self.hooks("forget")
 
     def __repr__(self) -> str:
         names = ", ".join(f"{name}()" for name in self.effects)
         moving = len(self.bodies) - len(self.statics)
         return f"World({moving} moving, {len(self.statics)} static, effects=[{names}])"
+
+    @property
+    def gravity(self) -> tuple[float, float]:
+        """The gravity in px/s². Setting another one wakes all bodies."""
+        return self.g
+
+    @gravity.setter
+    def gravity(self, value: Iterable[float]) -> None:
+        before, self.g = self.g, pair("World.gravity", value)
+        if self.g != before:
+            for body in self.bodies:
+                body.wake()
+
+    @property
+    def substeps(self) -> int:
+        """How many substeps make a step."""
+        return self.substep_count
+
+    @substeps.setter
+    def substeps(self, value: int) -> None:
+        self.substep_count = whole("World.substeps", value)
 
     def hooks(self, name: str) -> list[Callable[..., Any]]:
         """The hooks of this name that the scene's effects override, lowest rank first."""
@@ -132,6 +152,8 @@ class World:
     def remove_body(self, body: Body) -> None:
         require(body.world is self, "World.remove's body", body, "one that is in this world")
         body.wake()
+        for lighter in self.lighter_hooks:
+            lighter(body, 0.0)
         for forget in self.forget_hooks:
             forget(body)
         for bodies in (self.bodies, self.statics if body.is_static else self.awake):
@@ -168,7 +190,7 @@ class World:
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""
         try:
-            h = dt / self.substeps
+            h = dt / self.substep_count
         except TypeError:
             refuse("World.step's dt", dt, "a number of seconds")
         require(0 < h < math.inf, "World.step's dt", dt, "a finite number of seconds above 0")
@@ -185,7 +207,7 @@ class World:
         for prepare in self.prepare_hooks:
             prepare(h)
 
-        for _ in range(self.substeps):
+        for _ in range(self.substep_count):
             # 2 forces
             self.apply_gravity(h)
             for force in self.force_hooks:
@@ -206,10 +228,12 @@ class World:
 
         for finish in self.finish_hooks:
             finish(h)
+        for tell in self.tell_hooks:
+            tell(h)
 
     def apply_gravity(self, h: float) -> None:
         """Accelerate every awake ball for h seconds."""
-        gx, gy = self.gravity[0] * h, self.gravity[1] * h
+        gx, gy = self.g[0] * h, self.g[1] * h
         for body in self.awake:
             body.vx += gx
             body.vy += gy

@@ -1,0 +1,346 @@
+"""What nobody foresaw: loads that vanish, things that move and wake, numbers set at any time."""
+
+import math
+import random
+from itertools import product
+
+import pytest
+from worlds_for_tests import build
+
+from experiments.engines import Stable
+from experiments.measures import deepest_overlap, run, speed, top_speed, watch
+from experiments.scenes import (
+    BOUNCE,
+    DT,
+    Ball,
+    Block,
+    G,
+    Scene,
+    Spring,
+    chain,
+    coincident,
+    floor,
+    on_floor,
+    slot,
+    stack,
+)
+from stable_engine import Body, Bounce, Box, Bullets, Circle, Contacts, World
+
+SLEEPY = (*BOUNCE, "Sleep")
+LAUNCHED = 0.5  # px, as in steps that vary
+
+
+def rises(world, bodies, places, seconds, dt=DT):
+    """How far any body ever gets above its place."""
+    pairs = list(zip(bodies, places, strict=True))
+    return max(watch(world, seconds, lambda: max(y - body.y for body, y in pairs), dt))
+
+
+# ---------------------------------------------------------------- loads that vanish
+
+
+@pytest.mark.parametrize("masses", [(1, 1, 100), (1, 1, 1, 1, 1, 100), (1, 1000)])
+@pytest.mark.parametrize("taken", ["all of it", "its mass"])
+def test_a_load_that_vanishes_throws_nobody_up(masses, taken):
+    world = build(stack(*masses), *SLEEPY)
+    tall = world.bodies[3:]
+    run(world, 1.5)
+    if taken == "all of it":
+        world.remove(tall.pop())
+    else:
+        tall[-1].mass = 1
+    places = [-20 * (2 * i + 1) for i in range(len(tall))]
+    assert rises(world, tall, places, 2) < LAUNCHED
+    assert top_speed_of(tall) < 1
+
+
+def top_speed_of(bodies):
+    return max(map(speed, bodies))
+
+
+def test_who_loses_its_floor_falls_as_one():
+    world = build(stack(1, 10, 100), "Contacts")
+    tall = world.bodies[3:]
+    run(world, 1)
+    world.remove(world.bodies[0])
+    run(world, 0.5)
+    # semi-implicit Euler falls at g t; what was let in before is pushed out on the way
+    assert [ball.vy for ball in tall] == pytest.approx([G * 0.5] * 3, rel=0.01)
+
+
+@pytest.mark.parametrize("long", [1 / 24, 1 / 60])
+@pytest.mark.parametrize("count", [5, 10])
+def test_who_falls_asleep_in_long_steps_is_not_thrown_up_in_short_ones(long, count):
+    scene = stack(*[1] * count)
+    scene.bodies.append(Ball((900, -1e6)))
+    world = build(scene, *SLEEPY)
+    tall = world.bodies[3:-1]
+    places = [-20 * (2 * i + 1) for i in range(count)]
+    run(world, 4, long)
+    assert tall[0].asleep
+    run(world, 0.5, 1 / 1000)
+    tall[0].vel = (0, 0)
+    assert rises(world, tall, places, 0.5, 1 / 1000) < LAUNCHED
+
+
+def test_a_chain_that_fell_asleep_in_long_steps_wakes_calmly_in_short_ones():
+    scene = chain()
+    scene.bodies.append(Ball((900, -1e6)))
+    world = build(scene, "Rods", "Sleep")
+    links = world.bodies[1:-1]
+    run(world, 6, 1 / 60)
+    assert links[0].asleep
+    run(world, 0.5, 1 / 1000)
+    links[-1].vel = (0, 0)
+    assert rises(world, links, [20 * i for i in range(1, 21)], 0.5, 1 / 1000) < LAUNCHED
+
+
+def test_a_pile_comes_to_rest_in_steps_that_vary_twentyfold():
+    rng = random.Random(0)
+    balls = [Ball((rng.uniform(-90, 90), -20 * i - 10)) for i in range(20)]
+    world = build(Scene([*slot(200, 900), *balls]), *SLEEPY)
+    for _ in range(1500):
+        world.step(rng.uniform(1 / 1000, 1 / 24))
+    assert world.awake == []
+
+
+# ---------------------------------------------------------------- what wakes
+
+
+def resting_on(thing):
+    """A ball asleep on a static box or below a static peg."""
+    if thing == "floor":
+        world = build(Scene([Block((0, 10), (50, 10)), Ball((0, -10))]), *SLEEPY)
+    else:
+        world = build(chain(1, (0, 50)), "Rods", "Sleep")
+    run(world, 2)
+    assert world.awake == []
+    return world
+
+
+@pytest.mark.parametrize("thing", ["floor", "peg"])
+def test_a_static_body_that_moves_wakes_who_rests_on_it(thing):
+    world = resting_on(thing)
+    world.bodies[0].pos = (1000, 0)
+    assert world.awake == world.bodies[1:]
+
+
+def test_a_static_body_put_into_a_sleeper_wakes_it_and_they_part():
+    world = build(Scene([floor(), Ball((0, -10)), Block((-100, -50), (10, 50))]), *SLEEPY)
+    ball, wall = world.bodies[1:]
+    run(world, 2)
+    assert ball.asleep
+    wall.pos = (-15, -50)
+    run(world, 1)
+    assert ball.x - 10 >= wall.x + 10 - 1e-6
+
+
+def test_another_gravity_wakes_all_and_the_same_one_nobody():
+    world = resting_on("floor")
+    world.gravity = (0, G)
+    assert world.awake == []
+    world.gravity = (0, -G)
+    assert world.awake == world.bodies[1:]
+    assert world.gravity == (0, -G)
+    run(world, 1)
+    assert world.bodies[1].vy == pytest.approx(-G, rel=0.01)
+
+
+@pytest.mark.parametrize(("name", "value"), [("length", 80), ("stiffness", 50), ("damping", 1)])
+def test_what_a_joint_is_like_can_be_set_and_wakes_its_ends(name, value):
+    scene = Scene([Ball((0, 0)), Ball((50, 0))], springs=[Spring(0, 1, 100.0, 10.0, 50.0)])
+    scene.gravity = (0, 0)
+    world = build(scene, "Springs", "Sleep")
+    (spring,) = world.effects["Springs"].joints
+    run(world, 1)
+    assert world.awake == []
+    setattr(spring, name, value)
+    assert world.awake == world.bodies
+    assert getattr(spring, name) == value
+    run(world, 4)
+    assert world.bodies[1].x - world.bodies[0].x == pytest.approx(spring.length, abs=0.05)
+
+
+def test_a_rod_whose_length_is_set_lets_its_ends_overlap_or_touch():
+    world = build(Scene([Ball((0, 0)), Ball((60, 0))], ("Contacts", "Rods"), [(0, 1)]))
+    world.gravity = (0, 0)
+    (rod,) = world.effects["Rods"].joints
+    a, b = world.bodies
+    for length in (15, 40):
+        rod.length = length
+        run(world, 1)
+        assert b.x - a.x == pytest.approx(length, abs=0.01)
+    assert world.effects["Contacts"].ignored == set()
+
+
+# ---------------------------------------------------------------- static bodies that move
+
+
+@pytest.mark.parametrize(("fast", "sleep"), [*product((10, 60, 200, 600), (False, True))])
+def test_a_lift_with_its_speed_carries_a_ball(fast, sleep):
+    scene = Scene([Block((0, 10), (50, 10)), Ball((0, -10))])
+    world = build(scene, *(SLEEPY if sleep else BOUNCE))
+    lift, ball = world.bodies
+    run(world, 1)
+    for _ in range(240):
+        lift.pos += (0, -fast * DT)
+        lift.vel = (0, -fast)
+        world.step(DT)
+        assert abs(lift.y - 10 - (ball.y + 10)) < fast * DT + 0.01  # the way of a step
+
+
+@pytest.mark.parametrize(("fast", "restitution"), [*product((60, 300, 1200), (0.0, 1.0))])
+def test_a_paddle_with_its_speed_strikes_a_ball(fast, restitution):
+    ball = Ball((0, 0), restitution=restitution)
+    scene = Scene([Block((-100, 0), (10, 100), restitution), ball], BOUNCE, gravity=(0, 0))
+    world = build(scene)
+    paddle, ball = world.bodies
+    paddle.vel = (fast, 0)
+    for _ in range(round(100 / fast / DT)):
+        paddle.pos += (fast * DT, 0)
+        world.step(DT)
+        assert ball.x > paddle.x
+    assert ball.vx == pytest.approx((1 + restitution) * fast, rel=1e-6)
+
+
+def test_on_a_conveyor_belt_a_ball_ends_up_rolling_at_a_third_of_its_speed():
+    world = build(on_floor())
+    belt, ball = world.bodies
+    belt.vel = (90, 0)
+    run(world, 2)
+    assert (ball.vx, ball.w * ball.radius) == pytest.approx((30, -60), rel=1e-9)
+    assert belt.x == 0
+
+
+# ---------------------------------------------------------------- bounces without end
+
+
+def gas(gravity):
+    """Twenty balls in a closed box, all with restitution 1."""
+    rng = random.Random(5)
+    sides = ((0, -220, 240, 20), (0, 220, 240, 20), (-220, 0, 20, 240), (220, 0, 20, 240))
+    walls = [Block((x, y), (hx, hy), 1.0) for x, y, hx, hy in sides]
+    places = [(75 * (i % 5) - 150, 75 * (i // 5) - 150) for i in range(20)]
+    fast = [(rng.uniform(-300, 300), rng.uniform(-300, 300)) for _ in places]
+    balls = [Ball(at, vel=v, restitution=1.0) for at, v in zip(places, fast, strict=True)]
+    return build(Scene([*walls, *balls], ("Contacts", "Bounce"), gravity=gravity))
+
+
+def gas_energy(world):
+    lag = world.gravity[1] * DT / world.substeps / 2
+    balls = world.bodies[4:]
+    return sum((b.vx**2 + (b.vy + lag) ** 2) / 2 - world.gravity[1] * (b.y - 190) for b in balls)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "least"), [(20, 0.99), pytest.param(300, 0.96, marks=pytest.mark.soak)]
+)
+@pytest.mark.parametrize("gravity", [(0, 0), (0, G)])
+def test_balls_that_keep_all_their_speed_gain_no_energy(gravity, seconds, least):
+    world = gas(gravity)
+    start = gas_energy(world)
+    shares = watch(world, seconds, lambda: gas_energy(world) / start)
+    assert least < min(shares)
+    assert max(shares) < 1.002  # an overlap is pushed out, which lifts a ball by as much
+
+
+@pytest.mark.parametrize("fast", [100, 300, 1000])
+def test_a_ceiling_gives_back_no_more_than_the_ball_had(fast):
+    scene = Scene([Block((0, -200), (100, 20), 1.0), Ball((0, -100), restitution=1.0)], BOUNCE)
+    scene.bodies[1].vel = (0.0, -600.0 - fast)
+    world = build(scene)
+    ball = world.bodies[1]
+    lag = G * DT / 8
+    start = (ball.vy + lag) ** 2 / 2 - G * ball.y
+    run(world, 0.25)
+    assert ball.vy > 0
+    assert (ball.vy + lag) ** 2 / 2 - G * ball.y == pytest.approx(start, rel=1e-9)
+
+
+# ---------------------------------------------------------------- more of it than usual
+
+
+@pytest.mark.parametrize("count", [30, 100])
+def test_many_balls_in_one_place_part_without_an_explosion(count):
+    engine = Stable(coincident(count))
+    fastest = max(watch(engine, 3, lambda: top_speed(engine)))
+    assert deepest_overlap(engine) < 0.001
+    assert fastest < 300 * math.sqrt(count)  # each pair would do with 300 px/s
+
+
+@pytest.mark.parametrize("masses", [(1, 1e6), (1e6, 1), (1, 1e6, 1), (1e-6, 1), (1, 1, 1e6)])
+def test_a_million_to_one_is_swallowed_but_never_launched_nor_pressed_into_the_floor(masses):
+    engine = Stable(stack(*masses))
+    tall = engine.bodies[3:]
+    places = [-20 * (2 * i + 1) for i in range(len(masses))]
+    assert rises(engine, tall, places, 5) < LAUNCHED
+    assert max(ball.y for ball in tall) < 0
+
+
+@pytest.mark.parametrize("steps", [1 / 30, 1 / 60, 1 / 120])
+@pytest.mark.parametrize("stiffness", [1e4, 1e5, 1e6, 1e8])
+def test_a_stiff_spring_beside_a_rod_that_was_torn_stays_bounded(stiffness, steps):
+    balls = [Ball((0, 0), 5, 0.07), Ball((80, 0), 5, 2.5), Ball((20, 100), 5, 1.0)]
+    springs = [Spring(0, 2, stiffness, length=32.0)]
+    scene = Scene(balls, ("Rods", "Springs"), [(0, 1)], springs, gravity=(0, 0))
+    engine = Stable(scene)
+    engine.bodies[0].pos = (-100, 0)
+    # no faster than by the whole stretch in a substep
+    assert max(watch(engine, 5, lambda: top_speed(engine), steps)) < 200 / (steps / 4)
+
+
+@pytest.mark.parametrize("length", [1e-12, 1e-6, 1e-3, 0.1])
+@pytest.mark.parametrize("fast", [0, 10, 1000])
+def test_a_rod_of_nearly_no_length_gains_no_energy(length, fast):
+    scene = Scene([Ball((0, 0)), Ball((length, 0), vel=(0, fast))], ("Rods",), [(0, 1)])
+    scene.gravity = (0, 0)
+    world = build(scene)
+    assert max(watch(world, 2, lambda: sum(speed(b) ** 2 for b in world.bodies))) <= (
+        fast**2 * (1 + 1e-9)
+    )
+
+
+def test_numbers_beyond_all_floats_are_an_error_in_a_sentence():
+    for mass, radius in ((1, 1e-170), (1, 1e200), (1e-320, 10), (1e308, 10)):
+        with pytest.raises(ValueError, match=r"^Body.mass is .* but it must be neither so tiny"):
+            Body(Circle(radius), (0, 0), mass)
+    bounces = [floor(restitution=0.5), Ball((0, -100), vel=(0.0, 1e200), restitution=0.5)]
+    world = build(Scene(bounces, BOUNCE))
+    with pytest.raises(ValueError, match=r"^Body\.\w+ is \((nan|inf|-inf|0)"):
+        run(world, 1)
+
+
+# ---------------------------------------------------------------- set in a callback
+
+
+def test_a_bullet_put_elsewhere_when_it_hits_is_there_and_nowhere_on_the_way():
+    def respawn(a, b, fast):
+        bullet.pos, bullet.vel = (0, 300), (0, 0)  # on the other side of the ledge
+
+    world = World(gravity=(0, 0), effects=[Contacts(respawn), Bounce(), Bullets()])
+    world.add(Body(Box((200, 10)), (0, 0)))
+    bullet = world.add(Body(Circle(10), (0, -19.9), mass=1, bullet=True))
+    bullet.vel = (3000, 5)
+    world.step(DT)
+    assert (bullet.x, bullet.y) == (0, 300)
+
+
+def test_an_error_in_a_callback_leaves_a_world_that_goes_on():
+    def fails(a, b, fast):
+        raise RuntimeError("mine")
+
+    world = build(on_floor(), *SLEEPY, "Bullets")
+    world.effects["Contacts"].on_hit = fails
+    with pytest.raises(RuntimeError, match="mine"):
+        world.step(DT)
+    run(world, 2)
+    assert world.awake == []
+
+
+@pytest.mark.parametrize("value", [0, -1, 2.5, "4"])
+def test_substeps_set_later_are_checked(value):
+    world = World()
+    with pytest.raises(ValueError, match=r"World\.substeps is .* a whole number above 0"):
+        world.substeps = value
+    world.substeps = 2
+    assert world.substeps == 2
