@@ -3,6 +3,7 @@
 import ast
 import base64
 import json
+import math
 import re
 import shutil
 from collections.abc import Iterable, Iterator
@@ -35,6 +36,7 @@ from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn, number_question
 from grader.questions.page import page
+from grader.questions.pictures import Film, Look
 from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
@@ -208,7 +210,68 @@ def test_films_are_different_pictures_of_one_scene_that_run_no_script(whole_shee
     assert len({each.svg for each in question.pictures}) == 4
     for each in question.pictures:
         tags = {node.tag.rpartition("}")[2] for node in ElementTree.fromstring(each.svg).iter()}
-        assert tags <= {"svg", "g", "rect", "circle", "line", "polyline", "set", "animate"}
+        assert tags <= {
+            "svg",
+            "g",
+            "rect",
+            "circle",
+            "line",
+            "polyline",
+            "set",
+            "animate",
+            "animateTransform",
+        }
+
+
+def film_of(heights: Iterable[float], turns: float = 0.0) -> Film:
+    """A ball that goes through these heights, and turns as often from the first to the last."""
+    ups = list(heights)
+    each = 2 * math.pi * turns / (len(ups) - 1)
+    rows = [[50.0, -up, 0.0, 0.0, each * row, 0.0] for row, up in enumerate(ups)]
+    return Film([Look(10.0, (0.0, 0.0), True, (50.0, 0.0))], rows, 2.0)
+
+
+def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
+    named = {each.name: each for each in films.CHANGES}
+    falls = [100.0, 50.0, 0.0, 0.0, 0.0]
+    usual, bounces = film_of([*falls[:3], 160.0, 0.0], 3.0), film_of([*falls[:3], 400.0, 0.0], 3.0)
+    stays, slides, buzzes = (film_of(falls, turns) for turns in (3.0, 0.0, 6.0))
+    assert films.rise(usual) == pytest.approx(1.6)
+    assert films.turning(buzzes) == pytest.approx(6.0)
+
+    def told(**shown: Film) -> bool:
+        changed = {named[name.replace("_", "-")]: film for name, film in shown.items()}
+        return films.all_told({films.AS_IT_IS: usual} | changed)
+
+    assert told(bouncy=bounces, no_bounce=stays) and not told(bouncy=usual)
+    assert told(ice=slides) and not told(ice=film_of(falls, 2.5))
+    assert told(no_spin=buzzes) and not told(no_spin=buzzes, ice=buzzes)
+    assert not told(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
+    lower = film_of([*falls[:3], films.SEEN - 1, 0.0])
+    assert films.rise(lower) == 0.0, "a rise along the way down is not seen on paper"
+
+
+def test_nearly_every_scene_has_films_to_ask_about(solution: Result):
+    found = []
+    with program_of(KIT / "solution", solution) as program:
+        for seed in range(6):
+            try:
+                found.append(films.film_question(program, f"scene {seed}", 4))
+            except Unlike:
+                continue
+    assert len(found) >= 5
+    assert len({each.choices for each in found}) > 1
+    assert all("your program as it is" in each.choices for each in found)
+
+
+def test_a_played_film_turns_its_spokes_and_carries_its_rods(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "film")
+    for each in question.pictures:
+        nodes = list(ElementTree.fromstring(each.svg).iter())
+        kinds = [node.get("type") for node in nodes if node.get("type")]
+        assert kinds.count("translate") == kinds.count("rotate") == 9  # eight balls and the bob
+        moved = {node.get("attributeName") for node in nodes if node.tag.endswith("}animate")}
+        assert moved == {"x1", "y1", "x2", "y2"}
 
 
 def test_the_line_is_one_of_the_students_own_and_the_only_one_that_differs(whole_sheet: Sheet):
