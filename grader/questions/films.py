@@ -1,7 +1,8 @@
 """Predict a film: films of the student's own scene, some with one thing changed; which is which?
 
 Each change is made in the student's program and in the reference. It is asked only where the two
-films of a change are nearer to each other than to those of any other one, so that no film lies.
+films of a change are nearer to each other than to those of any other one, so that no film lies. At
+home there is no reference, and nothing to be had by a lie.
 
 That films differ is not enough: soon after a first blow everything differs, and nobody can say why.
 Each change has a sign that the lesson lets one expect, as that nothing turns without friction, and
@@ -24,10 +25,10 @@ from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import STEP
 from grader.protocol import MAX_BODIES, MAX_RODS
-from grader.questions.cases_of_contacts import SEEDS, Scene
 from grader.questions.pictures import Film, Look, difference, picture
 from grader.questions.program import Program, Tree, Unlike
 from grader.questions.question import Question
+from grader.questions.scene import SEEDS, Scene
 
 COUNT = 4  # films
 SECONDS, EVERY = 2.0, 4  # of a film, and steps between its pictures
@@ -157,11 +158,11 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
         raise Unlike("too few of the TODOs that films show are right")
     rng.shuffle(able)
     films = chosen(program, [AS_IT_IS, *able], scene)
-    right = program.reference
-    held_against(
-        {each.name: each.film(right, scene) for each in films},
-        {each.name: film for each, film in films.items()},
-    )
+    if right := program.reference:
+        held_against(
+            {each.name: each.film(right, scene) for each in films},
+            {each.name: film for each, film in films.items()},
+        )
     shown = list(films)
     rng.shuffle(shown)
     options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))

@@ -22,24 +22,28 @@ from page_readers import barriers, chromium
 from typer.testing import CliRunner
 
 from grader.judge.children import Worker
-from grader.judge.course import Asked, WrongCourse, read_course
+from grader.judge.course import FULL, Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
 from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.maintain.bank import Member, members
+from grader.maintain.practice import practice_of
 from grader.maintain.verify import shared_worker
 from grader.questions import films, making
+from grader.questions import sheet as sheets
+from grader.questions.cases import MAKERS
 from grader.questions.commands import app
 from grader.questions.marking import Marked, mark_answers, read_keys, write_points
 from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
-from grader.questions.numbers import drawn, number_question
+from grader.questions.numbers import drawn
 from grader.questions.page import page
 from grader.questions.pictures import Film, Look
+from grader.questions.practice import Practice
 from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
-from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
+from grader.questions.sheet import in_turn, made
 from grader.questions.tally import add_class, write_bank
 from grader.report.files import write_json, write_whole
 from grader.todo_regions import python_files, read_source, regions_in
@@ -56,12 +60,16 @@ def program_of(folder: Path, result: Result) -> Iterator[Program]:
         yield program
 
 
+def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    return sheets.sheet_of(program, student, seed, asked, MAKERS)
+
+
 # ---------------------------------------------------------------- numbers
 
 
 def test_each_case_is_answered_in_two_ways_and_no_wrong_answer_counts(solution: Result):
     with program_of(KIT / "solution", solution) as program:
-        questions = [number_question(each, program, "a seed/ada", 2) for each in MAKERS]
+        questions = [each.ask(program, "a seed/ada", 2) for each in MAKERS]
     for question in questions:
         assert earned(question, question.answer) == 2
         assert len(question.wrong) >= 2, question.name
@@ -179,10 +187,10 @@ def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Re
     with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
         for _ in range(4):
             with pytest.raises((Unlike, Broke)):
-                number_question(MAKERS[0], program, "1", 2)
+                MAKERS[0].ask(program, "1", 2)
         assert program.own.deaths == 3
         with pytest.raises(Unlike, match="too often"):
-            number_question(MAKERS[0], program, "1", 2)
+            MAKERS[0].ask(program, "1", 2)
 
 
 # ---------------------------------------------------------------- films, lines, reasons
@@ -523,6 +531,41 @@ def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
             assert not re.search(r"\d+\.\d+|'[a-d]{4}'|answer_5 == \d", source), source
         if each["metadata"]["nbgrader"]["grade_id"].startswith("answer"):
             assert source.split() == [f"answer_{each['id'][-1]}", "=", "None"]
+
+
+# ---------------------------------------------------------------- practice at home
+
+
+@pytest.fixture(scope="module")
+def practice() -> Practice:
+    return msgspec.json.decode(practice_of(FULL), type=Practice)
+
+
+def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
+    assert {each.name for each in practice.cases} == {each.name for each in MAKERS}
+    for each in practice.cases:
+        assert len({question.text for question in each.questions}) >= 10, each.name
+        for question in each.questions:
+            assert earned(question, question.answer) == question.points
+            assert not any(earned(question, wrong.answer) for wrong in question.wrong)
+
+
+def test_at_home_all_kinds_are_asked_without_a_reference(practice: Practice, solution: Result):
+    with program_of(KIT / "solution", solution) as program:
+        alone = Program(program.own, None, program.right, practice.given)
+        some, others = (
+            sheets.sheet_of(alone, "practice", seed, practice.asked, practice.cases)
+            for seed in ("1", "2")
+        )
+        known = {each.answer for each in sheet_of(program, "ada", "5", Asked()).questions[:3]}
+    kinds = [each.kind for each in some.questions]
+    assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
+    assert some.points == 3 * 2 + 4 + 3 + 2 * 3
+    assert not some.dropped
+    assert [each.text for each in some.questions[:4]] != [
+        each.text for each in others.questions[:4]
+    ]
+    assert not known & {each.answer for each in some.questions[:3]}
 
 
 # ---------------------------------------------------------------- files, and everybody's sheet
