@@ -261,6 +261,10 @@ def main() -> None:
         app.add_typer(classroom)
         app.add_typer(maintain)
         app.add_typer(questions)
+    else:
+        from grader.questions.home import app as practice
+
+        app.add_typer(practice)
     try:
         app(prog_name="grader")
     except OSError as error:  # exit status 1 would say that points are missing

@@ -35,9 +35,9 @@ from grader.judge.misconceptions import Undecided
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Entry, Member
-from grader.maintain.operators import changes, names_in, normal
 from grader.maintain.slips import Scope, scopes, slipped
 from grader.maintain.verify import shared_worker
+from grader.questions.operators import changes, names_in, normal
 from grader.todo_regions import Region, python_files, read_source, regions_in
 
 CPU_SECONDS = 2  # budget of a mutant's child: many never end, and the solution needs a quarter

@@ -1,7 +1,8 @@
 """The copy of the grader that students get: no solution, no closed forms, no hidden checks.
 
 The hidden checks are cut out of their files, and everything that only they use. An oracle keeps
-its name and looks its answers up, and so do the known mistakes: see judge/recorded.py.
+its name and looks its answers up, and so do the known mistakes: see judge/recorded.py. So do the
+numbers that are asked for practice: see questions/practice.py.
 """
 
 import json
@@ -26,12 +27,17 @@ from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracl
 from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric
 from grader.maintain.cut import asked_of, pruned, with_bodies
 from grader.maintain.handed_out import students_tree
+from grader.maintain.practice import practice_of
 from grader.maintain.sync import given_sources, laid_in
+from grader.questions.practice import FILE as PRACTICE
 
 NOT_FOR_STUDENTS = (
-    *("classroom", "maintain", "questions"),
-    *("__pycache__", "mistakes_*.py", "expected_runs.json"),
-)
+    *("classroom", "maintain", "__pycache__"),
+    *("checks/mistakes_*.py", "checks/expected_runs.json"),
+    *("questions/cases*.py", "questions/numbers.py", "questions/templates/bank.html"),
+    *(f"questions/{name}.py" for name in ("commands", "making", "marking", "tally")),
+    *(f"questions/{name}.py" for name in ("moodle", "notebook")),
+)  # below the package
 HELPERS = (
     "lab_scene",
     "lesson_rules",
@@ -67,7 +73,7 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     more there are, the more often a student's copy can name a mistake.
     """
     package = folder / "grader"
-    shutil.copytree(KIT / "grader", package, ignore=shutil.ignore_patterns(*NOT_FOR_STUDENTS))
+    shutil.copytree(KIT / "grader", package, ignore=left_out)
     checks = package / "checks"
     rubric = visible(course.rubric)
     texts = cut_checks(rubric)
@@ -85,6 +91,13 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     texts["recorded.json"] = json.dumps(recorded, separators=(",", ":"), sort_keys=True)
     for name, text in texts.items():
         (checks / name).write_text(text, encoding="utf-8", newline="\n")
+    (checks / PRACTICE).write_bytes(practice_of(course))
+
+
+def left_out(folder: str, names: list[str]) -> set[str]:
+    """Those of a folder that students do not get."""
+    paths = {name: Path(folder, name).relative_to(KIT / "grader") for name in names}
+    return {name for name in names if any(map(paths[name].match, NOT_FOR_STUDENTS))}
 
 
 # ---------------------------------------------------------------- cutting

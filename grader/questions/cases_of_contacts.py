@@ -1,64 +1,17 @@
 """Cases of the lab scene: contacts, friction, the rod."""
 
 import math
-from dataclasses import dataclass, field
 
 from grader.checks import exact
-from grader.judge.decode import Thing
-from grader.judge.lab import STEP, Lab
-from grader.protocol import BodyValue, Rng
+from grader.judge.lab import STEP
 from grader.questions.numbers import Draw, Found, Unsuited, maker
 from grader.questions.program import Program, Unlike
+from grader.questions.scene import BOB, SEEDS, Scene
 from grader.words import digits
-
-BOB = 24.0  # px, the radius of the one ball that hangs on a rod
-LEAST_MASS, MOST_MASS = 0.1, 100.0  # kg
-
-
-@dataclass
-class Scene:
-    """The lab scene as the program makes it for a seed of its balls."""
-
-    lab: Lab
-    seed: int
-    world: Thing = field(init=False)
-    bodies: list[tuple[Thing, BodyValue]] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.world = self.lab.thing(self.lab.call("make_world", Rng(self.seed)))
-        found = self.lab.items(self.lab.get(self.world, "bodies"), "the bodies of the scene")
-        states = [self.lab.body(each) for each in found]
-        self.bodies = [(Thing(each.ref), each) for each in states]
-
-    def ball(self, number: int) -> tuple[Thing, BodyValue]:
-        """A ball by its number, from 1 on, in the order in which the scene adds them."""
-        balls = [each for each in self.bodies if each[1].inv_mass and each[1].radius != BOB]
-        if not 0 < number <= len(balls):
-            raise Unlike(f"the scene has {len(balls)} balls")
-        thing, state = balls[number - 1]
-        if not (LEAST_MASS < 1 / state.inv_mass < MOST_MASS and 1 < state.radius < BOB):
-            raise Unlike(f"ball {number} has no mass or radius of the lab scene")
-        return thing, state
-
-    def box_at(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
-        """A box of the scene by its centre."""
-        here = [each for each in self.bodies if (each[1].pos.x, each[1].pos.y) == place]
-        if not here:
-            raise Unlike(f"the scene has no box at {place}")
-        return here[0]
-
-    def number(self, thing: Thing, name: str) -> float:
-        return self.lab.number(self.lab.get(thing, name), f"its {name}")
-
-    @property
-    def made(self) -> str:
-        return f"Your lab scene is made by `make_world(random.Random({self.seed}))`."
-
 
 LEDGE, LEDGE_TOP = (200.0, 260.0), 250.0
 FLOOR, FLOOR_TOP = (450.0, 580.0), 560.0
 DEPTH = 0.25  # px, less than SLOP: nothing is pushed out
-SEEDS = range(100, 1000)
 
 
 # ---------------------------------------------------------------- slot 1: contacts and rods

@@ -1,29 +1,40 @@
 """Predict a film: films of the student's own scene, some with one thing changed; which is which?
 
 Each change is made in the student's program and in the reference. It is asked only where the two
-films of a change are nearer to each other than to those of any other one, so that no film lies.
+films of a change are nearer to each other than to those of any other one, so that no film lies. At
+home there is no reference, and nothing to be had by a lie.
+
+That films differ is not enough: soon after a first blow everything differs, and nobody can say why.
+Each change has a sign that the lesson lets one expect, as that nothing turns without friction, and
+is asked only where its film shows this sign clearly more, or clearly less, than all the others do,
+on paper as well. The program as it is has none, and is what is left.
 
 What the lab scene does not show is none of the changes: with one pass of the solver, without
-push-out, or with rods before contacts, no body of it is seen anywhere else after two seconds.
+push-out, or with rods before contacts, no body of it is seen anywhere else after two seconds; and
+friction without a limit has no sign.
 """
 
+import math
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import STEP
 from grader.protocol import MAX_BODIES, MAX_RODS
-from grader.questions.cases_of_contacts import SEEDS, Scene
 from grader.questions.pictures import Film, Look, difference, picture
 from grader.questions.program import Program, Tree, Unlike
 from grader.questions.question import Question
+from grader.questions.scene import SEEDS, Scene
 
 COUNT = 4  # films
-SECONDS, EVERY = 2.0, 6  # of a film, and steps between its pictures
+SECONDS, EVERY = 2.0, 4  # of a film, and steps between its pictures
 VISIBLE = 30.0  # px, by which two films must differ somewhere
+CLEAR = 1.5  # times as much of its sign as any other film, or as little
+SEEN = 12.0  # px, of one rise that a picture shows beside the way down
 TRIES = 2  # scenes
 MOST_RADIUS = 200.0  # px
 FRAME = (0.0, 30.0, 900.0, 560.0)
@@ -38,10 +49,39 @@ class Change:
     why: str
     todos: tuple[str, ...]
     texts: Callable[[Tree], Mapping[str, str]]
+    sign: Callable[[Film], float]  # of what there is most in its film; negative: least
+    restitution: float | None = None  # of all bodies of the scene
+
+    def film(self, tree: Tree, scene: int) -> Film:
+        """The lab scene of a tree with this change."""
+        return filmed(tree, self.texts(tree), scene, self.restitution)
+
+
+def rise(film: Film) -> float:
+    """How far the balls go up in all, where one can see it; 1 is 100 px."""
+    return sum(each for ball in film.loose for each in rises(film, ball) if each > SEEN) / 100
+
+
+def rises(film: Film, ball: int) -> Iterator[float]:
+    """How far a ball goes up each time, px."""
+    heights = [-film.place(row, ball)[1] for row in range(len(film.rows))]
+    up = 0.0
+    for before, after in pairwise(heights):
+        if after > before:
+            up += after - before
+        elif up:
+            yield up
+            up = 0.0
+    yield up
+
+
+def turning(film: Film) -> float:
+    """How far the balls turn in all, to and fro; 1 is a turn."""
+    angles = ([film.angle(row, ball) for row in range(len(film.rows))] for ball in film.loose)
+    return sum(abs(b - a) for each in angles for a, b in pairwise(each)) / (2 * math.pi)
 
 
 NO_SPIN = "def effective_mass(a, b, ra, rb, axis):\n    return a.inv_mass + b.inv_mass\n"
-UNLIMITED = "def friction_limit(c):\n    return 1e9\n"
 ICE = "def friction_limit(c):\n    return 0.0\n"
 
 
@@ -53,7 +93,7 @@ def function(target: str, source: str) -> Callable[[Tree], Mapping[str, str]]:
     return lambda tree: tree.with_function(f"mini_engine:{target}", source)
 
 
-AS_IT_IS = Change("as-it-is", "your program as it is", "", (), lambda tree: {})
+AS_IT_IS = Change("as-it-is", "your program as it is", "", (), lambda tree: {}, lambda film: 0.0)
 CHANGES = (
     Change(
         "all-at-once",
@@ -61,6 +101,16 @@ CHANGES = (
         "The push-out becomes a speed, which stays: what overlaps is thrown apart.",
         ("1",),
         constant("BETA", "1.0"),
+        rise,
+    ),
+    Change(
+        "bouncy",
+        "`restitution = 0.8` of every body",
+        "Each bounce keeps 0.8 of the speed, so 0.64 of the height: balls go up again, and high.",
+        ("1",),
+        lambda tree: {},
+        rise,
+        0.8,
     ),
     Change(
         "no-spin",
@@ -69,13 +119,7 @@ CHANGES = (
         "hard: slips turn round from pass to pass.",
         ("1", "2", "4"),
         function("effective_mass", NO_SPIN),
-    ),
-    Change(
-        "no-limit",
-        "`friction_limit` without a limit: friction as hard as it takes",
-        "What touches grips at once: balls bounce off sideways and turn from the first touch.",
-        ("1", "4"),
-        function("friction_limit", UNLIMITED),
+        turning,
     ),
     Change(
         "ice",
@@ -83,6 +127,7 @@ CHANGES = (
         "Without friction no ball is ever turned: its spoke stays as it was, and it slides on.",
         ("1", "4"),
         function("friction_limit", ICE),
+        lambda film: -turning(film),
     ),
     Change(
         "no-bounce",
@@ -90,6 +135,7 @@ CHANGES = (
         "Balls stop dead where they land, and only roll on.",
         ("1",),
         constant("RESTING_SPEED", "5000"),
+        lambda film: -rise(film),
     ),
 )
 
@@ -112,11 +158,11 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
         raise Unlike("too few of the TODOs that films show are right")
     rng.shuffle(able)
     films = chosen(program, [AS_IT_IS, *able], scene)
-    right = program.reference
-    held_against(
-        {each.name: filmed(right, each.texts(right), scene) for each in films},
-        {each.name: film for each, film in films.items()},
-    )
+    if right := program.reference:
+        held_against(
+            {each.name: each.film(right, scene) for each in films},
+            {each.name: film for each, film in films.items()},
+        )
     shown = list(films)
     rng.shuffle(shown)
     options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))
@@ -131,9 +177,10 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
         "film",
         tuple(dict.fromkeys(todo for each in films for todo in each.todos)),
         f"Four films of your lab scene, made by `make_world(random.Random({scene}))`, for "
-        f"{SECONDS:g} s. Each picture shows the bodies at four moments, the last one darkest, with "
-        "the ways of their centres; on a screen a click plays it. In three of them one thing was "
-        "changed.\nWhich film belongs to which? Write a letter for film 1, 2, 3 and 4.",
+        f"{SECONDS:g} s. Each picture shows the bodies at four moments, the last one darkest; the "
+        "thick pale line is the way of a centre, the thin one that of the tip of the white spoke. "
+        "On a screen a click plays it. In three of the films one thing was changed, in one nothing."
+        "\nWhich film belongs to which? Write a letter for film 1, 2, 3 and 4.",
         points,
         answer,
         choices=tuple(each.words for each in options),
@@ -146,20 +193,37 @@ CHANGES_IN_ORDER = {each.name: number for number, each in enumerate((AS_IT_IS, *
 
 
 def chosen(program: Program, able: list[Change], scene: int) -> dict[Change, Film]:
-    """The first changes whose films differ visibly from each other."""
+    """The first changes whose films differ visibly, each by its own sign."""
     films: dict[Change, Film] = {}
     for each in able:
         try:
-            film = filmed(program.own, each.texts(program.own), scene)
+            film = each.film(program.own, scene)
         except (Unlike, NotYet, Broke):
             if each is AS_IT_IS:
                 raise
             continue
-        if all(difference(film, other) >= VISIBLE for other in films.values()):
+        apart = all(difference(film, other) >= VISIBLE for other in films.values())
+        if apart and all_told(films | {each: film}):
             films[each] = film
         if len(films) == COUNT:
             return films
-    raise Unlike(f"only {len(films)} of its films look different")
+    raise Unlike(f"only {len(films)} of its films can be told from each other")
+
+
+def all_told(films: Mapping[Change, Film]) -> bool:
+    """Whether each film has clearly more, or clearly less, of its sign than all the others."""
+    return all(
+        clear(change.sign(film), change.sign(other))
+        for change, film in films.items()
+        for name, other in films.items()
+        if change is not AS_IT_IS and name is not change
+    )
+
+
+def clear(most: float, other: float) -> bool:
+    """Whether one sign is so much more than another that one sees it; negative: so much less."""
+    less, more = sorted((abs(most), abs(other)))
+    return most - other > 1 and more > CLEAR * less
 
 
 def held_against(right: Mapping[str, Film], films: Mapping[str, Film]) -> None:
@@ -178,10 +242,15 @@ def film_as_it_is(tree: Tree, seed: int) -> Film:
     return filmed(tree, {}, seed)
 
 
-def filmed(tree: Tree, texts: Mapping[str, str], seed: int) -> Film:
-    """The lab scene of a tree, some of its files with other text."""
+def filmed(
+    tree: Tree, texts: Mapping[str, str], seed: int, restitution: float | None = None
+) -> Film:
+    """The lab scene of a tree, some of its files with other text; all may bounce alike."""
     with tree.lab("mini_engine", texts) as lab:
         scene = Scene(lab, seed)
+        if restitution is not None:
+            for thing, _ in scene.bodies:
+                lab.put(thing, restitution=restitution)
         bodies = [thing for thing, _ in scene.bodies]
         joints = lab.items(lab.get(scene.world, "joints"), "the joints")
         if len(bodies) > MAX_BODIES or len(joints) > MAX_RODS:

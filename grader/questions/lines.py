@@ -1,7 +1,8 @@
 """Find the line: a function of the student's own with one line changed, and what that does.
 
 What it does is a film of the lab scene or, where a film would not show it, some numbers. The
-changed function runs in the student's program and in the reference, and both must do the same.
+changed function runs in the student's program and, where there is one, in the reference, and both
+must do the same.
 """
 
 import ast
@@ -14,12 +15,12 @@ from dataclasses import dataclass
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab
-from grader.maintain.operators import changes, names_in
-from grader.questions.cases_of_contacts import SEEDS
 from grader.questions.films import FRAME, SECONDS, VISIBLE, film_as_it_is, filmed, held_against
+from grader.questions.operators import changes, names_in
 from grader.questions.pictures import difference, picture
 from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
 from grader.questions.question import Picture, Question
+from grader.questions.scene import SEEDS
 from grader.todo_regions import RegionError, parsed, regions_in
 from grader.words import digits
 
@@ -54,10 +55,8 @@ def line_question(todo: str, program: Program, seed: str, points: int) -> Questi
     if text is None or len(text.source) > MOST_CODE:
         raise Unlike("the function is not found in its text, or is too long to be read")
     scene = random.Random(f"{seed}/line").choice(SEEDS)  # one for all TODOs: its films are kept
-    if todo in FILMS:
-        both = (film_as_it_is(tree, scene) for tree in (program.own, program.reference))
-        if difference(*both) > FAR:
-            raise Unlike("its film of the program as it is is not that of the reference")
+    if todo in FILMS and apart(program, scene) > FAR:
+        raise Unlike("its film of the program as it is is not that of the reference")
     possible = list(one_line_changes(program.own, todo, text))
     rng.shuffle(possible)
     for change in possible[:TRIES]:
@@ -72,6 +71,13 @@ def line_question(todo: str, program: Program, seed: str, points: int) -> Questi
             continue
         return posed(todo, change, words, pictures, points)
     raise Unlike("no change of one line shows, in their program and the reference alike")
+
+
+def apart(program: Program, scene: int) -> float:
+    """How far the films of a program and of the reference, where there is one, are apart."""
+    if program.reference is None:
+        return 0.0
+    return difference(*(film_as_it_is(tree, scene) for tree in (program.own, program.reference)))
 
 
 def posed(
@@ -158,9 +164,10 @@ def film_of(
     after = filmed(own, own.with_function(target, change.code), scene)
     if difference(before, after) < VISIBLE:
         raise Unlike("the film does not show it")
-    right = filmed(reference, reference.with_function(target, change.code), scene)
     films = {"the program": before, "the change": after}
-    held_against({"the program": film_as_it_is(reference, scene), "the change": right}, films)
+    if reference:
+        right = filmed(reference, reference.with_function(target, change.code), scene)
+        held_against({"the program": film_as_it_is(reference, scene), "the change": right}, films)
     titles = ("film 1, as it is", "film 2, with the change")
     pictures = tuple(
         picture(film, name, f"The lab scene for {SECONDS:g} s", FRAME)
@@ -178,9 +185,10 @@ def numbers_of(
     """Some numbers, without and with the change."""
     changed = change.code
     without, with_it = (answers(program.own, todo, code) for code in ("", changed))
-    right, wrong = (answers(program.reference, todo, code) for code in ("", changed))
-    if not (same(without, right) and same(with_it, wrong)):
-        raise Unlike("the program and the reference differ")
+    if reference := program.reference:
+        right, wrong = (answers(reference, todo, code) for code in ("", changed))
+        if not (same(without, right) and same(with_it, wrong)):
+            raise Unlike("the program and the reference differ")
     shown = [name for name in without if not close(without[name], with_it[name], LEAST)]
     if not shown:
         raise Unlike("the numbers do not show it")

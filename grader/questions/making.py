@@ -19,6 +19,7 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
+from grader.questions.cases import MAKERS
 from grader.questions.marking import read_keys
 from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
@@ -81,7 +82,8 @@ class Making:
         """The sheet of the submission at `path`, written."""
         result = self.result_of(student)
         with opened_program(path, self.options, worker, result) as program:
-            sheet = sheet_of(program, student, self.seed, self.options.course.questions)
+            asked = self.options.course.questions
+            sheet = sheet_of(program, student, self.seed, asked, MAKERS)
         self.write(sheet)
         left_out = f", {len(sheet.dropped)} not asked" if sheet.dropped else ""
         count = plural(len(sheet.questions), "question")

@@ -48,6 +48,15 @@ class Maker:
     find: Callable[[Program, Draw], Found]
     slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
 
+    def ask(self, program: Program, seed: str, points: int) -> Question:
+        """The question to one student; raises Unlike where it must not be asked."""
+        for draw in drawn(self, seed):
+            try:
+                return posed(self, self.find(program, draw), points)
+            except Unsuited:
+                continue
+        raise Unlike(f"{TRIES} draws gave no numbers that tell right from wrong")
+
 
 def maker(
     slot: int, todos: str, **draws: Sequence[int]
@@ -65,17 +74,6 @@ def drawn(each: Maker, seed: str) -> list[Draw]:
     """The numbers that a seed draws for a maker, and those to take where the first are unsuited."""
     rng = random.Random(f"{seed}/{each.name}")
     return [{name: rng.choice(few) for name, few in each.draws.items()} for _ in range(TRIES)]
-
-
-def number_question(each: Maker, program: Program, seed: str, points: int) -> Question:
-    """The question of a maker to one student; raises Unlike where it must not be asked."""
-    for draw in drawn(each, seed):
-        try:
-            found = each.find(program, draw)
-            return posed(each, found, points)
-        except Unsuited:
-            continue
-    raise Unlike(f"{TRIES} draws gave no numbers that tell right from wrong")
 
 
 def posed(each: Maker, found: Found, points: int) -> Question:

@@ -5,7 +5,7 @@ A picture is one SVG that runs no script. Everything in it is a number: no word 
 
 import math
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -46,6 +46,12 @@ class Film:
         return [number for number, look in enumerate(self.looks) if look.moves]
 
     @property
+    def loose(self) -> list[int]:
+        """What moves, and hangs on no rod."""
+        held = {end for rod in self.rods for end in rod}
+        return [body for body in self.moving if body not in held]
+
+    @property
     def moments(self) -> list[int]:
         """The rows that a picture shows, the last one among them."""
         last = len(self.rows) - 1
@@ -68,6 +74,7 @@ def picture(film: Film, name: str, alt: str, frame: tuple[float, float, float, f
     key = "film" + number_of(name, film)
     parts = [still(look) for look in film.looks if not look.moves]
     parts += [trail(film, body) for body in film.moving]
+    parts += [rim(film, body) for body in film.loose]
     for number, row in enumerate(film.moments, 1):
         shown = "".join(disc(film, row, body) for body in film.moving)
         rods = "".join(rod(film, row, *ends) for ends in film.rods)
@@ -82,7 +89,7 @@ def picture(film: Film, name: str, alt: str, frame: tuple[float, float, float, f
 
 
 # As attributes, so that a picture looks the same alone, as in Moodle; a page's style goes before.
-FIXED, BALL, LINE = "#b3b9c6", "#1f6fd6", "#5a6275"
+FIXED, BALL, LINE, RIM = "#b3b9c6", "#1f6fd6", "#5a6275", "#c25700"
 
 
 def number_of(name: str, film: Film) -> str:
@@ -107,17 +114,30 @@ def trail(film: Film, body: int) -> str:
     return f'<polyline class="trail" {look} points="{points}"/>'
 
 
+def rim(film: Film, body: int) -> str:
+    """The way of a spoke's end: on paper, too, one sees by it how a ball turns."""
+    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (end(film, n, body) for n in rows_of(film)))
+    return f'<polyline class="rim" fill="none" stroke="{RIM}" stroke-width="1" points="{points}"/>'
+
+
+def end(film: Film, row: int, body: int) -> tuple[float, float]:
+    """Where the spoke of a ball ends."""
+    (x, y), angle = film.place(row, body), film.angle(row, body)
+    long = SPOKE * film.looks[body].radius
+    return x + long * math.cos(angle), y + long * math.sin(angle)
+
+
 def rows_of(film: Film) -> range:
     return range(len(film.rows))
 
 
 def disc(film: Film, row: int, body: int) -> str:
     (x, y), radius = film.place(row, body), film.looks[body].radius
-    angle, long = film.angle(row, body), SPOKE * radius
+    to_x, to_y = end(film, row, body)
     return (
         f'<circle class="ball" fill="{BALL}" cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}"/>'
         f'<line class="spoke" stroke="#fff" stroke-width="3" x1="{x:.1f}" y1="{y:.1f}" '
-        f'x2="{x + long * math.cos(angle):.1f}" y2="{y + long * math.sin(angle):.1f}"/>'
+        f'x2="{to_x:.1f}" y2="{to_y:.1f}"/>'
     )
 
 
@@ -132,17 +152,34 @@ def appears(key: str, film: Film) -> str:
 
 
 def moving_discs(key: str, film: Film) -> str:
-    """Each ball, moved from row to row once the picture is clicked on."""
-    balls = []
-    for body in film.moving:
-        places = [film.place(row, body) for row in rows_of(film)]
-        (x, y), radius = places[0], film.looks[body].radius
+    """Each ball with its spoke, moved from row to row once the picture is clicked on; and rods."""
+    timed = f'begin="{key}.click" dur="{film.seconds:g}s"'
+    rows = rows_of(film)
+    parts = []
+    for first, second in film.rods:
         moves = "".join(
-            f'<animate attributeName="{name}" begin="{key}.click" dur="{film.seconds:g}s" '
-            f'values="{";".join(f"{place[axis]:.1f}" for place in places)}"/>'
-            for axis, name in enumerate(("cx", "cy"))
+            animated(name, timed, (f"{film.place(row, body)[axis]:.1f}" for row in rows))
+            for number, body in enumerate((first, second), 1)
+            for axis, name in enumerate((f"x{number}", f"y{number}"))
         )
-        balls.append(
-            f'<circle fill="#c25700" cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}">{moves}</circle>'
+        parts.append(f'<line stroke="{LINE}" stroke-width="3">{moves}</line>')
+    for body in film.moving:
+        radius = film.looks[body].radius
+        places = (f"{x:.1f} {y:.1f}" for x, y in (film.place(row, body) for row in rows))
+        turns = (f"{math.degrees(film.angle(row, body)):.0f}" for row in rows)
+        parts.append(
+            f'<g>{turned("translate", timed, places)}<circle fill="{RIM}" r="{radius:g}"/>'
+            f'<line stroke="#fff" stroke-width="3" x2="{SPOKE * radius:.1f}">'
+            f"{turned('rotate', timed, turns)}</line></g>"
         )
-    return "".join(balls)
+    return "".join(parts)
+
+
+def animated(name: str, timed: str, values: Iterable[str]) -> str:
+    return f'<animate attributeName="{name}" {timed} values="{";".join(values)}"/>'
+
+
+def turned(kind: str, timed: str, values: Iterable[str]) -> str:
+    """A transform that goes from value to value."""
+    form = f'attributeName="transform" type="{kind}" {timed}'
+    return f'<animateTransform {form} values="{";".join(values)}"/>'

@@ -110,10 +110,10 @@ class Tree:
 
 @dataclass
 class Program:
-    """A student's program, and the reference beside it."""
+    """A student's program, and the reference beside it, where there is one."""
 
     own: Tree
-    reference: Tree
+    reference: Tree | None
     right: frozenset[str]  # the TODOs that pass all their checks
     given: frozenset[str] = frozenset()  # those that the course hands out done
 
@@ -133,7 +133,9 @@ def opened_program(
         right = {todo.id for todo in found.todos if todo.state == "passed" and todo.id in asked}
         own = Tree(run.submission, run.sandbox)
         given = frozenset(todo.id for todo in options.course.given if not todo.bonus)
-        yield Program(own, Tree(run.right_submission, run.right_sandbox), frozenset(right), given)
+        known = options.reference is not None
+        reference = Tree(run.right_submission, run.right_sandbox) if known else None
+        yield Program(own, reference, frozenset(right), given)
 
 
 def askable(course: Course) -> frozenset[str]:

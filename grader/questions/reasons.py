@@ -124,7 +124,7 @@ REASONS = (
     Reason(
         "centre-inside",
         "1",
-        names("distance", "dist", "length", "d"),
+        calls("length", "length_squared", "magnitude", "magnitude_squared", "hypot", "sqrt"),
         "Your program works with this distance. Why does a centre inside of the box need a way of "
         "its own, and what is that way?",
         CENTRE_INSIDE,

@@ -1,30 +1,45 @@
 """The sheet of one student: the same kinds for everybody, about TODOs that are right in theirs."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
+from typing import Protocol, TypeVar
 
 from grader.judge.course import Asked
 from grader.judge.failures import Broke, NotYet
-from grader.questions import cases_of_contacts, cases_of_integrators, cases_of_time
 from grader.questions.films import film_question
 from grader.questions.lines import line_question, line_questions
-from grader.questions.numbers import Maker, number_question
 from grader.questions.program import Program, Unlike
 from grader.questions.question import Question, Sheet
 from grader.questions.reasons import reason_question, reasons_for
 from grader.words import clean
 
-MAKERS = (*cases_of_contacts.MAKERS, *cases_of_time.MAKERS, *cases_of_integrators.MAKERS)
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
 Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made
 
 
-def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+class Asks(Protocol):
+    """What asks for a number: a maker of the kit, or the cases that a release has of it."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def todos(self) -> tuple[str, ...]: ...
+    @property
+    def slot(self) -> int: ...
+    def ask(self, program: Program, seed: str, points: int) -> Question: ...
+
+
+Each = TypeVar("Each", bound=Asks)
+
+
+def sheet_of(
+    program: Program, student: str, seed: str, asked: Asked, makers: Sequence[Asks]
+) -> Sheet:
     """The questions to a student. The same program and seed always give the same ones."""
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
-    numbers = numbers_to_ask(program, own, asked)
+    numbers = numbers_to_ask(program, own, asked, makers)
     found += made(numbers, asked.number, dropped)
     found += made(films_to_ask(program, own, asked), asked.film, dropped)
     found += made(lines_to_ask(program, own, asked), asked.line, dropped)
@@ -58,9 +73,11 @@ def why_not(error: Exception) -> str:
     raise error
 
 
-def numbers_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for each in in_turn(MAKERS, program):
-        yield each.name, partial(number_question, each, program, seed, asked.worth("number"))
+def numbers_to_ask(
+    program: Program, seed: str, asked: Asked, makers: Sequence[Asks]
+) -> Iterator[Ask]:
+    for each in in_turn(makers, program):
+        yield each.name, partial(each.ask, program, seed, asked.worth("number"))
 
 
 def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
@@ -82,7 +99,7 @@ def reasons_to_ask(program: Program, asked: Asked) -> Iterator[Ask]:
         yield each.name, partial(reason_question, each, program, asked.worth("why"))
 
 
-def in_turn(makers: Iterable[Maker], program: Program) -> Iterator[Maker]:
+def in_turn(makers: Iterable[Each], program: Program) -> Iterator[Each]:
     """Those whose TODOs are all right: the first of each slot, then the second of each.
 
     What a course hands out done may take part in a question, and is not what it is about.

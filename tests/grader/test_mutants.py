@@ -35,8 +35,8 @@ from grader.maintain.mutants import (
     regions_of,
     sample,
 )
-from grader.maintain.operators import OPERATORS, changes
 from grader.maintain.slips import SLIPS, Scale, Scope, scopes, slipped
+from grader.questions.operators import OPERATORS, changes
 from grader.todo_regions import replaced
 from mini_engine import game_loop, scenes
 from mini_engine.bonus import window

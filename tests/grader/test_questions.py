@@ -3,6 +3,7 @@
 import ast
 import base64
 import json
+import math
 import re
 import shutil
 from collections.abc import Iterable, Iterator
@@ -21,23 +22,28 @@ from page_readers import barriers, chromium
 from typer.testing import CliRunner
 
 from grader.judge.children import Worker
-from grader.judge.course import Asked, WrongCourse, read_course
+from grader.judge.course import FULL, Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
 from grader.judge.grade import Options, shipped_reference
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.maintain.bank import Member, members
+from grader.maintain.practice import practice_of
 from grader.maintain.verify import shared_worker
 from grader.questions import films, making
+from grader.questions import sheet as sheets
+from grader.questions.cases import MAKERS
 from grader.questions.commands import app
 from grader.questions.marking import Marked, mark_answers, read_keys, write_points
 from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
-from grader.questions.numbers import drawn, number_question
+from grader.questions.numbers import drawn
 from grader.questions.page import page
+from grader.questions.pictures import Film, Look
+from grader.questions.practice import Practice
 from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
-from grader.questions.sheet import MAKERS, in_turn, made, sheet_of
+from grader.questions.sheet import in_turn, made
 from grader.questions.tally import add_class, write_bank
 from grader.report.files import write_json, write_whole
 from grader.todo_regions import python_files, read_source, regions_in
@@ -54,12 +60,16 @@ def program_of(folder: Path, result: Result) -> Iterator[Program]:
         yield program
 
 
+def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    return sheets.sheet_of(program, student, seed, asked, MAKERS)
+
+
 # ---------------------------------------------------------------- numbers
 
 
 def test_each_case_is_answered_in_two_ways_and_no_wrong_answer_counts(solution: Result):
     with program_of(KIT / "solution", solution) as program:
-        questions = [number_question(each, program, "a seed/ada", 2) for each in MAKERS]
+        questions = [each.ask(program, "a seed/ada", 2) for each in MAKERS]
     for question in questions:
         assert earned(question, question.answer) == 2
         assert len(question.wrong) >= 2, question.name
@@ -177,10 +187,10 @@ def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Re
     with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
         for _ in range(4):
             with pytest.raises((Unlike, Broke)):
-                number_question(MAKERS[0], program, "1", 2)
+                MAKERS[0].ask(program, "1", 2)
         assert program.own.deaths == 3
         with pytest.raises(Unlike, match="too often"):
-            number_question(MAKERS[0], program, "1", 2)
+            MAKERS[0].ask(program, "1", 2)
 
 
 # ---------------------------------------------------------------- films, lines, reasons
@@ -208,7 +218,68 @@ def test_films_are_different_pictures_of_one_scene_that_run_no_script(whole_shee
     assert len({each.svg for each in question.pictures}) == 4
     for each in question.pictures:
         tags = {node.tag.rpartition("}")[2] for node in ElementTree.fromstring(each.svg).iter()}
-        assert tags <= {"svg", "g", "rect", "circle", "line", "polyline", "set", "animate"}
+        assert tags <= {
+            "svg",
+            "g",
+            "rect",
+            "circle",
+            "line",
+            "polyline",
+            "set",
+            "animate",
+            "animateTransform",
+        }
+
+
+def film_of(heights: Iterable[float], turns: float = 0.0) -> Film:
+    """A ball that goes through these heights, and turns as often from the first to the last."""
+    ups = list(heights)
+    each = 2 * math.pi * turns / (len(ups) - 1)
+    rows = [[50.0, -up, 0.0, 0.0, each * row, 0.0] for row, up in enumerate(ups)]
+    return Film([Look(10.0, (0.0, 0.0), True, (50.0, 0.0))], rows, 2.0)
+
+
+def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
+    named = {each.name: each for each in films.CHANGES}
+    falls = [100.0, 50.0, 0.0, 0.0, 0.0]
+    usual, bounces = film_of([*falls[:3], 160.0, 0.0], 3.0), film_of([*falls[:3], 400.0, 0.0], 3.0)
+    stays, slides, buzzes = (film_of(falls, turns) for turns in (3.0, 0.0, 6.0))
+    assert films.rise(usual) == pytest.approx(1.6)
+    assert films.turning(buzzes) == pytest.approx(6.0)
+
+    def told(**shown: Film) -> bool:
+        changed = {named[name.replace("_", "-")]: film for name, film in shown.items()}
+        return films.all_told({films.AS_IT_IS: usual} | changed)
+
+    assert told(bouncy=bounces, no_bounce=stays) and not told(bouncy=usual)
+    assert told(ice=slides) and not told(ice=film_of(falls, 2.5))
+    assert told(no_spin=buzzes) and not told(no_spin=buzzes, ice=buzzes)
+    assert not told(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
+    lower = film_of([*falls[:3], films.SEEN - 1, 0.0])
+    assert films.rise(lower) == 0.0, "a rise along the way down is not seen on paper"
+
+
+def test_nearly_every_scene_has_films_to_ask_about(solution: Result):
+    found = []
+    with program_of(KIT / "solution", solution) as program:
+        for seed in range(6):
+            try:
+                found.append(films.film_question(program, f"scene {seed}", 4))
+            except Unlike:
+                continue
+    assert len(found) >= 5
+    assert len({each.choices for each in found}) > 1
+    assert all("your program as it is" in each.choices for each in found)
+
+
+def test_a_played_film_turns_its_spokes_and_carries_its_rods(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "film")
+    for each in question.pictures:
+        nodes = list(ElementTree.fromstring(each.svg).iter())
+        kinds = [node.get("type") for node in nodes if node.get("type")]
+        assert kinds.count("translate") == kinds.count("rotate") == 9  # eight balls and the bob
+        moved = {node.get("attributeName") for node in nodes if node.tag.endswith("}animate")}
+        assert moved == {"x1", "y1", "x2", "y2"}
 
 
 def test_the_line_is_one_of_the_students_own_and_the_only_one_that_differs(whole_sheet: Sheet):
@@ -460,6 +531,41 @@ def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
             assert not re.search(r"\d+\.\d+|'[a-d]{4}'|answer_5 == \d", source), source
         if each["metadata"]["nbgrader"]["grade_id"].startswith("answer"):
             assert source.split() == [f"answer_{each['id'][-1]}", "=", "None"]
+
+
+# ---------------------------------------------------------------- practice at home
+
+
+@pytest.fixture(scope="module")
+def practice() -> Practice:
+    return msgspec.json.decode(practice_of(FULL), type=Practice)
+
+
+def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
+    assert {each.name for each in practice.cases} == {each.name for each in MAKERS}
+    for each in practice.cases:
+        assert len({question.text for question in each.questions}) >= 10, each.name
+        for question in each.questions:
+            assert earned(question, question.answer) == question.points
+            assert not any(earned(question, wrong.answer) for wrong in question.wrong)
+
+
+def test_at_home_all_kinds_are_asked_without_a_reference(practice: Practice, solution: Result):
+    with program_of(KIT / "solution", solution) as program:
+        alone = Program(program.own, None, program.right, practice.given)
+        some, others = (
+            sheets.sheet_of(alone, "practice", seed, practice.asked, practice.cases)
+            for seed in ("1", "2")
+        )
+        known = {each.answer for each in sheet_of(program, "ada", "5", Asked()).questions[:3]}
+    kinds = [each.kind for each in some.questions]
+    assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
+    assert some.points == 3 * 2 + 4 + 3 + 2 * 3
+    assert not some.dropped
+    assert [each.text for each in some.questions[:4]] != [
+        each.text for each in others.questions[:4]
+    ]
+    assert not known & {each.answer for each in some.questions[:3]}
 
 
 # ---------------------------------------------------------------- files, and everybody's sheet

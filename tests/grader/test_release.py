@@ -274,6 +274,29 @@ def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path
         prove(released.wheel, tmp_path / "installed")
 
 
+def test_students_can_practise_questions_about_their_own_program(
+    released: Released, tmp_path: Path
+):
+    own = tmp_path / "own"
+    shutil.copytree(KIT / "solution", own, ignore=shutil.ignore_patterns("stable_engine"))
+    code = "sys.argv = ['grader', 'questions', *{!r}]; from grader.cli import main; main()"
+
+    def asked(*words: str) -> subprocess.CompletedProcess[str]:
+        command = releases.alone(released.installed, code.format(words))
+        return subprocess.run(command, cwd=own, capture_output=True, text=True)
+
+    done = asked("--seed", "3")
+    assert not done.returncode, done.stdout + done.stderr
+    page = (own / "build" / "questions.html").read_text(encoding="utf-8")
+    assert page.count("<details><summary>The answer") == page.count('class="question"') >= 4
+    assert all(f". {kind} <" in page for kind in ("Predict a number", "Find the line", "Say why"))
+    assert not asked("--seed", "3", "--out", "again.html").returncode
+    assert (own / "again.html").read_text(encoding="utf-8") == page
+    assert not asked("--seed", "4", "--out", "other.html").returncode
+    assert (own / "other.html").read_text(encoding="utf-8") != page
+    assert asked("--class", "x").returncode == 2, "what is for a class is not in it"
+
+
 # ---------------------------------------------------------------- nothing is given away
 
 
@@ -285,8 +308,13 @@ def test_every_region_has_something_to_look_for(secrets: list[Secret]):
 
 def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
     names = [path.name for path in released.installed.rglob("*")]
-    assert not {"maintain", "classroom", "questions"} & set(names)
-    assert not [name for name in names if name.startswith("mistakes_")]
+    assert not {"maintain", "classroom"} & set(names)
+    assert not [name for name in names if name.startswith(("mistakes_", "cases"))]
+    questions = {path.stem for path in released.installed.glob("grader/questions/*.py")}
+    assert questions == {
+        *("__init__", "films", "home", "lines", "operators", "page", "pictures", "practice"),
+        *("program", "question", "reasons", "scene", "sheet"),
+    }
     texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
     for name in hidden_checks(load_rubric()):
         assert not [text for text in texts if name in text]

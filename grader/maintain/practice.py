@@ -1,0 +1,35 @@
+"""What a release has for practice at home: some of each case of *predict a number*, answered."""
+
+import msgspec
+
+from grader.judge.course import Course
+from grader.judge.grade import KIT, Options, shipped_reference
+from grader.questions.cases import MAKERS
+from grader.questions.practice import Cases, Practice
+from grader.questions.program import Program, Unlike, opened_program
+from grader.questions.question import Question
+from grader.questions.sheet import Asks, in_turn
+
+EACH = 12  # cases of a maker
+SEED = "practice at home"  # no sheet is drawn from it: its seeds are numbers
+
+
+def practice_of(course: Course) -> bytes:
+    """The file for a course's release: the same for the same kit."""
+    options = Options(shipped_reference(), trusted=True, course=course)
+    with opened_program(KIT / "solution", options) as program:
+        cases = tuple(cases_of(each, program) for each in in_turn(MAKERS, program))
+        practice = Practice(course.questions, program.given, cases)
+    return msgspec.json.encode(practice, order="sorted")
+
+
+def cases_of(maker: Asks, program: Program) -> Cases:
+    """Some questions of one maker, no two alike; each holds by the closed form and by a run."""
+    found: dict[str, Question] = {}
+    for number in range(EACH):
+        try:
+            question = maker.ask(program, f"{SEED}/{number}", 1)
+        except Unlike:
+            continue
+        found[question.text] = question
+    return Cases(maker.name, maker.todos, maker.slot, tuple(found.values()))
