@@ -24,7 +24,7 @@ from grader.classroom.intake.places import (
     stem_of,
     unwrapped,
 )
-from grader.classroom.names import portable
+from grader.classroom.names import MENTIONED, portable
 from grader.judge.submission import CannotGrade, plain_files
 from grader.judge.workplace import work_folder
 
@@ -82,8 +82,13 @@ def pack(found: Found) -> Package:
                     files.append((name, path.read_bytes()))
     except OSError as error:
         raise CannotTake(f"it cannot be read: {error}") from error
+    except CannotGrade as error:
+        raise CannotTake(str(error)) from error
     left_out = [f"left out {each}" for each in bounds.left_out]
-    return Package(found.name, sorted(files), [*notes, *laid.notes, *left_out])
+    said = [*notes, *laid.notes, *left_out]
+    if len(said) > MENTIONED:
+        said[MENTIONED:] = [f"and {len(said) - MENTIONED} notes more"]
+    return Package(found.name, sorted(files), said)
 
 
 @contextmanager
@@ -173,6 +178,8 @@ def gather_all(found: Found, folder: Path, bounds: Bounds) -> None:
 
 def gather(path: Path, target: Path, bounds: Bounds) -> None:
     """Copy one file; an archive may be larger than a submission, its files may not."""
+    if not path.is_file():
+        raise CannotTake(f"{path.name} is no file to read, but a pipe, a device or nothing")
     if is_archive(path):
         check_size(path)
     elif not bounds.take(path.name, path.stat().st_size):

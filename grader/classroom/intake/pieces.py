@@ -130,25 +130,28 @@ def arranged(folder: Path) -> Arranged:
 def candidates(paths: list[PurePosixPath]) -> list[Piece]:
     """All that could be a program of the lab; what lies in a package is part of that."""
     found: list[Piece] = []
+    taken: set[PurePosixPath] = set()  # where they lie
     folders: dict[PurePosixPath, list[PurePosixPath]] = {}
     for path in paths:
         for parent in path.parents:
             folders.setdefault(parent, []).append(path)
     for folder in sorted(folders, key=lambda each: (len(each.parts), each)):
         module = meant(folder.name, modules())
-        if module and not covered(folder, found) and is_package(folder, folders[folder]):
+        if module and not covered(folder, taken) and is_package(folder, folders[folder]):
             inside = tuple((f"{module}/{p.relative_to(folder)}", p) for p in folders[folder])
             found.append(Piece(module, folder, inside, folder.name == module))
+            taken.add(folder)
     for path in paths:
         module = meant(path.name, {f"{name}.py" for name in modules()})
-        if module and not covered(path, found):
+        if module and not covered(path, taken):
             name = module.removesuffix(".py")
             found.append(Piece(name, path, ((module, path),), path.name == module))
+            taken.add(path)
     return found
 
 
-def covered(path: PurePosixPath, pieces: list[Piece]) -> bool:
-    return any(path.is_relative_to(piece.path) for piece in pieces)
+def covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
+    return not taken.isdisjoint((path, *path.parents))
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
