@@ -46,7 +46,11 @@ Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
 
 
 def cut(text: str, most: int) -> str:
-    """At most so many characters of a text; what is missing is told by its last one."""
+    """At most so many characters of a text; what is missing is told by its last one.
+
+    Halves of letters, which no message can hold, become their numbers.
+    """
+    text = text[: most + 1].encode(errors="backslashreplace").decode()
     return text if len(text) <= most else f"{text[: most - 1]}…"
 
 

@@ -63,9 +63,10 @@ class Run:
             first = members[0]
             try:
                 package = pack(first, self.course.modules)
-            except CannotTake as error:
+            except Exception as error:  # this one submission; the others go on
+                words = str(error) if isinstance(error, CannotTake) else in_words(error)
                 for found in members:
-                    self.trouble(found, str(error))
+                    self.trouble(found, words)
                 continue
             self.same.setdefault(package.digest, {})[first.whose] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
@@ -224,5 +225,9 @@ def finished(
         except ExecutorFailed as error:
             raise CannotGrade(str(error)) from error
         except Exception as error:  # this one submission; the others go on
-            graded = f"{type(error).__name__}: {error}"
+            graded = in_words(error)
         yield task, graded
+
+
+def in_words(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"

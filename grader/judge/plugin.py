@@ -329,11 +329,12 @@ class GradingPlugin:
                 meaning=failure.meaning,
                 where=where,
             )
-        if failure.raised is not None and failure.raised.frames:
-            last = failure.raised.frames[-1]
-            own = [each for each in failure.raised.frames if not self._is_given(todo, each)]
+        lines = failure.raised.frames if failure.raised is not None else []
+        if lines := [each for each in lines if self.submission.holds(each.file)]:
+            last = lines[-1]
+            own = [each for each in lines if not self._is_given(todo, each)]
             if own or where is None:
-                frame = (own or failure.raised.frames)[-1]
+                frame = (own or lines)[-1]
                 where = Where(frame.file, frame.line)
             got += f" (in {last.file}, line {last.line}: {last.text})"
         return self._result(

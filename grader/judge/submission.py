@@ -3,10 +3,11 @@
 import math
 import os
 import shutil
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path, PurePath
+from pathlib import Path, PurePath, PurePosixPath
 
 import msgspec
 
@@ -25,6 +26,9 @@ from grader.todo_regions import (
 
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
+MAX_SEEN = 20_000  # files and folders that are looked at
+MAX_DEPTH = 40  # folders in each other
+ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
@@ -45,11 +49,19 @@ class Submission:
     unread: list[str] = field(default_factory=list)  # files too long to look into, in words
     uses_numpy: bool = False
 
+    def holds(self, file: str) -> bool:
+        """Whether there is such a file in it: what a child says may name any."""
+        inside = PurePosixPath(file)
+        safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
+        return safe and (self.folder / inside).is_file()
+
 
 def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
     """Copy what may be copied, make it read-only, and find the TODOs in it."""
     if not path.exists():
         raise CannotGrade(f"there is no submission at {path}: name a folder or a Python file")
+    if path.is_file() and path.stat().st_size > MAX_BYTES:
+        raise CannotGrade(f"{path} has more than {MAX_BYTES >> 20} MB")
     submission = Submission(path.resolve().name, copy)
     copy.mkdir(parents=True)
     if path.is_file():
@@ -110,21 +122,32 @@ def load_given() -> dict[str, str]:
 
 
 def plain_files(path: Path) -> Iterator[Path]:
-    """What may be part of a submission: no virtual environment, no name that is no text."""
-    for folder, folders, names in os.walk(path):
-        here = Path(folder)
-        folders[:] = [
-            name
-            for name in folders
-            if name not in IGNORED
-            and not name.startswith(".")
-            and not (here / name).is_symlink()
-            and not (here / name / "pyvenv.cfg").exists()
-        ]
-        for name in names:
-            source = here / name
-            if name.isprintable() and source.is_file() and not source.is_symlink():
-                yield source
+    """What may be part of a submission: no virtual environment, no name that is no text.
+
+    Folder by folder from the top. Raises CannotGrade where there is no end of it.
+    """
+    seen, waiting = 0, deque([(path, 0)])
+    while waiting:
+        here, depth = waiting.popleft()
+        try:
+            entries = os.scandir(here)
+        except OSError:  # not ours to read
+            continue
+        with entries:
+            for entry in entries:
+                seen += 1
+                if seen > MAX_SEEN or depth > MAX_DEPTH:
+                    raise CannotGrade(ENDLESS)
+                if entry.is_dir(follow_symlinks=False):
+                    if may_be_entered(entry):
+                        waiting.append((here / entry.name, depth + 1))
+                elif entry.is_file(follow_symlinks=False) and entry.name.isprintable():
+                    yield here / entry.name
+
+
+def may_be_entered(folder: os.DirEntry[str]) -> bool:
+    hidden = folder.name.startswith(".") or folder.name in IGNORED
+    return not hidden and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:

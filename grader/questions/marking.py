@@ -16,6 +16,7 @@ from grader.classroom.names import folded
 from grader.judge.submission import CannotGrade
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.report.files import write_whole
+from grader.report.sinks import tables
 
 COLUMNS = ("student", "question", "answer")
 BY_HAND = "points"  # a column that may be left out: those that a person gave
@@ -163,7 +164,7 @@ def write_points(marked: Marked, out: Path) -> tuple[Path, Path]:
     head = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
     rows = [
         (
-            each.student,
+            harmless(each.student),
             each.number,
             each.question.kind,
             " ".join(each.question.todos),
@@ -188,12 +189,12 @@ def total(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
     """A student's points, those there were, and how many answers nobody has marked yet."""
     points = sum(each.points or 0 for each in marks)
     waiting = sum(each.points is None for each in marks)
-    return marks[0].student, points, sum(each.question.points for each in marks), waiting
+    return harmless(marks[0].student), points, sum(each.question.points for each in marks), waiting
 
 
 def harmless(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula."""
-    return f"'{cell}" if cell[:1] in ("=", "+", "-", "@", "\t") and not is_number(cell) else cell
+    """A cell that no spreadsheet takes for a formula; a number below 0 is none."""
+    return cell if is_number(cell) else tables.harmless(cell)
 
 
 def is_number(cell: str) -> bool:

@@ -276,8 +276,14 @@ def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
 
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
-    wanted = {name: os.environ[name] for name in ("SYSTEMROOT", "PATH") if name in os.environ}
-    wanted |= ENVIRONMENT | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
+    windows = ("SYSTEMROOT", "PATH") if os.name == "nt" else ()  # it finds its libraries by them
+    wanted = {name: os.environ[name] for name in windows if name in os.environ}
+    wanted |= (
+        {"PATH": os.defpath}
+        | wanted
+        | ENVIRONMENT
+        | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
+    )
     for name in set(os.environ) - set(wanted):
         del os.environ[name]
     for name in wanted:

@@ -144,6 +144,8 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
         if landlock:
             layers += restrict_with_landlock(setup)
         drop_capabilities()
+        # It ends with the process that forked it; after the change of user, which forgets it.
+        libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     return layers, setup
 
 
@@ -266,7 +268,7 @@ def set_resource_limits(limits: Limits) -> list[str]:
         (resource.RLIMIT_FSIZE, limits.file_mb * megabyte),
         (resource.RLIMIT_NOFILE, limits.open_files),
         (resource.RLIMIT_NPROC, limits.processes),
-        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_CORE, 1),  # a byte: with 0 Linux may still hand the image to a program
     ):
         with suppress(ValueError, OSError):  # macOS knows no limit on memory
             resource.setrlimit(name, (value, value))

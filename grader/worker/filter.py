@@ -190,6 +190,14 @@ WALLS = {
     "seccomp": (317, 277),
     "personality": (135, 92),
 }
+# What the machine did before: which pages of which files it has read, and how busy it is. A child
+# could leave a word there, by emptying a file's pages or by working, and a later one find it.
+MEMORY = {
+    "fadvise64": (221, 223),
+    "mincore": (27, 232),
+    "readahead": (187, 213),
+    "sysinfo": (99, 179),
+}
 # The machine as a whole, and the parts of the kernel in which most holes were found.
 MACHINE = {
     "bpf": (321, 280),
@@ -226,7 +234,9 @@ MACHINE = {
     "sync": (162, 81),
     "syncfs": (306, 267),
 }
-REFUSED = PROCESSES | OTHERS | SOCKETS | LASTING | PIPES | METADATA | NAMES | WALLS | MACHINE
+REFUSED = (
+    PROCESSES | OTHERS | SOCKETS | LASTING | PIPES | METADATA | NAMES | WALLS | MEMORY | MACHINE
+)
 # What is allowed or refused by its arguments: see `checked`.
 CHECKED = {
     "clone": (56, 220),
@@ -237,6 +247,9 @@ CHECKED = {
     "socketpair": (53, 199),
     "fcntl": (72, 25),
     "ioctl": (16, 29),
+    "madvise": (28, 233),
+    "preadv2": (327, 286),
+    "prctl": (157, 167),
 }
 # F_SETOWN, F_SETSIG, F_SETOWN_EX signal others; F_SETLEASE, F_NOTIFY hold up or watch them;
 # F_SETPIPE_SZ takes memory of the kernel.
@@ -244,6 +257,12 @@ REFUSED_FCNTL = (8, 10, 15, 1024, 1026, 1031)
 # TCGETS, TCGETS2, TIOCGWINSZ, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX: what Python asks of its own
 # files. Others change attributes of files, or who is signalled.
 ALLOWED_IOCTL = (0x5401, 0x802C542A, 0x5413, 0x541B, 0x5421, 0x5450, 0x5451)
+
+# MADV_MERGEABLE, MADV_COLD, MADV_PAGEOUT: pages shared with others, and out of the memory of all.
+REFUSED_MADVISE = (12, 20, 21)
+# PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_IO_FLUSHER, PR_SCHED_CORE and
+# PR_SET_PTRACER: a child ends with its grader, leaves no image of itself and lets nobody in.
+REFUSED_PRCTL = (1, 4, 36, 57, 62, 0x59616D61)
 
 AUDIT_ARCH = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 LOAD, EQUAL, GREATER, ANY_BIT, RETURN = 0x20, 0x15, 0x25, 0x45, 0x06
@@ -313,6 +332,9 @@ def checked(pid: int) -> dict[str, list[Instruction]]:
         "socketpair": argument(0) + one_of((AF_UNIX,), ALLOW, REFUSE),  # of this process: asyncio
         "fcntl": argument(1) + one_of(REFUSED_FCNTL, REFUSE, ALLOW),
         "ioctl": argument(1) + one_of(ALLOWED_IOCTL, ALLOW, REFUSE),
+        "madvise": argument(2) + one_of(REFUSED_MADVISE, REFUSE, ALLOW),
+        "prctl": argument(0) + one_of(REFUSED_PRCTL, REFUSE, ALLOW),
+        "preadv2": argument(5) + one_of((0,), ALLOW, REFUSE),  # RWF_NOWAIT tells what is read
     }
 
 

@@ -22,7 +22,7 @@ import pymunk
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import folders_of, serve, tidy_environment
 from grader.worker.confinement import isolate_server, prepare, write
-from grader.worker.imports import put_away
+from grader.worker.imports import at_hand, put_away
 
 YOUNG = 10_000  # new objects, after which a child looks for garbage: seldom, for most end before
 MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
@@ -164,7 +164,8 @@ def stray_pids() -> list[int]:
     """Which processes to kill: all (-1) where the namespace holds no others, or all descendants."""
     if os.getpid() == 1:
         return [-1]
-    return [process.pid for process in psutil.Process().children(recursive=True)]
+    with at_hand():
+        return [process.pid for process in psutil.Process().children(recursive=True)]
 
 
 def has_children() -> bool:

@@ -19,14 +19,15 @@ from fragile_pool import FragilePool, result_of
 from rich.console import Console
 from typer.testing import CliRunner
 
-from grader.classroom import commands, grading, progress
+from grader.classroom import batch, commands, grading, progress
 from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import Run, grade_class
 from grader.classroom.executor import Graded, grade_package, shared_worker
 from grader.classroom.fingerprint import DECIDING, deciding_files, key_of
 from grader.classroom.grading import ClassOptions, page_of, run_class
-from grader.classroom.intake.found import Package
+from grader.classroom.intake.found import Found, Package
 from grader.classroom.intake.listing import opened_class
+from grader.classroom.intake.packing import pack
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.submission import CannotGrade
 from grader.report.files import as_json
@@ -220,6 +221,18 @@ def test_those_who_work_together_are_no_copies(classroom):
     )
     run = graded(classroom)
     assert [each.name for each in run.outcomes] == ["a@x", "b@x", "ben", "cem"] and not run.notes
+
+
+def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypatch):
+    def breaks_at_ben(found: Found) -> Package:
+        if found.name == "ben":
+            raise RecursionError("too deep")
+        return pack(found)
+
+    monkeypatch.setattr(batch, "pack", breaks_at_ben)
+    run = graded(classroom)
+    assert run.names == ["ann", "cem"]
+    assert {each.name: each.trouble for each in run.outcomes}["ben"] == "RecursionError: too deep"
 
 
 def test_names_and_words_are_harmless_in_the_table(classroom):

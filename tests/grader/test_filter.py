@@ -113,6 +113,15 @@ BY_ARGUMENT = [
     ("ioctl", (5, 0x40086602), False),  # FS_IOC_SETFLAGS: chattr
     ("ioctl", (5, 0x8901), False),  # FIOSETOWN
     ("ioctl", (0, 0x5412), False),  # TIOCSTI
+    ("madvise", (0x1000, 4096, 4), True),  # MADV_DONTNEED: the C library gives memory back
+    ("madvise", (0x1000, 4096, 14), True),  # MADV_HUGEPAGE, for numpy
+    ("madvise", (0x1000, 4096, 20), False),  # MADV_COLD
+    ("madvise", (0x1000, 4096, 21), False),  # MADV_PAGEOUT
+    ("prctl", (15, 0x1000), True),  # PR_SET_NAME: threads have names
+    ("prctl", (1, 0), False),  # PR_SET_PDEATHSIG
+    ("prctl", (4, 1), False),  # PR_SET_DUMPABLE
+    ("preadv2", (5, 0x1000, 1, 0, 0, 0), True),
+    ("preadv2", (5, 0x1000, 1, 0, 0, 8), False),  # RWF_NOWAIT
 ]
 
 

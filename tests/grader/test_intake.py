@@ -1,12 +1,15 @@
 """Taking a class in: what LMSs export, what people hand in, and what must be refused."""
 
 import io
+import os
 import random
 import stat
 import subprocess
 import sys
+import time
 import unicodedata
 import zipfile
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -18,6 +21,7 @@ from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import opened_submission, pack
 from grader.classroom.names import portable
 from grader.classroom.roster import ClassList, read_roster
+from grader.judge import submission
 from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
@@ -483,3 +487,60 @@ def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classr
             outcomes.add(str(error))
     assert True in outcomes and len(outcomes) > 3
     assert {path.name for path in classroom.parent.iterdir()} == {"class"}
+
+
+# ---------------------------------------------------------------- what would hold others up
+
+
+def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
+    folder = write(classroom / "ann", PROGRAM)
+    monkeypatch.setattr(submission, "MAX_SEEN", 30)
+    write(folder, {f"many/{number}": "" for number in range(30)})
+    with pytest.raises(CannotTake, match="more than 20000 files and folders"):
+        pack(Found("ann", (folder,)))
+
+
+def test_folders_in_each_other_without_end_are_for_a_person(classroom):
+    """Deeper than Python's own functions can go."""
+    folder = write(classroom / "ann", PROGRAM)
+    here = os.getcwd()
+    try:
+        os.chdir(folder)
+        for _ in range(1200):
+            os.mkdir("d")
+            os.chdir("d")
+    finally:
+        os.chdir(here)
+    with pytest.raises(CannotTake, match="40 folders in each other"):
+        pack(Found("ann", (folder,)))
+    deep = {"d/" * 1500 + "integrators.py": "x = 1\n"}
+    assert "40 folders in each other" in refused(classroom.parent / "class", zipped(deep))
+    subprocess.run(["rm", "-r", folder], check=True)  # pytest cannot
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pipes with names in folders")
+@pytest.mark.parametrize("name", ["ann.zip", "ann.py", "ann.7z"])
+def test_nobody_waits_at_a_pipe(classroom, name):
+    os.mkfifo(classroom / name)
+    with pytest.raises(CannotTake, match="no file to read"):
+        pack(Found("ann", (classroom / name,)))
+    with pytest.raises(CannotGrade, match="no file to read"), opened_submission(classroom / name):
+        pass
+    folder = write(classroom / "ben", PROGRAM)
+    os.mkfifo(folder / "data.py")
+    assert "data.py" not in names_in(Found("ben", (folder,)))
+
+
+@pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
+def test_a_program_a_thousand_times_takes_no_longer_than_its_files(classroom, name):
+    folder = write(classroom / "ann", {name.format(number): "" for number in range(3000)})
+    before = time.process_time()
+    with suppress(CannotTake):
+        pack(Found("ann", (folder,)))
+    assert time.process_time() - before < 3  # it was 9 where each was compared with all others
+
+
+def test_notes_of_one_submission_are_few(classroom):
+    copies = {f"integrators ({number}).py": PROGRAM["integrators.py"] for number in range(200)}
+    notes = pack(Found("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
+    assert len(notes) == 21 and notes[-1] == "and 181 notes more"

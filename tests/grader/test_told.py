@@ -48,3 +48,34 @@ def test_nor_are_its_types(tmp_path: Path, told: str):
     words = [(c.ran, c.expected, c.got) for c in result.todos[0].checks if c.state == "not yet"]
     theirs = {c.id: (c.ran, c.expected, c.got) for c in alone.todos[0].checks}
     assert words and set(words) <= set(theirs.values())
+
+
+RAISES = """
+    import os
+    name = {name}
+    exec(compile("\\n" * 4 + "raise ValueError('no ' + chr(0xdc80))", name, "exec"))
+"""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "__file__ + '/../../../../../../etc/passwd'",
+        "os.path.dirname(__file__) + '/not-there.py'",
+        "__file__.replace('integrators', '\\u202egrators')",
+        "'/etc/passwd'",
+    ],
+)
+def test_only_files_of_the_submission_are_told_as_places(tmp_path: Path, name: str):
+    """Code may name any file as its own, and a workflow would put its error there."""
+    tree = tmp_path / "tree"
+    tree.mkdir()
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    begin = text.index("\n", text.index("    # TODO 8a"))
+    text = text[:begin] + RAISES.format(name=name) + text[begin:]
+    (tree / "integrators.py").write_text(text, encoding="utf-8")
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"8a"})))
+    for check in result.todos[0].checks:
+        assert check.state == "error" and check.got.startswith("ValueError: no \\udc80"), check
+        assert check.where is not None and check.where.file == "integrators.py"
+    assert "passwd" not in as_json(result).decode().replace(name, "")

@@ -28,6 +28,7 @@ from grader.worker.child import compile_all
 
 MODULE = """
 import os, select, socket, sys, threading, time
+def variable(name): return os.environ.get(name, "")
 def environment(): return ",".join(sorted(os.environ))
 def folder(): return os.getcwd() + " " + ",".join(sorted(os.listdir(".")))
 def read(path): return open(path).read(20)
@@ -131,6 +132,7 @@ def ask(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Asker]:
 
 
 NO_SUCH_THING = ("PermissionError", "FileNotFoundError")  # shut, or in no root of a child's own
+posix = pytest.mark.skipif(os.name == "nt", reason="Windows finds its libraries by PATH")
 linux = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="the layer named in the test is Linux's"
 )
@@ -140,6 +142,11 @@ def test_the_environment_tells_nothing(ask: Asker, monkeypatch: pytest.MonkeyPat
     monkeypatch.setenv("SECRET_TOKEN", "x")
     names = set(str(ask("environment")).split(","))
     assert "SECRET_TOKEN" not in names and "PYTHONPATH" not in names and "USER" not in names
+
+
+@posix
+def test_the_path_of_programs_is_the_systems(forked: Asker):
+    assert forked("variable", "PATH") == os.defpath
 
 
 def test_it_works_in_a_copy_of_the_submission_in_an_empty_folder(ask: Asker, tmp_path: Path):
@@ -241,6 +248,33 @@ def test_a_process_left_behind_is_ended(forked: Asker, tmp_path: Path):
     assert left
     forked.end()
     assert not any(process.is_running() for process in left)
+
+
+@linux
+def test_where_processes_are_numbered_with_all_others_none_is_left_behind(tmp_path: Path):
+    """As on macOS and in a bare container: strays are found by whose children they are."""
+    worker = start_worker(without=("pid-namespace", "system-calls"))
+    asker = Asker(tmp_path, worker)
+    server = psutil.Process(worker.process.pid)
+    asker("leave_behind")
+    assert len(server.children(recursive=True)) >= 2
+    asker.end()
+    assert server.children(recursive=True) == []
+    assert asker("folder")  # the warm process lives
+    worker.close()
+
+
+@linux
+def test_a_child_ends_with_the_process_that_forked_it(tmp_path: Path):
+    worker = start_worker(without=("pid-namespace",))
+    child = worker.open(Asker(tmp_path, worker).setup)
+    child.ask(Import("hostile"))
+    server = psutil.Process(worker.process.pid)
+    (process,) = server.children()
+    server.kill()
+    psutil.wait_procs([process], timeout=10)
+    assert not process.is_running()
+    worker.close()
 
 
 def test_forged_answers_end_the_child(ask: Asker):

@@ -19,7 +19,7 @@ from grader.classroom.intake.found import CannotTake
 from grader.classroom.intake.pieces import weight
 from grader.classroom.intake.places import SIGNS, is_system_file
 from grader.classroom.names import folded, portable
-from grader.judge.submission import IGNORED, MAX_BYTES, MAX_FILES
+from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
 
 MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
@@ -188,6 +188,8 @@ def text_of(member: zipfile.ZipInfo) -> str:
 def checked_name(name: str) -> str:
     """The name, if it stays inside its folder and every system can have it."""
     parts = [part for part in name.split("/") if part not in ("", ".")]
+    if len(parts) > MAX_DEPTH:
+        raise CannotTake(f"the archive has more than {MAX_DEPTH} folders in each other")
     if name.startswith("/") or ".." in parts or ":" in parts[0]:
         raise CannotTake(f"the archive reaches outside its folder, with {name[:100]!r}")
     for part in parts:

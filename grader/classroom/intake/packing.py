@@ -26,7 +26,7 @@ from grader.classroom.intake.places import (
     stem_of,
     unwrapped,
 )
-from grader.classroom.names import in_short, portable
+from grader.classroom.names import MENTIONED, in_short, portable
 from grader.judge.submission import CannotGrade, module_of, plain_files
 from grader.judge.workplace import work_folder
 
@@ -85,8 +85,12 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
                     files.append((name, path.read_bytes()))
     except OSError as error:
         raise CannotTake(f"it cannot be read: {error.strerror or type(error).__name__}") from error
-    notes += no_programs(files, asked)
-    return Package(found.name, sorted(files), [*notes, *laid.notes, *bounds.notes])
+    except CannotGrade as error:
+        raise CannotTake(str(error)) from error
+    said = [*notes, *no_programs(files, asked), *laid.notes, *bounds.notes]
+    if len(said) > MENTIONED:
+        said[MENTIONED:] = [f"and {len(said) - MENTIONED} notes more"]
+    return Package(found.name, sorted(files), said)
 
 
 def no_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
@@ -197,6 +201,8 @@ def gather_all(found: Found, folder: Path, bounds: Bounds) -> None:
 
 def gather(path: Path, target: Path, bounds: Bounds) -> None:
     """Copy one file; an archive may be larger than a submission, its files may not."""
+    if not path.is_file():
+        raise CannotTake(f"{path.name} is no file to read, but a pipe, a device or nothing")
     if is_archive(path):
         check_size(path)
     elif not bounds.take(path.name, path.stat().st_size):

@@ -140,30 +140,34 @@ def arranged(folder: Path) -> Arranged:
 def candidates(paths: list[PurePosixPath]) -> list[Piece]:
     """All that could be a program of the lab; what lies in a package is part of that."""
     found: list[Piece] = []
+    taken: set[PurePosixPath] = set()  # where they lie
     folders: dict[PurePosixPath, list[PurePosixPath]] = {}
     for path in paths:
         for parent in path.parents:
             folders.setdefault(parent, []).append(path)
     for folder in sorted(folders, key=lambda each: (len(each.parts), each)):
         module = meant(folder.name, modules())
-        if module and not covered(folder, found) and is_package(folder, folders[folder]):
+        if module and not covered(folder, taken) and is_package(folder, folders[folder]):
             inside = tuple((f"{module}/{p.relative_to(folder)}", p) for p in folders[folder])
             found.append(Piece(module, folder, inside, folder.name == module))
+            taken.add(folder)
     for path in paths:
         module = meant(path.name, {f"{name}.py" for name in modules()})
-        if module and not covered(path, found):
+        if module and not covered(path, taken):
             name = module.removesuffix(".py")
             found.append(Piece(name, path, ((module, path),), path.name == module))
+            taken.add(path)
     return found
 
 
 def renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
     """Files under names of people's own, for the programs of which there is nothing else."""
     lacking = sorted(modules() - {piece.module for piece in found})
+    taken = {piece.path for piece in found}
     pieces = []
     for path in paths:
         module = next((each for each in lacking if is_renamed(path.name, each)), None)
-        if module and not covered(path, found):
+        if module and not covered(path, taken):
             pieces.append(Piece(module, path, ((f"{module}.py", path),), exact=False))
     return pieces
 
@@ -181,8 +185,8 @@ def is_renamed(name: str, module: str) -> bool:
     return suffix == "py" and not stem.isidentifier() and alone is not None
 
 
-def covered(path: PurePosixPath, pieces: list[Piece]) -> bool:
-    return any(path.is_relative_to(piece.path) for piece in pieces)
+def covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
+    return not taken.isdisjoint((path, *path.parents))
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
