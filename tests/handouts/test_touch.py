@@ -238,7 +238,8 @@ def figure(screen: Screen, name: str) -> Any:
 
 
 def words(screen: Screen, name: str) -> str:
-    return str(figure(screen, name).locator("output").inner_text())
+    text = str(figure(screen, name).locator("output").inner_text())
+    return text.replace("\N{MINUS SIGN}", "-")
 
 
 def slide(screen: Screen, name: str, label: str, value: float) -> None:
@@ -256,7 +257,7 @@ def test_every_one_is_drawn_and_says_what_it_shows(screen: Screen, name: str) ->
 
 
 def test_the_circle_is_moved_by_keys(screen: Screen) -> None:
-    assert "60 px − 43 px = 17 px" in words(screen, "contact")
+    assert "60 px - 43 px = 17 px" in words(screen, "contact")
     circle = figure(screen, "contact").locator(".handle")
     circle.focus()
     for _ in range(12):
@@ -356,14 +357,14 @@ def test_a_ball_rolls_in_real_time_and_stops_when_it_is_told(screen: Screen) -> 
 
 
 def test_rods_lose_what_is_off_pass_by_pass(screen: Screen) -> None:
-    assert "Rod AB is 30.0 px too long: bias −720 px/s." in words(screen, "rod")
-    assert "After 2 passes their ends part at −113 and −360 px/s" in words(screen, "rod")
+    assert "Rod AB is 30.0 px too long: bias -720 px/s." in words(screen, "rod")
+    assert "After 2 passes their ends part at -113 and -360 px/s" in words(screen, "rod")
     slide(screen, "rod", "passes", 8)
-    assert "part at −612 and −360 px/s" in words(screen, "rod")
+    assert "part at -612 and -360 px/s" in words(screen, "rod")
 
 
 def test_a_step_takes_a_fifth_of_a_rods_error(screen: Screen) -> None:
-    """Where the rods do not disturb each other: the middle is heavy, the far end as it should be."""
+    """Where the rods do not disturb each other: a heavy middle, the far end as meant."""
     found = figure(screen, "rod")
     found.get_by_role("button", name="Again").click()
     far = found.locator(".handle").nth(1)

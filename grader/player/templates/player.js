@@ -47,7 +47,9 @@
   const largestAt = gaps.reduce((best, gap, position) => (gap > gaps[best] ? position : best), 0);
   // ---------------------------------------------------------------- words and numbers
 
-  let position = seenAt < 0 ? partAt ?? 0 : seenAt, chosen = film.parting?.body || null;
+  // Where nothing is off to be seen, the end is the fullest picture.
+  const nowhere = partAt ?? (film.told ? count - 1 : 0);
+  let position = seenAt < 0 ? nowhere : seenAt, chosen = film.parting?.body || null;
 
   function showValues(now) {
     const { scene } = now;
@@ -230,7 +232,7 @@
     go(Number(slider.value));
   });
 
-  canvas.addEventListener("pointermove", (event) => {
+  const pick = (event) => {
     const now = at(position);
     if (now.scene.curve) return;
     const { x, y, px } = stage.place(event);
@@ -247,7 +249,8 @@
       chosen = found;
       show();
     }
-  });
+  };
+  for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, pick); // a finger's tap, too
 
   byId("copy").addEventListener("click", async () => {
     const text = byId("script").textContent;
