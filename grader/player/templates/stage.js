@@ -402,10 +402,10 @@ function stageOn(canvas) {
     drawScale(wide, tall);
   }
 
-  // How many px of the picture a px of a scene is.
+  // How many px of the picture a px of a scene is; of a curve, along its height.
   function scaleOf(scene) {
-    fit(scene);
-    return scale;
+    const [, tall] = fit(scene), [, low, , high] = scene.view;
+    return scene.curve ? (tall - 40) / (high - low) : scale;
   }
 
   // Where in the scene a point of the page is, px, and how many px of the scene a px of the page is.
