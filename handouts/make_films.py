@@ -20,6 +20,7 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import pymunk
 from make_figures import BLUE, GREY, INK, Svg
 from make_pictures import environment_in
 
@@ -187,6 +188,7 @@ def engines_hash():
     scenes = ("edits", "engines", "scenes")
     files += [KIT / "solution" / "experiments" / f"{name}.py" for name in scenes]
     files += [Path(__file__).with_name(f"film_{name}.py") for name in ("scenes", "tower")]
+    digest.update(f"pymunk {pymunk.version}, {pymunk.chipmunk_version}\n".encode())
     for path in files:
         text = path.read_text(encoding="utf-8")
         digest.update(f"{path.relative_to(KIT).as_posix()}\n{text}\n".encode())

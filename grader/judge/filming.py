@@ -13,14 +13,13 @@ import msgspec
 from grader.judge.children import Child
 from grader.judge.lab import Lab
 from grader.judge.plugin import Failing
-from grader.player.film import Line, Mark, Take, in_words
+from grader.player.film import Line, Mark, Take, called, in_words
 from grader.player.script import Step, Translator, sign
 from grader.protocol import (
     MAX_BODIES,
     MAX_RODS,
     MAX_TOUCHES,
     Answered,
-    BodyLook,
     BodyRow,
     Call,
     Film,
@@ -43,7 +42,6 @@ from grader.protocol import (
     Value,
     Vec,
 )
-from grader.words import digits
 
 MOST_PER_REQUEST = 200  # shots
 MOST_SHOTS = 1200  # of one check
@@ -117,7 +115,7 @@ class Recorder:
             answer = in_words(Returned(answers[-1]) if answers else filmed.reply)
         for number, look in islice(filmed.looks.items(), MAX_BODIES):
             take.looks[number] = look
-            take.names[number] = called(look, number)
+            take.names[number] = called(look, str(number))
         self._taken += len(shots)
         if sets_up(request) and take.lines and take.lines[-1].sets_up:
             take.lines[-1] = msgspec.structs.replace(take.lines[-1], shots=[])
@@ -134,6 +132,8 @@ class Recorder:
         )
         if shots:
             step.bodies = {self._named(take, row.number): row for row in shots[-1].bodies}
+        elif len(take.lines) == 1:
+            step.bodies = {}  # those of another process
 
     def _named(self, take: Take, number: int) -> str:
         """What a script calls a body; one that it does not name is called as on the page."""
@@ -195,13 +195,6 @@ def bounded(shots: list[Shot]) -> list[Shot]:
         )
         for each in shots[:MOST_PER_REQUEST]
     ]
-
-
-def called(look: BodyLook, number: int) -> str:
-    """What a body is called on the page: what it is, a number, and what it weighs."""
-    corners = [len(shape.points) for shape in look.shapes]
-    kind = "ball" if corners == [1] else "box" if corners == [4] else "body"
-    return f"{kind} {number}, {'static' if look.mass is None else f'{digits(look.mass)} kg'}"
 
 
 def marks_of(request: Request, take: Take) -> list[Mark]:

@@ -19,7 +19,7 @@ from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.player.film import Take
 from grader.player.page import page
 from grader.player.pairing import replay
-from grader.player.script import script, step_of
+from grader.player.script import renumber, script, step_of
 from grader.words import named_reasons
 
 MOST_CHARACTERS, MOST_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
@@ -88,6 +88,7 @@ class Replays:
         right = self._expected(failing)[:count]
         expected = [take for takes in right[shown] for take in takes] if len(right) == count else []
         steps = [step for steps in recorder.steps[shown] for step in steps]
+        renumber(steps)
         both = replay(yours, expected, exact=self.open_reference is not None)
         parting = step_of(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title

@@ -139,7 +139,15 @@ def short(value: float) -> float:
     return float(f"{value:.6g}") + 0.0 if math.isfinite(value) else value
 
 
-# ---------------------------------------------------------------- answers in words
+# ---------------------------------------------------------------- in words
+
+
+def called(look: BodyLook, number: str) -> str:
+    """What a body is called on the page: what it is, a number if any, and what it weighs."""
+    corners = [len(shape.points) for shape in look.shapes]
+    kind = "ball" if corners == [1] else "box" if corners == [4] else "body"
+    weight = "static" if look.mass is None else f"{digits(look.mass)} kg"
+    return f"{f'{kind} {number}'.strip()}, {weight}"
 
 
 def in_words(reply: Reply) -> str:

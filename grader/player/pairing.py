@@ -152,7 +152,7 @@ def shot_difference(
     mine, right = takes
     expected = {row.number: row for row in other.bodies}
     for row in shot.bodies:
-        name = mine.names.get(row.number, f"body {row.number}")
+        name = name_of(row.number, takes)
         wanted = expected.pop(row.number, None)
         if wanted is None:
             return row.number, f"{name} should not be there"
@@ -163,7 +163,7 @@ def shot_difference(
         if words:
             return row.number, f"{name} {words}"
     for number in expected:
-        return number, f"{right.names.get(number, f'body {number}')} is missing"
+        return number, f"{name_of(number, takes)} is missing"
     for what, here, there in (
         ("rods", shot.rods, other.rods),
         ("contacts", shot.touches, other.touches),
@@ -173,6 +173,12 @@ def shot_difference(
     if any(math.dist(*pair) > tolerance.place for pair in zip(shot.rods, other.rods, strict=True)):
         return 0, "a rod has its ends elsewhere"
     return None
+
+
+def name_of(number: int, takes: tuple[Take, Take]) -> str:
+    """What a body is called: on the page, the names of your run are those of its script."""
+    mine, right = takes
+    return mine.names.get(number) or right.names.get(number, f"body {number}")
 
 
 def body_difference(row: BodyRow, right: BodyRow, radius: float, tolerance: Tolerance) -> str:

@@ -1,10 +1,14 @@
 """What was asked of a submission, in Python: a line each, and a script to run against one's own."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
+from string import ascii_letters
 
-from grader.player.film import Replay, Take
+import msgspec
+
+from grader.player.film import Replay, Take, called
 from grader.protocol import (
     Argument,
     BodyRow,
@@ -34,6 +38,7 @@ from grader.words import printable
 MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
 FEW = 40  # lines that are shown as they are
+MANY = 4  # times that the same line is said before a loop says it
 STATE = ("pos", "vel", "angle", "omega")
 PARTS = {  # what a package without a BonusWorld does not pass on
     "mini_engine:between": "mini_engine.game_loop",
@@ -51,6 +56,23 @@ class Step:
     watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
     bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
     place: tuple[Take, int] | None = None  # where it is in the film: a take and its line
+
+    def rename(self, names: "Names") -> None:
+        """Put other names in the place of these, on its line of the film, too."""
+        self.code = [names.in_code(line) for line in self.code]
+        self.watched = [names.in_code(each) for each in self.watched]
+        self.bodies = {
+            names.in_code(name) if name.isidentifier() else name: row
+            for name, row in self.bodies.items()
+        }
+        if self.place is None:
+            return
+        take, at = self.place
+        take.lines[at] = msgspec.structs.replace(take.lines[at], code="\n".join(self.code))
+        for name, row in self.bodies.items():
+            if name.isidentifier() and row.number in take.looks:
+                number = name.lstrip(ascii_letters)
+                take.names[row.number] = called(take.looks[row.number], number)
 
 
 @dataclass
@@ -240,6 +262,42 @@ def polynomial(coefficients: Sequence[float]) -> str:
     return f"lambda x: {text}"
 
 
+# ---------------------------------------------------------------- names
+
+KINDS = ("ball", "box", "body", "contact", "world", "rod", "space", "thing")
+NAME = re.compile(rf"(?<![\w.'\"])({'|'.join(KINDS)})(\d*)\b(?![=(])")
+
+
+class Names:
+    """New names for what a script makes, counted from its own beginning.
+
+    A child numbers what it makes from its start on. A script that shows its end alone would begin
+    with the sixth ball.
+    """
+
+    def __init__(self, lines: Sequence[str]) -> None:
+        text = "\n".join(lines)
+        self.new: dict[str, str] = {}
+        counts = dict.fromkeys(KINDS, 0) | {
+            kind: 1 for kind in KINDS if re.search(rf"(?<![\w.]){kind}\(", text)
+        }  # a function has that name
+        for found in NAME.finditer(text):
+            if found[0] not in self.new:
+                counts[found[1]] += 1
+                number = counts[found[1]]
+                self.new[found[0]] = f"{found[1]}{number if number > 1 else ''}"
+
+    def in_code(self, text: str) -> str:
+        return NAME.sub(lambda found: self.new.get(found[0], found[0]), text)
+
+
+def renumber(steps: Sequence[Step]) -> None:
+    """Name the bodies, contacts and worlds of a script, and of its film, from 1 on."""
+    names = Names([line for step in steps for line in step.code])
+    for step in steps:
+        step.rename(names)
+
+
 # ---------------------------------------------------------------- the whole script
 
 
@@ -259,7 +317,7 @@ def script(
     if plays:
         imports, body = play_again(translator.module, plays[-1], paced)
     else:
-        body = list(shortened(steps, parting))
+        body = list(folded(shortened(steps, parting)))
         imports = list(imported(translator, "\n".join(body)))
     comments = [f"# {comment(each)}" for each in words if each]
     head = [f"# {comment(title)}", "# Run it in the folder of your own files.", "import sys"]
@@ -315,6 +373,16 @@ def shortened(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
         if isinstance(step.request, Integrate):
             yield "print(x, v)"
     yield from looks(chosen)
+
+
+def folded(lines: Iterable[str]) -> Iterator[str]:
+    """The same line many times over becomes a loop."""
+    for line, group in groupby(lines):
+        count = len(list(group))
+        if count < MANY or line.startswith(" "):
+            yield from [line] * count
+        else:
+            yield from (f"for _ in range({count}):", f"    {line}")
 
 
 def without_end(steps: Sequence[Step]) -> list[Step]:

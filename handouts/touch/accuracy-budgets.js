@@ -18,7 +18,7 @@ touch.figure("accuracy-budgets", (figure) => {
   scene.addEventListener("change", () => figure.redraw());
   figure.controls.append(element("label", {}, "scene", scene));
   const shown = {};
-  for (const [engine, [name]] of Object.entries(ENGINES)) shown[engine] = figure.tick(name, true);
+  for (const [engine, look] of Object.entries(ENGINES)) shown[engine] = figure.tick(look[0], true, ...look.slice(1));
 
   let read = { engine: "lesson", ms: 4 }; // the mark whose value is told
   let marks = []; // those drawn: a cell of what was measured, and its place

@@ -27,13 +27,7 @@ for (const [name, chart] of Object.entries(measured.charts)) {
     if (chart.panels.length > 1) figure.controls.append(element("label", {}, "along", axis));
     const shown = {};
     for (const { look, name: curve } of chart.panels[0].curves) {
-      shown[look] = figure.tick(curve, true);
-      const [color, dash] = LOOKS[look];
-      const style = `stroke: var(--${color}); stroke-width: 4; fill: var(--${color})`;
-      const line = element("svg:line", { x1: 0, y1: 6, x2: 28, y2: 6, style, "stroke-dasharray": dash });
-      const swatch = element("svg:svg", { "aria-hidden": true }, line);
-      if (dash.startsWith("0")) swatch.append(element("svg:circle", { cx: 14, cy: 6, r: 4, style }));
-      shown[look].after(swatch);
+      shown[look] = figure.tick(curve, true, ...LOOKS[look]);
     }
     let read = { look: chart.panels[0].curves[0].look, x: 0 }; // the mark whose value is told
     let marks = []; // those drawn, each a value and its place

@@ -37,7 +37,7 @@ touch.figure("contact", (figure) => {
   function told(inside, distance, r, depth, out) {
     if (depth <= 0) return `No contact: the closest point is ${px(distance)} away, the radius ${px(r)}.`;
     const normal = `The normal leads to the box: (${touch.number(-out.x, 2)}, ${touch.number(-out.y, 2)}).`;
-    if (!inside) return `Depth = radius - distance = ${px(r)} - ${px(distance)} = ${px(depth)}. ${normal}`;
+    if (!inside) return `Depth = radius − distance = ${px(r)} − ${px(distance)} = ${px(depth)}. ${normal}`;
     const face = out.x ? (out.x < 0 ? "left" : "right") : out.y < 0 ? "top" : "bottom";
     return `The ${face} face is nearest. Depth = radius + gap = ${px(r)} + ${px(-distance)} = ${px(depth)}. ${normal}`;
   }

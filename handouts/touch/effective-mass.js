@@ -10,9 +10,16 @@ touch.figure("effective-mass", (figure) => {
     value: 0,
     show: (degrees) => `${degrees}°`,
   });
+  const time = figure.slider("time", {
+    min: 0,
+    max: 1.5,
+    step: 0.01,
+    value: 0.9,
+    show: (value) => `${value.toFixed(2)} s later`,
+  });
+  figure.plays(time, "Push");
   const RADIUS = 80; // px
   const IMPULSE = 100; // kg px/s
-  const LATER = 0.9; // s, after which the disc is drawn again
   const arm = { x: -28, y: -66 }; // px, from the centre to the point of impact
   const centre = () => ({ x: Math.max(figure.width * 0.3, 110), y: 130 });
   figure.height = 330;
@@ -30,9 +37,9 @@ touch.figure("effective-mass", (figure) => {
     const [c, point] = [centre(), plus(centre(), arm)];
     const speed = IMPULSE * moving; // px/s
     const spin = (IMPULSE * 2 * lever) / (mass.value * RADIUS ** 2); // rad/s
-    const later = plus(c, axis, speed * LATER);
-    figure.circle(later, RADIUS, { stroke: "grey", width: 1 });
-    spoke(later, spin * LATER, "grey");
+    const later = plus(c, axis, speed * time.value);
+    figure.circle(later, RADIUS, { fill: "grey", stroke: "grey", width: 1, opacity: 0.1 });
+    spoke(later, spin * time.value, "grey");
     figure.circle(c, RADIUS, { fill: "blue", stroke: "blue", opacity: 0.12 });
     spoke(c, 0, "blue");
     figure.circle(c, 3, { fill: "ink" });
@@ -42,7 +49,9 @@ touch.figure("effective-mass", (figure) => {
     const beside = plus(point, axis, -(arm.x * axis.x + arm.y * axis.y));
     if (Math.abs(lever) > 2) figure.line([c, beside], "green", 2, "4 3");
     figure.line([plus(beside, axis, -90), plus(beside, axis, 190)], "grey", 1, "2 4");
-    figure.arrow(plus(point, axis, -70), plus(point, axis, -9), "red", 4);
+    const tail = plus(point, axis, -70);
+    figure.arrow(tail, plus(point, axis, -9), "red", 4);
+    figure.text(Math.max(tail.x, 4), Math.max(tail.y - 8, 14), "impulse", { color: "red" });
     bars(moving, turning);
     figure.say(
       `r × n = ${touch.number(lever)} px (dashed). An impulse of 1 changes the speed of the point by ` +

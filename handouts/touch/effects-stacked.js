@@ -14,7 +14,8 @@ touch.figure("effects-stacked", (figure) => {
   });
   const titles = Object.keys(measured.prices[sizes[0]]);
   const declared = {};
-  for (const title of titles.slice(1)) declared[title] = figure.tick(title, true);
+  const colorOf = (title) => COLORS[titles.indexOf(title) % COLORS.length];
+  for (const title of titles.slice(1)) declared[title] = figure.tick(title, true, colorOf(title));
   let read = titles[1]; // the piece whose price is told
   let pieces = [];
 
@@ -49,7 +50,7 @@ touch.figure("effects-stacked", (figure) => {
     if (!kept.includes(read)) read = titles[0];
     figure.rect(left, 50, width, 44, "pale");
     for (const { title, left: start, right } of pieces) {
-      figure.rect(start, 50, right - start, 44, COLORS[titles.indexOf(title) % COLORS.length]);
+      figure.rect(start, 50, right - start, 44, colorOf(title));
     }
     const piece = pieces.find(({ title }) => title === read);
     figure.rect(piece.left, 46, Math.max(piece.right - piece.left, 2), 52, "none", "ink");

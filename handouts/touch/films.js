@@ -74,23 +74,34 @@ class Projector {
     this.draw();
   }
 
-  play() {
+  /** How long the scene takes, s. */
+  get length() {
+    return this.scene.mine[this.last].time;
+  }
+
+  /** Run from here on. With others, all from their start: they keep step, and wait for the longest. */
+  play(others = []) {
     if (this.playing) return;
     this.playing = true;
-    if (this.frame === this.last) this.frame = 0;
+    if (this.frame === this.last || others.length) this.frame = 0;
+    const all = [this, ...others];
     let begun = performance.now() - 1000 * this.scene.mine[this.frame].time;
     const REST = 0.8; // s, on the last shot
     const next = (now) => {
       if (!this.playing || !this.canvas.isConnected) return;
       requestAnimationFrame(next);
-      if (!this.seen) return;
-      const shots = this.scene.mine, end = shots[this.last].time;
+      if (!all.some((each) => each.seen)) return;
       const passed = (now - begun) / 1000;
-      if (passed > end + REST) begun = now;
-      const at = shots.findIndex((each) => each.time > Math.min(passed, end));
-      this.go(at < 0 ? this.last : Math.max(0, at - 1));
+      if (passed > Math.max(...all.map((each) => each.length)) + REST) begun = now;
+      for (const each of all) each.goTo(passed);
     };
     requestAnimationFrame(next);
+  }
+
+  /** Show the shot of a time, s. */
+  goTo(seconds) {
+    const at = this.scene.mine.findIndex((each) => each.time > Math.min(seconds, this.length));
+    this.go(at < 0 ? this.last : Math.max(0, at - 1));
   }
 
   stop() {

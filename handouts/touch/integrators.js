@@ -8,12 +8,14 @@ touch.figure("integrators", (figure) => {
     velocity_verlet: "orange",
     rk4: "green",
   };
+  const TITLES = ["explicit Euler", "semi-implicit Euler", "velocity Verlet", "RK4"];
   const DASHES = ["2 3", "", "8 4", "12 3 2 3"]; // so that they differ without colour, too
+  const placeOf = (name) => Object.keys(COLORS).indexOf(name);
   const steps = figure.slider("steps a swing", { min: 4, max: 60, step: 1, value: 12 });
   const swings = figure.slider("swings", { min: 1, max: 300, step: 1, value: 3 });
-  const shown = Object.keys(COLORS).map((name) => [
+  const shown = Object.entries(COLORS).map(([name, color], n) => [
     name,
-    figure.tick(name.replaceAll("_", " "), name !== "velocity_verlet"),
+    figure.tick(TITLES[n], name !== "velocity_verlet", color, DASHES[n]),
   ]);
   const LAST = 120; // steps that are drawn in the plane
 
@@ -28,7 +30,7 @@ touch.figure("integrators", (figure) => {
     const chosen = shown.filter(([, tick]) => tick.checked).map(([name]) => name);
     const runs = chosen.map((name) => ({ name, ...run(name, steps.value, swings.value) }));
     for (const { name, places } of runs) {
-      const style = [COLORS[name], 2, DASHES[Object.keys(COLORS).indexOf(name)]];
+      const style = [COLORS[name], 2, DASHES[placeOf(name)]];
       const far = size / 2 / unit;
       const inside = places.slice(-LAST).filter(([x, s]) => Math.max(Math.abs(x), Math.abs(s)) < far);
       const drawn = inside.map(([x, s]) => ({ x: middle.x + unit * x, y: middle.y - unit * s }));
@@ -70,12 +72,12 @@ touch.figure("integrators", (figure) => {
         .map((value, n) => ({ value, n }))
         .filter(({ value, n }) => n % every === 0 && value < 2.05)
         .map(({ value, n }) => at(n / steps.value, value));
-      figure.line(points, COLORS[name], 2, DASHES[Object.keys(COLORS).indexOf(name)]);
+      figure.line(points, COLORS[name], 2, DASHES[placeOf(name)]);
     }
   }
 
   function words({ name, energy }) {
-    const title = name.replaceAll("_", " ");
+    const title = TITLES[placeOf(name)];
     const [low, high, last] = [Math.min(...energy), Math.max(...energy), energy.at(-1)];
     if (high > 100) return `${title}: the energy grows without bound.`;
     if (name === "rk4" || name === "explicit_euler") return `${title}: drifts, to ${percent(last)} so far.`;

@@ -67,11 +67,37 @@ const laws = {
     };
   },
 
-  /** A full disc that starts by sliding: its speed, its spin times its radius, whether it rolls. */
+  /**
+   * Two rods A-B and B-C, solved pass by pass from rest: the speeds at which their ends are meant to
+   * part, those at which they do after each pass, and the speeds of A, B and C in the end.
+   */
+  chainSolved({ masses, errors, passes, dt }) {
+    let [a, b, c] = [0, 0, 0]; // px/s
+    const meant = errors.map((error) => (-error * laws.BETA) / dt);
+    const after = [];
+    for (let pass = 0; pass < passes; pass += 1) {
+      const one = { massA: masses[0], massB: masses[1], error: errors[0], dt };
+      ({ speedA: a, speedB: b } = laws.rodSolved({ ...one, speedA: a, speedB: b }));
+      const two = { massA: masses[1], massB: masses[2], error: errors[1], dt };
+      ({ speedA: b, speedB: c } = laws.rodSolved({ ...two, speedA: b, speedB: c }));
+      after.push([b - a, c - b]);
+    }
+    return { meant, after, speeds: [a, b, c] };
+  },
+
+  /**
+   * A full disc that starts by sliding: its speed, its spin times its radius, whether it rolls; how
+   * far it has come, and how far its rim has turned, px.
+   */
   sliding(speed, friction, seconds) {
     const slows = friction * laws.GRAVITY; // px/s²
     const share = slows > 0 ? Math.min((3 * slows * seconds) / speed, 1) : 0; // of the way to rolling
-    return { speed: speed * (1 - share / 3), rim: (speed * 2 * share) / 3, rolls: share === 1 };
+    const now = { speed: speed * (1 - share / 3), rim: (speed * 2 * share) / 3 }; // px/s
+    const slid = slows > 0 ? Math.min(seconds, speed / (3 * slows)) : seconds; // s
+    const rolled = seconds - slid; // s
+    const way = (slid * (speed + now.speed)) / 2 + rolled * now.speed;
+    const turned = (slid * now.rim) / 2 + rolled * now.rim;
+    return { ...now, rolls: share === 1, way, turned };
   },
 
   /**

@@ -20,11 +20,13 @@ touch.figure("predict", (figure) => {
       const words = element("span");
       grid.append(element("div", { class: "film" }, projector.canvas, button, words));
       projector.show(scene);
-      if (matchMedia("(prefers-reduced-motion: reduce)").matches) projector.go(projector.last);
-      else projector.play();
       button.addEventListener("click", () => choose(number));
       return { letter, says, projector, button, words };
     });
+    const [one, ...others] = buttons.map(({ projector }) => projector);
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (still) for (const each of [one, ...others]) each.go(each.last);
+    else one.play(others);
 
     function choose(number) {
       const again = chosen !== null;
@@ -34,8 +36,8 @@ touch.figure("predict", (figure) => {
         each.button.classList.toggle("right", at === right);
         each.button.classList.toggle("wrong", at === number && at !== right);
         each.button.setAttribute("aria-pressed", at === number);
-        each.projector.play();
       });
+      one.play(others);
       const { letter, says } = buttons[number];
       const yes = number === right ? `Yes, ${letter}.` : `No: ${letter} ${says}. It is ${buttons[right].letter}.`;
       figure.say(again ? `${letter} ${says}.` : yes);

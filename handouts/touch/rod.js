@@ -1,65 +1,94 @@
-// A rod that is too long or too short: its error, the speed at which that shrinks, and a step.
+// Two rods that share a ball: what each asks for, and how it comes about pass by pass.
 "use strict";
 
 touch.figure("rod", (figure) => {
-  const light = figure.slider("mass of A", {
-    min: 0,
-    max: 8,
-    step: 1,
-    value: 1,
-    show: (mass) => (mass ? `${mass} kg` : "static"),
-  });
-  const heavy = figure.slider("mass of B", { min: 1, max: 8, step: 1, value: 3, show: (m) => `${m} kg` });
-  const LENGTH = 120; // px
-  const ends = { a: -75, b: 105 }; // px, along the rod, from the middle of the drawing
+  const kg = (mass) => (mass ? `${mass} kg` : "static");
+  const masses = [["A", 0, 0], ["B", 1, 1], ["C", 1, 3]].map(([name, min, value]) =>
+    figure.slider(`mass of ${name}`, { min, max: 8, step: 1, value, show: kg }),
+  ); // prettier-ignore
+  const passes = figure.slider("passes", { min: 1, max: 8, step: 1, value: 2 });
+  const LENGTH = 100; // px
+  const START = [-120, 10, 125]; // px, along the rods, from the middle of the drawing
+  const FLOOR = 330; // px, the foot of the bars
+  const COLORS = ["orange", "blue"]; // of the rods
+  const places = [...START];
   figure.button("One step", () => {
-    const { speedA, speedB } = solved();
-    ends.a += speedA * laws.STEP;
-    ends.b += speedB * laws.STEP;
+    solved(passes.value).speeds.forEach((speed, n) => {
+      places[n] += speed * laws.STEP;
+    });
   });
-  const middle = () => ({ x: figure.width / 2, y: 90 });
-  figure.handle("B", () => ({ x: middle().x + ends.b, y: middle().y }), (x) => {
-    const room = middle().x - 30;
-    ends.b = Math.min(Math.max(x - middle().x, ends.a + 40), room);
-  });
-  figure.height = 190;
+  figure.button("Again", () => places.splice(0, 3, ...START));
+  const at = (n) => ({ x: figure.width / 2 + places[n], y: 76 });
+  for (const n of [1, 2]) {
+    figure.handle("ABC"[n], () => at(n), (x) => {
+      const room = figure.width / 2 - 26;
+      const [low, high] = n === 1 ? [places[0] + 40, places[2] - 40] : [places[1] + 40, room];
+      places[n] = Math.min(Math.max(x - figure.width / 2, low), high);
+    });
+  }
+  figure.height = 362;
 
-  function solved() {
-    const error = ends.b - ends.a - LENGTH;
-    const masses = { massA: light.value, massB: heavy.value };
-    return { error, ...laws.rodSolved({ ...masses, error, speedA: 0, speedB: 0, dt: laws.STEP }) };
+  const errors = () => [0, 1].map((n) => places[n + 1] - places[n] - LENGTH); // px
+  function solved(many) {
+    const all = { masses: masses.map(({ value }) => value), errors: errors(), dt: laws.STEP };
+    return laws.chainSolved({ ...all, passes: many });
   }
 
   return () => {
-    const { error, parting, speedA, speedB } = solved();
-    const { x, y } = middle();
-    const [a, b] = [ends.a, ends.b].map((along) => ({ x: x + along, y }));
-    figure.line([a, b], "grey", 4);
-    const meant = a.x + LENGTH;
-    figure.line([{ x: a.x, y: y + 44 }, { x: meant, y: y + 44 }], "green", 3);
-    figure.text(a.x, y + 62, `meant: ${LENGTH} px`, { color: "green" });
-    if (Math.abs(error) >= 0.5) figure.line([{ x: meant, y: y + 44 }, { x: b.x, y: y + 44 }], "red", 3);
-    ball(a, light.value, "A");
-    ball(b, heavy.value, "B");
-    push(a, speedA);
-    push(b, speedB);
-    const kind = error > 0 ? "too long" : "too short";
-    figure.say(
-      Math.abs(error) < 0.05
-        ? "The rod is as long as it is meant to be: bias is 0, and nothing is pushed."
-        : `The rod is ${Math.abs(error).toFixed(1)} px ${kind}. Bias: its ends ${parting < 0 ? "close" : "part"} at ${Math.abs(parting).toFixed(0)} px/s, ` +
-          `so that a fifth of the error goes in a step. A gets ${touch.number(speedA)} px/s, B ${touch.number(speedB)} px/s: the lighter end takes more of it.`,
-    );
+    const { meant, after, speeds } = solved(passes.value);
+    errors().forEach((error, n) => {
+      const [from, to] = [at(n), at(n + 1)];
+      figure.line([from, to], COLORS[n], 4);
+      const y = from.y + 58 + 6 * n;
+      figure.line([{ x: from.x, y }, { x: from.x + LENGTH, y }], "green", 3);
+      if (Math.abs(error) >= 0.5) figure.line([{ x: from.x + LENGTH, y }, { x: to.x, y }], "red", 3);
+    });
+    figure.text(at(0).x, at(0).y + 84, `green: as meant, ${LENGTH} px`, { color: "green", size: 13 });
+    masses.forEach(({ value }, n) => ball(at(n), value, "ABC"[n], speeds[n]));
+    bars(meant);
+    figure.say(words(meant, after.at(-1)));
   };
 
-  function ball(c, mass, name) {
-    if (mass) figure.circle(c, 10 + 3 * mass, { fill: "blue", stroke: "blue", opacity: 0.2 });
-    else figure.rect(c.x - 12, c.y - 12, 24, 24, "grey");
-    figure.text(c.x, c.y - 14 - 3 * mass, name, { anchor: "middle", bold: true });
+  function ball(c, mass, name, speed) {
+    const r = mass ? 10 + 2 * mass : 12;
+    if (mass) figure.circle(c, r, { fill: "blue", stroke: "ink", opacity: 0.2, width: 1 });
+    else figure.rect(c.x - r, c.y - r, 2 * r, 2 * r, "fixed");
+    figure.text(c.x, c.y - r - 6, name, { anchor: "middle", bold: true });
+    const y = c.y + 38;
+    figure.arrow({ x: c.x, y }, { x: c.x + 0.06 * speed, y }, "red", 3);
   }
 
-  function push(c, speed) {
-    const y = c.y + 24;
-    figure.arrow({ x: c.x, y }, { x: c.x + 0.08 * speed, y }, "red", 3);
+  /** What each rod's speed is off after each pass; those beyond the chosen number are pale. */
+  function bars(meant) {
+    const missing = solved(passes.max).after.map((speeds) => speeds.map((speed, n) => Math.abs(speed - meant[n])));
+    const most = Math.max(...meant.map(Math.abs), ...missing.flat(), 1e-9);
+    const room = (figure.width - 16) / passes.max;
+    figure.text(8, 192, "off after each pass, px/s", { size: 13 });
+    figure.text(figure.width - 58, 192, "AB", { color: "orange", anchor: "end", size: 13, bold: true });
+    figure.text(figure.width - 30, 192, "BC", { color: "blue", anchor: "end", size: 13, bold: true });
+    missing.forEach((each, pass) => {
+      const done = pass < passes.value;
+      each.forEach((off, n) => {
+        const high = (100 * off) / most;
+        const [x, wide] = [8 + pass * room + (n * (room - 6)) / 2, (room - 8) / 2];
+        figure.rect(x, FLOOR - high, wide, high, done ? COLORS[n] : "pale");
+        const label = { color: done ? "ink" : "grey", anchor: "middle", size: 11 };
+        if (off > 0.5 || done) figure.text(x + wide / 2, FLOOR - high - 4, touch.number(off), label);
+      });
+      figure.text(8 + pass * room + room / 2 - 3, FLOOR + 18, `${pass + 1}`, { color: "grey", anchor: "middle", size: 12 });
+    });
+    figure.line([{ x: 4, y: FLOOR }, { x: figure.width - 4, y: FLOOR }], "grey", 1);
+  }
+
+  function words(meant, reached) {
+    const each = errors().map((error, n) => {
+      const name = ["AB", "BC"][n];
+      if (Math.abs(error) < 0.05) return `Rod ${name} is as long as it is meant to be: its bias is 0.`;
+      const kind = error > 0 ? "too long" : "too short";
+      return `Rod ${name} is ${Math.abs(error).toFixed(1)} px ${kind}: bias ${touch.number(meant[n])} px/s.`;
+    });
+    const many = passes.value === 1 ? "a pass" : `${passes.value} passes`;
+    const [one, two] = reached.map((speed) => touch.number(speed));
+    return `${each.join(" ")} After ${many} their ends part at ${one} and ${two} px/s; each pass of BC pulls at B, and so at AB.`;
   }
 });

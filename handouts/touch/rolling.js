@@ -17,7 +17,10 @@ touch.figure("rolling", (figure) => {
     value: 0.1,
     show: (value) => `${value.toFixed(2)} s`,
   });
-  figure.height = 430;
+  figure.plays(time, "Roll");
+  const RADIUS = 30; // px
+  const FLOOR = 370; // px
+  figure.height = 384;
 
   return () => {
     const now = laws.sliding(first.value, friction.value, time.value);
@@ -38,6 +41,7 @@ touch.figure("rolling", (figure) => {
     figure.line(times.map((t, n) => at(t, states[n].speed)), "blue", 3);
     figure.line(times.map((t, n) => at(t, states[n].rim)), "orange", 3, "8 4");
     figure.line([at(time.value, 0), at(time.value, 400)], "grey", 1, "3 3");
+    for (const [key, color] of [["speed", "blue"], ["rim", "orange"]]) figure.circle(at(time.value, now[key]), 5, { fill: color });
     const high = at(0, states[8].speed).y;
     figure.text(at(0.04, 0).x, high - 8, "speed", { color: "blue" });
     const end = { color: "orange", anchor: "end" };
@@ -46,23 +50,27 @@ touch.figure("rolling", (figure) => {
     figure.say(words(now));
   };
 
-  function ball({ speed, rim, rolls }) {
-    const floor = 400;
-    const c = { x: figure.width * 0.4, y: floor - 40 };
-    figure.line([{ x: 10, y: floor }, { x: figure.width - 10, y: floor }], "ink", 2);
-    const foot = { x: c.x, y: floor };
-    const long = 100; // px, the normal part of the floor's impulse
+  /** The ball where it has come to, with the floor's impulse in its cone. */
+  function ball({ speed, rim, rolls, way, turned }) {
+    const c = { x: 76 + way, y: FLOOR - RADIUS };
+    figure.line([{ x: 10, y: FLOOR }, { x: figure.width - 10, y: FLOOR }], "ink", 2);
+    const foot = { x: c.x, y: FLOOR };
+    const long = 62; // px, the normal part of the floor's impulse
     const wide = long * friction.value;
-    const cone = [{ x: c.x - wide, y: floor - long }, foot, { x: c.x + wide, y: floor - long }];
+    const cone = [{ x: c.x - wide, y: FLOOR - long }, foot, { x: c.x + wide, y: FLOOR - long }];
     figure.line(cone, "green", 1.5, "5 4");
-    const words = "cone: friction at most μ · jn";
-    figure.text(figure.width - 10, floor - long - 10, words, { color: "green", anchor: "end" });
-    figure.circle(c, 40, { fill: "blue", stroke: "blue", opacity: 0.15 });
+    figure.text(10, FLOOR - 92, "dashed: the cone, friction at most μ · jn", { color: "green", size: 13 });
+    figure.circle(c, RADIUS, { fill: "blue", stroke: "blue", opacity: 0.15 });
+    const angle = turned / RADIUS;
+    for (const turn of [0, Math.PI / 2]) {
+      const spoke = { x: RADIUS * Math.sin(angle + turn), y: RADIUS * Math.cos(angle + turn) };
+      figure.line([{ x: c.x - spoke.x, y: c.y + spoke.y }, { x: c.x + spoke.x, y: c.y - spoke.y }], "blue", 1);
+    }
     const edge = rolls || friction.value === 0 ? 0 : -wide;
-    figure.arrow(foot, { x: c.x + edge, y: floor - long }, "red", 4);
-    if (speed > 1) figure.arrow(c, { x: c.x + 0.4 * speed, y: c.y }, "blue", 3);
+    figure.arrow(foot, { x: c.x + edge, y: FLOOR - long }, "red", 4);
+    if (speed > 1) figure.arrow(c, { x: c.x + 0.3 * speed, y: c.y }, "blue", 3);
     const slip = speed - rim;
-    if (slip > 1) figure.arrow(foot, { x: c.x + 0.4 * slip, y: floor }, "orange", 3);
+    if (slip > 1) figure.arrow(foot, { x: c.x + 0.3 * slip, y: FLOOR }, "orange", 3);
   }
 
   function words({ speed, rim, rolls }) {

@@ -26,6 +26,15 @@ const touch = {
     return made;
   },
 
+  /** A piece of a line as a curve is drawn; a dot where its dashes are none, "0 ...". */
+  sample(color, dash = "") {
+    const style = `stroke: var(--${color}); stroke-width: 4; fill: var(--${color})`;
+    const line = { x1: 0, y1: 6, x2: 28, y2: 6, style, "stroke-dasharray": dash };
+    const drawn = touch.element("svg:svg", { "aria-hidden": true }, touch.element("svg:line", line));
+    if (dash.startsWith("0")) drawn.append(touch.element("svg:circle", { cx: 14, cy: 6, r: 4, style }));
+    return drawn;
+  },
+
   /** A number with so many digits after the point, and no minus before nothing. */
   number(value, digits = 0) {
     const words = value.toFixed(digits);
@@ -82,6 +91,8 @@ class Figure {
     const input = touch.element("input", { type: "range", min, max, step, value });
     const words = touch.element("span");
     const control = {
+      min,
+      max,
       get value() {
         return Number(input.value);
       },
@@ -103,12 +114,13 @@ class Figure {
     return control;
   }
 
-  /** A box to tick; read its `checked`. */
-  tick(label, checked) {
+  /** A box to tick; read its `checked`. A color, and the dashes of a line, show what it stands for. */
+  tick(label, checked, color = "", dash = "") {
     const input = touch.element("input", { type: "checkbox" });
     input.checked = checked;
     input.addEventListener("change", () => this.redraw());
-    this.controls.append(touch.element("label", { class: "tick" }, input, label));
+    const sample = color ? [touch.sample(color, dash)] : [];
+    this.controls.append(touch.element("label", { class: "tick" }, input, ...sample, label));
     return input;
   }
 
@@ -119,6 +131,30 @@ class Figure {
       this.redraw();
     });
     this.controls.append(button);
+    return button;
+  }
+
+  /** A button that lets a slider of seconds run in real time, from its start when it is at its end. */
+  plays(control, label) {
+    let begun = null; // ms, when the slider stood at its start
+    const tell = () => {
+      button.textContent = begun === null ? label : "Stop";
+      this.words.setAttribute("aria-live", begun === null ? "polite" : "off");
+    };
+    const run = (now) => {
+      if (begun === null || !this.box.isConnected) return;
+      control.value = Math.min(control.min + Math.max(now - begun, 0) / 1000, control.max);
+      if (control.value < control.max) requestAnimationFrame(run);
+      else begun = null;
+      tell();
+      this.redraw();
+    };
+    const button = this.button(label, () => {
+      const from = control.value < control.max ? control.value : control.min;
+      begun = begun === null ? performance.now() - 1000 * (from - control.min) : null;
+      tell();
+      requestAnimationFrame(run);
+    });
   }
 
   /**
@@ -163,13 +199,16 @@ class Figure {
     this.handles.push(handle);
   }
 
-  /** Parts of the drawing are read: `at(x, y)` chooses what is pointed at, `go(dx, dy)` a neighbour. */
+  /**
+   * Parts of the drawing are read: `at(x, y, pressed)` chooses what is pointed at, `go(dx, dy)` a
+   * neighbour.
+   */
   reading(at, go) {
     this.picture.setAttribute("tabindex", 0);
     this.picture.style.touchAction = "pan-y"; // a finger that goes up or down moves the page
     const pointed = (event) => {
       const { left, top } = this.picture.getBoundingClientRect();
-      at(event.clientX - left, event.clientY - top);
+      at(event.clientX - left, event.clientY - top, event.buttons > 0);
       this.redraw();
     };
     this.picture.addEventListener("pointerdown", pointed);

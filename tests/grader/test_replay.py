@@ -30,7 +30,7 @@ from grader.maintain.verify import shared_worker
 from grader.player.film import Line, Replay, Take
 from grader.player.page import page
 from grader.player.pairing import replay
-from grader.player.script import polynomial
+from grader.player.script import Names, folded, polynomial
 from grader.protocol import (
     Answered,
     BodyLook,
@@ -320,6 +320,48 @@ def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
         assert re.search(pattern, done.stdout, re.MULTILINE), done.stdout
         printed.append(done.stdout)
     assert printed[0] != printed[1]
+
+
+def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
+    """Whatever a check has made before: what a script makes, its film has under the same name."""
+    bodies = 0
+    for path in pages.glob("*.py"):
+        made = re.findall(r"^(ball|box)(\d*) = Body", path.read_text("utf-8"), re.MULTILINE)
+        for kind in ("ball", "box"):
+            numbers = list(dict.fromkeys(n for each, n in made if each == kind))
+            assert numbers == ["", *map(str, range(2, len(numbers) + 1))][: len(numbers)], path
+        names = {f"{kind} {number}".strip() for kind, number in made}
+        scenes = film_of(path.with_suffix(".html"))["scenes"]
+        seen = {each.partition(",")[0] for scene in scenes for each in scene["names"].values()}
+        assert not names or seen <= names, path
+        bodies += len(names)
+    assert bodies > 20
+
+
+def test_new_names_are_put_where_a_name_stands_and_nowhere_else():
+    code = [
+        "ball5 = Body(Circle(6.0), Vector2(0.0, 0.0), 2.0)",
+        "ball5.pos = Vector2(1.0, 2.0)",
+        "contact3 = circle_box(ball5, box2)",
+        "space.add(body=ball5.body5, kind='ball5')",
+        "rod2 = rod(ball5, box2)",
+    ]
+    names = Names(code)
+    assert [names.in_code(line) for line in code] == [
+        "ball = Body(Circle(6.0), Vector2(0.0, 0.0), 2.0)",
+        "ball.pos = Vector2(1.0, 2.0)",
+        "contact = circle_box(ball, box)",
+        "space.add(body=ball.body5, kind='ball5')",
+        "rod2 = rod(ball, box)",  # the function is called rod
+    ]
+
+
+def test_the_same_line_many_times_over_is_a_loop():
+    lines = ["world.step(1 / 60)"] * 5 + ["print(1)"] * 2
+    assert list(folded(lines)) == [
+        *("for _ in range(5):", "    world.step(1 / 60)"),
+        *("print(1)", "print(1)"),
+    ]
 
 
 def test_scripts_are_short(pages: Path):
@@ -648,7 +690,7 @@ def test_the_picture_changes_and_tells_the_numbers_under_the_mouse(screen: Scree
     for _ in range(4):
         screen.page.keyboard.press("b")
         names.add(screen.page.locator("#who").inner_text())
-    assert names == {"ball 1, static", "ball 2, 1 kg", "ball 3, 3 kg", "ball 4, 2 kg"}
+    assert names == {"ball, static", "ball 2, 1 kg", "ball 3, 3 kg", "ball 4, 2 kg"}
     cells = screen.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
     assert cells[0] == cells[1] != ""
 
@@ -662,7 +704,7 @@ def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Pat
         shown.page.mouse.move(box["x"] + box["width"] * share / 20, box["y"] + box["height"] / 3)
         if shown.page.locator("#who").inner_text() != other:
             break
-    assert shown.page.locator("#who").inner_text() == "ball 1, 1 kg"
+    assert shown.page.locator("#who").inner_text() == "ball, 1 kg"
     row = shown.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
     assert row == ["10", "10"]
     assert shown.complaints == []

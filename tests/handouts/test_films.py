@@ -162,6 +162,9 @@ def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, pages: Path) -> N
             buttons.nth(1).click()
             assert words.inner_text() == "Yes, B."
             assert "right" in (buttons.nth(1).get_attribute("class") or "")
+        canvases = figure.locator("canvas")
+        frames = canvases.evaluate_all("all => all.map(each => each.dataset.frame)")
+        assert len(frames) == 3 and len(set(frames)) == 1  # they keep step
         before = figure.locator("canvas").first.get_attribute("data-frame")
         screen.page.wait_for_function(
             "([figure, before]) => figure.querySelector('canvas').dataset.frame !== before",
@@ -188,6 +191,19 @@ def test_the_tower_tells_what_was_recorded(browser: Any, pages: Path) -> None:
     engine.select_option("stable")
     assert passes.is_disabled()
     assert f"{films['stable/1/4/120']['sink']:.1f} px" in words.inner_text()
+    chart = figure.locator("svg[role]")
+    chart.focus()
+    screen.page.keyboard.press("ArrowLeft")  # to what costs less
+    costs = sorted((each["work"], key) for key, each in films.items() if key.startswith("stable"))
+    wanted = films[costs[-2][1]]
+    assert f"{wanted['sink']:.1f} px" in words.inner_text()
+    assert f"{wanted['work']:,} times" in words.inner_text()
+    screen.page.keyboard.press("ArrowDown")
+    assert engine.input_value() == "pymunk"
+    dearest = max(films, key=lambda key: films[key]["work"])
+    place = chart.locator("circle:not(.grip)").nth(3 + list(films).index(dearest)).bounding_box()
+    screen.page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
+    assert f"{films[dearest]['work']:,} times" in words.inner_text()
     figure.get_by_role("button", name="Play").click()
     canvas = figure.locator("canvas")
     screen.page.wait_for_function(

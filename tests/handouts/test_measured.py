@@ -65,7 +65,7 @@ def test_every_number_of_the_table_is_there() -> None:
 def test_keys_go_from_mark_to_mark(screen: Screen, figure: Any) -> None:
     words = figure.locator("output")
     assert words.inner_text().startswith(off("lesson", 4))
-    figure.locator("svg").focus()
+    figure.locator("svg[role]").focus()
     screen.page.keyboard.press("ArrowRight")
     assert words.inner_text().startswith(off("lesson", 16))
     screen.page.keyboard.press("ArrowRight")  # there is no more
@@ -106,7 +106,7 @@ def test_prices_add_up_to_those_of_all_together() -> None:
 
 def test_what_is_declared_is_paid_for(screen: Screen) -> None:
     figure, prices = opened(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
-    words, drawing = figure.locator("output"), figure.locator("svg")
+    words, drawing = figure.locator("output"), figure.locator("svg[role]")
     every = sum(prices["40"].values())
     assert f"the price of contacts is {prices['40']['contacts']:,} opcodes" in words.inner_text()
     assert f"added up: {every:,} opcodes" in (drawing.text_content() or "")
@@ -181,7 +181,7 @@ def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
     figure = opened(screen, "accuracy-dials-tower-sink")
     words, keys = figure.locator("output"), screen.page.keyboard
     passes, step = (curve_of("accuracy-dials-tower-sink", look) for look in ("passes", "step"))
-    figure.locator("svg").first.focus()
+    figure.locator("svg[role]").first.focus()
     keys.press("ArrowRight")
     assert words.inner_text().startswith(told(passes, 1, " px"))
     keys.press("ArrowDown")
@@ -215,7 +215,7 @@ def test_what_holds_how_far_is_read_by_keys_and_pointer(screen: Screen) -> None:
     figure = opened(screen, "hard-cases-limits")
     words = figure.locator("output")
     title = "tower of equal balls: balls that stand"
-    figure.locator("svg").focus()
+    figure.locator("svg[role]").focus()
     while title not in words.inner_text():
         screen.page.keyboard.press("ArrowDown")
     needed = lines[f"limit: {title}: must hold"]
@@ -245,6 +245,6 @@ def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> N
     assert screen.page.evaluate("document.documentElement.scrollWidth") <= 390
     screen.page.emulate_media(media="print")
     assert figure.locator("img.still").is_visible()
-    assert not figure.locator("svg").first.is_visible()
+    assert not figure.locator("svg[role]").first.is_visible()
     screen.page.emulate_media(media="screen")
     screen.page.set_viewport_size({"width": 1280, "height": 720})

@@ -29,7 +29,7 @@
   // How far apart the runs are in a frame, in px of the picture; a body that one of them lacks is.
   function apart(position) {
     const { scene, mine, right } = at(position);
-    if (!right || scene.curve) return 0;
+    if (!right) return 0;
     let most = 0;
     for (const [number, state] of mine.bodies) {
       const other = right.bodies.get(number);
@@ -47,7 +47,9 @@
   const largestAt = gaps.reduce((best, gap, position) => (gap > gaps[best] ? position : best), 0);
   // ---------------------------------------------------------------- words and numbers
 
-  let position = seenAt < 0 ? partAt ?? 0 : seenAt, chosen = film.parting?.body || null;
+  // Where nothing is off to be seen, the end is the fullest picture.
+  const nowhere = partAt ?? (film.told ? count - 1 : 0);
+  let position = seenAt < 0 ? nowhere : seenAt, chosen = film.parting?.body || null;
 
   function showValues(now) {
     const { scene } = now;
@@ -230,7 +232,7 @@
     go(Number(slider.value));
   });
 
-  canvas.addEventListener("pointermove", (event) => {
+  const pick = (event) => {
     const now = at(position);
     if (now.scene.curve) return;
     const { x, y, px } = stage.place(event);
@@ -247,7 +249,8 @@
       chosen = found;
       show();
     }
-  });
+  };
+  for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, pick); // a finger's tap, too
 
   byId("copy").addEventListener("click", async () => {
     const text = byId("script").textContent;
@@ -280,8 +283,7 @@
     const seen = seenAt < 0
       ? film.parting.body ? " Their places are never so far apart that one could see it." : ""
       : ` One sees it from frame ${seenAt + 1} on; it is largest in frame ${largestAt + 1}.`;
-    const curve = film.scenes[film.parting.scene].curve;
-    words.textContent = `The runs part in frame ${partAt + 1} of ${count}: ${film.parting.words}.${curve ? "" : seen}`;
+    words.textContent = `The runs part in frame ${partAt + 1} of ${count}: ${film.parting.words}.${seen}`;
     words.className = "parting apart";
     const mark = byId("mark"), share = count > 1 ? position / (count - 1) : 0;
     mark.hidden = false;

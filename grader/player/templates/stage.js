@@ -329,6 +329,14 @@ function stageOn(canvas) {
     return fastest ? wide / 8 / fastest : 0;
   }
 
+  // From three to six round numbers between two others.
+  function roundNumbers(low, high) {
+    const rough = (high - low) / 3, power = 10 ** Math.floor(Math.log10(rough));
+    const apart = [5, 2, 1].map((each) => each * power).find((each) => each <= rough);
+    const first = Math.ceil(low / apart), count = Math.floor(high / apart) - first + 1;
+    return Number.isFinite(apart) ? Array.from({ length: count }, (_, n) => (first + n) * apart) : [];
+  }
+
   function drawCurve(scene, now, wide, tall) {
     const [left, low, right, high] = scene.view;
     const x = (time) => 48 + (time - left) / (right - left) * (wide - 60);
@@ -337,17 +345,18 @@ function stageOn(canvas) {
     pen.fillStyle = colours.soft;
     pen.font = "12px system-ui, sans-serif";
     pen.lineWidth = 1;
-    for (let mark = 0; mark <= 4; mark += 1) {
-      const value = low + (high - low) * mark / 4, time = left + (right - left) * mark / 4;
+    for (const value of roundNumbers(low, high)) {
       pen.beginPath();
       pen.moveTo(48, y(value));
       pen.lineTo(wide - 12, y(value));
       pen.stroke();
       pen.fillText(digits(value, 3), 4, y(value) + 4);
-      pen.textAlign = mark === 4 ? "right" : "center";
-      pen.fillText(`${digits(Math.max(time, 0), 2)} s`, x(time), tall - 8);
-      pen.textAlign = "left";
     }
+    for (const time of roundNumbers(Math.max(left, 0), right)) {
+      pen.textAlign = x(time) > wide - 24 ? "right" : "center";
+      pen.fillText(`${digits(time, 3)} s`, x(time), tall - 8);
+    }
+    pen.textAlign = "left";
     const trace = (frames, colour, dash) => {
       pen.strokeStyle = colour;
       pen.lineWidth = 2;
@@ -393,10 +402,10 @@ function stageOn(canvas) {
     drawScale(wide, tall);
   }
 
-  // How many px of the picture a px of a scene is.
+  // How many px of the picture a px of a scene is; of a curve, along its height.
   function scaleOf(scene) {
-    fit(scene);
-    return scale;
+    const [, tall] = fit(scene), [, low, , high] = scene.view;
+    return scene.curve ? (tall - 40) / (high - low) : scale;
   }
 
   // Where in the scene a point of the page is, px, and how many px of the scene a px of the page is.
