@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from contextlib import nullcontext
 from pathlib import Path
@@ -181,7 +181,7 @@ def test_what_decides_uses_nothing_that_does_not_count():
     assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
     # Replays show what was decided, in the words of reports.
     shown = {name: files for name, files in used.items() if name not in places}
-    assert shown == {name: {"filming.py", "replay.py"} for name in ("player", "words")}
+    assert shown == {"player": {"filming.py", "replay.py"}, "words": {"replay.py"}}
 
 
 # ---------------------------------------------------------------- adjustments, table, notes
@@ -224,10 +224,10 @@ def test_those_who_work_together_are_no_copies(classroom):
 
 
 def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypatch):
-    def breaks_at_ben(found: Found) -> Package:
+    def breaks_at_ben(found: Found, asked: Collection[str]) -> Package:
         if found.name == "ben":
             raise RecursionError("too deep")
-        return pack(found)
+        return pack(found, asked)
 
     monkeypatch.setattr(batch, "pack", breaks_at_ben)
     run = graded(classroom)
