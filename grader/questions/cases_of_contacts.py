@@ -34,7 +34,8 @@ def impulse(program: Program, draw: Draw) -> Found:
     return Found(
         f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg and a restitution of "
         f"{own:g}, the ledge one of {bounces[1]:g}. The ball falls straight down on the middle of "
-        f"the ledge and meets it at {speed:g} px/s, without spin, {DEPTH} px deep.\n"
+        f"the ledge. When the first pass begins it has {speed:g} px/s, no spin, and is {DEPTH} px "
+        "deep.\n"
         "How large is `jn` of this contact after the first pass of `solve_normal`?",
         mass * (1 + bounce) * speed,
         measured,

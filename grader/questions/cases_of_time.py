@@ -80,7 +80,7 @@ def steps_found(purse: Purse, owed: Fraction, where: str, measured: int) -> Foun
         f"{purse.words}\nHow many steps has `advance`{where} run in all?",
         steps,
         measured,
-        "",
+        "steps",
         f"{purse.start} + {purse.count} · {purse.length} + 66.67 ms are "
         f"{digits(float(owed))} steps; the part that is no whole step stays for later.",
         [

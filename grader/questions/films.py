@@ -25,7 +25,7 @@ from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import STEP
 from grader.protocol import MAX_BODIES, MAX_RODS
-from grader.questions.pictures import Film, Look, difference, picture
+from grader.questions.pictures import Film, Look, difference, frame_of, picture
 from grader.questions.program import Program, Tree, Unlike
 from grader.questions.question import Question
 from grader.questions.scene import SEEDS, Scene
@@ -37,7 +37,6 @@ CLEAR = 1.5  # times as much of its sign as any other film, or as little
 SEEN = 12.0  # px, of one rise that a picture shows beside the way down
 TRIES = 2  # scenes
 MOST_RADIUS = 200.0  # px
-FRAME = (0.0, 30.0, 900.0, 560.0)
 
 
 @dataclass(frozen=True)
@@ -168,8 +167,9 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
     options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))
     letters = "abcd"
     answer = "".join(letters[options.index(each)] for each in shown)
+    frame = frame_of(list(films.values()))
     pictures = tuple(
-        picture(films[each], f"film {number}", f"The lab scene for {SECONDS:g} s", FRAME)
+        picture(films[each], f"film {number}", f"The lab scene for {SECONDS:g} s", frame)
         for number, each in enumerate(shown, 1)
     )
     return Question(

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab
-from grader.questions.films import FRAME, SECONDS, VISIBLE, film_as_it_is, filmed, held_against
+from grader.questions.films import SECONDS, VISIBLE, film_as_it_is, filmed, held_against
 from grader.questions.operators import changes, names_in
-from grader.questions.pictures import difference, picture
+from grader.questions.pictures import difference, frame_of, picture
 from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
 from grader.questions.question import Picture, Question
 from grader.questions.scene import SEEDS
@@ -169,8 +169,9 @@ def film_of(
         right = filmed(reference, reference.with_function(target, change.code), scene)
         held_against({"the program": film_as_it_is(reference, scene), "the change": right}, films)
     titles = ("film 1, as it is", "film 2, with the change")
+    frame = frame_of(list(films.values()))
     pictures = tuple(
-        picture(film, name, f"The lab scene for {SECONDS:g} s", FRAME)
+        picture(film, name, f"The lab scene for {SECONDS:g} s", frame)
         for name, film in zip(titles, films.values(), strict=True)
     )
     return (

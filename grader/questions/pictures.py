@@ -13,6 +13,7 @@ from grader.questions.question import Picture
 
 MOMENTS = 4  # at which a picture shows the bodies, the last one clearest
 SPOKE = 0.85  # of a radius
+USUAL_TOP, MOST_ABOVE, BOTTOM = 30.0, -120.0, 590.0  # px, of what a picture shows
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,18 @@ class Film:
         """The rows that a picture shows, the last one among them."""
         last = len(self.rows) - 1
         return [round(last * (number + 1) / MOMENTS) for number in range(MOMENTS)]
+
+
+def frame_of(films: Sequence[Film]) -> tuple[float, float, float, float]:
+    """What pictures of these films show alike: the scene, and what flies a little above it."""
+    tops = [
+        film.place(row, body)[1] - film.looks[body].radius
+        for film in films
+        for body in film.moving
+        for row in film.moments
+    ]
+    top = max(MOST_ABOVE, min([USUAL_TOP, *tops]))
+    return 0.0, top, 900.0, BOTTOM - top
 
 
 def difference(one: Film, other: Film) -> float:

@@ -125,8 +125,8 @@ REASONS = (
         "centre-inside",
         "1",
         calls("length", "length_squared", "magnitude", "magnitude_squared", "hypot", "sqrt"),
-        "Your program works with this distance. Why does a centre inside of the box need a way of "
-        "its own, and what is that way?",
+        "Your program takes a length here. Why does a centre inside of the box need a case of its "
+        "own, and what is done there?",
         CENTRE_INSIDE,
     ),
     Reason(

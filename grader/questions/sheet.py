@@ -45,7 +45,8 @@ def sheet_of(
     found += made(lines_to_ask(program, own, asked), asked.line, dropped)
     missing = asked.number + asked.film + asked.line - len(found)
     found += made(numbers, missing, dropped)  # where there is no film to ask about, a number
-    found += made(reasons_to_ask(program, asked), asked.why, dropped)
+    lines = {todo for each in found if each.kind == "line" for todo in each.todos}
+    found += made(reasons_to_ask(program, asked, lines), asked.why, dropped)
     return Sheet(student, seed, tuple(found), tuple(dropped))
 
 
@@ -94,15 +95,18 @@ def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
         )
 
 
-def reasons_to_ask(program: Program, asked: Asked) -> Iterator[Ask]:
-    for each in reasons_for(program):
+def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[Ask]:
+    """Last about the function whose lines a sheet shows already."""
+    for each in sorted(reasons_for(program), key=lambda each: each.todo in lines):
         yield each.name, partial(reason_question, each, program, asked.worth("why"))
 
 
 def in_turn(makers: Iterable[Each], program: Program) -> Iterator[Each]:
     """Those whose TODOs are all right: the first of each slot, then the second of each.
 
-    What a course hands out done may take part in a question, and is not what it is about.
+    One about TODOs that have had their turn waits for all the others: no sheet asks the same twice
+    as long as there is something else. What a course hands out done may take part in a question,
+    and is not what it is about.
     """
     able = [
         each
@@ -110,5 +114,14 @@ def in_turn(makers: Iterable[Each], program: Program) -> Iterator[Each]:
         if program.can_show(each.todos) and program.right.intersection(each.todos)
     ]
     slots = [[each for each in able if each.slot == slot] for slot in SLOTS]
-    for rank in range(max(map(len, slots))):
-        yield from (slot[rank] for slot in slots if rank < len(slot))
+    ranks = range(max(map(len, slots)))
+    ordered = [slot[rank] for rank in ranks for slot in slots if rank < len(slot)]
+    had: set[str] = set()
+    waiting = []
+    for each in ordered:
+        if had.issuperset(each.todos):
+            waiting.append(each)
+            continue
+        had.update(each.todos)
+        yield each
+    yield from waiting

@@ -39,7 +39,7 @@ from grader.questions.moodle import moodle_xml
 from grader.questions.notebook import notebook
 from grader.questions.numbers import drawn
 from grader.questions.page import page
-from grader.questions.pictures import Film, Look
+from grader.questions.pictures import Film, Look, frame_of
 from grader.questions.practice import Practice
 from grader.questions.program import Program, Unlike, opened_program
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
@@ -96,6 +96,25 @@ def test_every_todo_right_asks_everybody_alike():
     assert names == ["impulse", "steps", "verlet"]
     names = [each.name for each in in_turn(MAKERS, program_with({"5", "8a"}))]
     assert names == ["semi-implicit", "damping"]
+
+
+def test_nothing_is_asked_twice_while_there_is_something_else():
+    names = [each.name for each in in_turn(MAKERS, program_with(ALL))]
+    assert len(set(names)) == len(names) == len(MAKERS)
+    assert names.index("purse") > names.index("fall"), "steps was about TODO 6 already"
+
+
+def test_the_last_reason_is_about_the_function_whose_lines_are_shown(solution: Result):
+    todos = [todo for todo in solution.todos if todo.id in ("3", "5", "7b")]
+    with program_of(KIT / "solution", solution.with_todos(todos)) as program:
+        found = sheet_of(program, "ada", "5", Asked(number=0, film=0))
+    assert [each.todos for each in found.questions] == [("3",), ("5",), ("7b",)]
+
+
+def test_what_flies_above_the_scene_is_in_the_picture():
+    usual, flies = film_of([-100.0] * 5), film_of([-100.0, 20.0, 20.0, 20.0, 20.0])
+    assert frame_of([usual]) == (0.0, 30.0, 900.0, 560.0)
+    assert frame_of([usual, flies]) == (0.0, -30.0, 900.0, 620.0)
 
 
 def test_what_a_course_hands_out_done_takes_part_and_is_not_asked_about():
