@@ -97,9 +97,14 @@ cases: $(CORE) ## The hard cases in every engine, and the published test set (QU
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled
 
-wheels: $(DEV) ## Make a wheel of it for this system; the workflow of that name makes all
+wheels: $(DEV) ## Make a wheel of it for this system, and try it; the workflow of that name makes all
 	@cd solution && ../$(PY) -m experiments.compiled --project ../build/wheels/sources
 	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation -w build/wheels build/wheels/sources
+	@$(PYTHON) -m venv --clear build/wheels/trial
+	@build/wheels/trial/$(notdir $(patsubst %/,%,$(dir $(PY))))/python -m pip install --quiet \
+		--disable-pip-version-check --only-binary :all: build/wheels/stable_compiled-*.whl
+	@build/wheels/trial/$(notdir $(patsubst %/,%,$(dir $(PY))))/python \
+		build/wheels/sources/trial/falls.py
 	@ls build/wheels/*.whl
 
 ##@ Handing out

@@ -126,7 +126,8 @@ class Roster:
                 return name
         raise CannotRead(
             f"{self.path} has none of {', '.join(KEYS)}: call the column that identifies students "
-            "by one of these names, or export it again in English"
+            "by one of these names, export it again in English, or, where a command has it, name "
+            "your column with --key"
         )
 
 

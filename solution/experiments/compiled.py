@@ -94,7 +94,9 @@ def write_sources(folder):
 def write_project(folder):
     """Write a project into folder from which pip or cibuildwheel makes a wheel of the package."""
     modules = write_sources(folder)
-    (folder / "falls.py").write_text(FALLS, "utf-8")
+    trial = folder / "trial"  # not beside the sources, which Python would import for the wheel
+    trial.mkdir(exist_ok=True)
+    (trial / "falls.py").write_text(FALLS, "utf-8")
     (folder / "setup.py").write_text(SETUP.format(modules=modules), "utf-8")
     (folder / "pyproject.toml").write_text(PROJECT.format(name=NAME.replace("_", "-")), "utf-8")
 

@@ -60,7 +60,9 @@ def test_the_project_of_a_wheel_names_every_module_that_is_compiled(tmp_path):
     left = {name.removesuffix(".py") for name in compiled.LEFT_PLAIN}
     assert set(named) == written - left
     assert tomllib.loads((tmp_path / "pyproject.toml").read_text("utf-8"))["project"]["version"]
-    assert "import" in (tmp_path / "falls.py").read_text("utf-8")
+    trial = tmp_path / "trial" / "falls.py"
+    assert "from stable_compiled import" in trial.read_text("utf-8")
+    assert not (trial.parent / compiled.NAME).exists()  # what it imports is what was installed
 
 
 def stand_in(folder):

@@ -191,8 +191,8 @@ def test_nan_and_errors_become_words():
     case = replace(FALL, scenes=[lambda: lost], seconds=5000, dt=1)
     assert run_case(case, "lesson") == ["stopped"]
     assert run_case(case, "stable") == ["stopped"]
-    assert answers("spring with k/m = 1e9/s²", "pymunk") == {"swing": "NaN"}
-    assert answers("spring with k/m = 1e9/s²", "lesson") == {"swing": battery.NO_ANSWER}
+    assert answers("spring with k/m = 1e9/s²", "pymunk") == {"gain": "NaN"}
+    assert answers("spring with k/m = 1e9/s²", "lesson") == {"gain": battery.NO_ANSWER}
 
 
 # ---------------------------------------------------------------- the program

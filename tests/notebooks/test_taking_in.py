@@ -126,7 +126,10 @@ def test_links_and_hidden_files_stay_outside(course, classroom, tmp_path):
     (tree / ".hidden").mkdir()
     (tree / ".hidden" / "x.py").touch()
     (classroom / "linked").symlink_to(KIT / "solution")
-    assert set(taken(classroom, course)) == {"eve"}
+    all_of_them = taken(classroom, course)
+    assert {name for name, each in all_of_them.items() if each.taken} == {"eve"}
+    assert "link" in all_of_them["linked"].words
+    assert not (course / "submitted" / "linked").exists()
     target = course / "submitted" / "eve" / ASSIGNMENT
     assert not any((target / name).exists() for name in ("stolen.py", "all", ".hidden"))
 
