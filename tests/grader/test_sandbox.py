@@ -1,0 +1,75 @@
+"""What a child finds of its submission: a copy of its own, and folders as they were handed out."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from grader.judge.children import start_worker
+from grader.judge.grade import Options, as_in_reference, sandbox_for, take_in, work_folder
+from grader.judge.rubric import load_rubric
+from grader.protocol import Call, Import, Items, Raised, Returned
+
+PROGRAM = """
+import os
+import stable_engine
+
+def told():
+    folders = "experiments", "results", "stable_engine"
+    return [stable_engine.VALUE, *(float(os.path.islink(each)) for each in folders)]
+
+def write_into(folder):
+    with open(os.path.join(folder, "log.txt"), "w") as log:
+        return float(log.write("one line"))
+"""
+
+
+@pytest.fixture
+def trees(tmp_path: Path) -> tuple[Path, Path]:
+    """A submission and a reference. Only the folder stable_engine is alike in both."""
+    for tree in ("submission", "reference"):
+        for name, text in (
+            ("mini_engine.py", PROGRAM),
+            ("stable_engine/__init__.py", "VALUE = 3.5\n"),
+            ("stable_engine/deep/more.py", "MORE = 1\n"),
+            ("experiments/mine.py", f"TREE = {tree!r}\n"),
+            ("results/more.py", ""),
+        ):
+            path = tmp_path / tree / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    (tmp_path / "submission" / "results" / "best.json").write_text("{}", encoding="utf-8")
+    return tmp_path / "submission", tmp_path / "reference"
+
+
+def test_a_folder_as_it_was_handed_out_is_known(trees):
+    assert as_in_reference(*trees) == (["stable_engine"] if os.name == "posix" else [])
+    assert as_in_reference(trees[0], None) == []
+    (trees[0] / "stable_engine" / "deep" / "more.py").write_text("MORE = 2\n", encoding="utf-8")
+    assert as_in_reference(*trees) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows may not allow links, so all is copied")
+@pytest.mark.parametrize("spawn", [False, True], ids=["fork", "spawn"])
+def test_it_is_read_where_it_lies_and_all_else_is_the_childs_own(trees, spawn):
+    submission, reference = trees
+    worker = start_worker(spawn)
+    try:
+        with work_folder() as work:
+            taken = take_in(submission, work / "submission", load_rubric(), {})
+            options = Options(reference=reference, trusted=True)
+            child = sandbox_for(taken, work, worker, options).open_child(5)
+
+            def asked(target: str, *args: str) -> object:
+                return child.ask(Call(f"mini_engine:{target}", list(args))).reply
+
+            assert isinstance(child.ask(Import("mini_engine", [])).reply, Returned)
+            told = asked("told")
+            assert isinstance(told, Returned) and told.value == Items([3.5, 0.0, 0.0, 1.0])
+            assert isinstance(asked("write_into", "results"), Returned)
+            assert isinstance(asked("write_into", "experiments"), Returned)
+            assert isinstance(asked("write_into", "stable_engine"), Raised)
+            child.end()
+        assert not list(submission.rglob("log.txt"))
+    finally:
+        worker.close()
