@@ -151,10 +151,9 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
     owed, most = accumulator + seconds, MAX_STEPS * STEP
     due = min(owed, most)
     beyond = steps * STEP + rest - due
-    # A frame that is cut may keep what was in the accumulator, or lose it, and makes no time up.
-    # Above MAX_STEPS steps it is main that cuts, if anything does.
-    kept = 0.0 if owed <= most else accumulator
-    right = -TINY <= beyond <= kept + TINY or (owed > most and steps > MAX_STEPS)
+    # A frame that is cut may keep what was in the accumulator, or lose it. Above MAX_STEPS steps
+    # it is main that cuts, if anything does.
+    right = abs(beyond) <= TINY if owed <= most else beyond >= -TINY or steps > MAX_STEPS
     lab.want(
         right and -TINY <= rest <= STEP + TINY,
         f"{1000 * due:.6g} ms, in whole steps and a rest shorter than a step",
