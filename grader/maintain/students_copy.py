@@ -75,6 +75,8 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     package = folder / "grader"
     shutil.copytree(KIT / "grader", package, ignore=left_out)
     checks = package / "checks"
+    # First, while nothing notes what the closed forms are asked: it asks hidden checks as well.
+    (checks / PRACTICE).write_bytes(practice_of(course))
     rubric = visible(course.rubric)
     texts = cut_checks(rubric)
     for todo in load_rubric().todos:
@@ -91,7 +93,6 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     texts["recorded.json"] = json.dumps(recorded, separators=(",", ":"), sort_keys=True)
     for name, text in texts.items():
         (checks / name).write_text(text, encoding="utf-8", newline="\n")
-    (checks / PRACTICE).write_bytes(practice_of(course))
 
 
 def left_out(folder: str, names: list[str]) -> set[str]:
