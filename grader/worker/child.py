@@ -277,13 +277,9 @@ def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
 def tidy_environment(scratch: str) -> None:
     """An environment that says nothing about the machine, and an empty folder to work in."""
     windows = ("SYSTEMROOT", "PATH") if os.name == "nt" else ()  # it finds its libraries by them
-    wanted = {name: os.environ[name] for name in windows if name in os.environ}
-    wanted |= (
-        {"PATH": os.defpath}
-        | wanted
-        | ENVIRONMENT
-        | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
-    )
+    wanted = {"PATH": os.defpath}
+    wanted |= {name: os.environ[name] for name in windows if name in os.environ}
+    wanted |= ENVIRONMENT | dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), scratch)
     for name in set(os.environ) - set(wanted):
         del os.environ[name]
     for name in wanted:
