@@ -26,7 +26,6 @@ from experiments.dials import QUESTIONS, dials, questions
 from experiments.table import Progress, write_markdown
 
 BALLS, QUICK_BALLS = (8, 40, 200, 1000), (8,)  # in piles
-MOST_SAME_STEP = 200  # balls
 WEIGHTS = {"lesson": 1.0, "stable": 0.4, "pymunk": 0.03, "box2d": 0.03}  # of a solve, roughly
 CHAIN_WEIGHT = 3e5  # of one engine
 SMOOTH_WEIGHT = 4e5  # of one system of the integrators
@@ -45,7 +44,7 @@ def measure(effort, balls, progress):
         "smooth": measure_smooth(effort, progress),
         "dials": {name: measure_dials(name, effort, progress) for name in questions(effort.quick)},
         "piles": [measure_pile(count, effort, progress) for count in balls],
-        "same step": measure_same_step(balls, effort, progress),
+        "same step": [measure_same_step(n, effort, progress) for n in same_step_balls(balls)],
     }
 
 
@@ -89,18 +88,16 @@ def measure_pile(count, effort, progress):
     return race.pile_row(count, effort, tick)
 
 
-def measure_same_step(balls, effort, progress):
-    count = most_of(balls)
-
+def measure_same_step(count, effort, progress):
     def tick(who):
         progress.step(pile_weight(count), f"pile of {count} balls, the same step, {who}")
 
     return race.same_step(count, effort, tick)
 
 
-def most_of(balls):
-    """The largest pile that is also run step for step beside pymunk."""
-    return max(count for count in balls if count <= MOST_SAME_STEP)
+def same_step_balls(balls):
+    """The piles that are also run step for step beside pymunk: all but the smallest."""
+    return balls[1:] or balls
 
 
 def about(effort):
@@ -138,7 +135,7 @@ def total_weight(effort, balls):
         settings = {setting for _, _, row in dials(effort.quick) for _, setting in row}
         work += sum(weight(question, setting, effort) for setting in settings)
     work += len(budgets.SCENES) * len(budgets.families()) * budget_weight(effort) + 4 * CHAIN_WEIGHT
-    same = (len(race.SAME_STEP) + 3) * pile_weight(most_of(balls))
+    same = (len(race.SAME_STEP) + 3) * sum(map(pile_weight, same_step_balls(balls)))
     return work + 5 * sum(map(pile_weight, balls)) + same
 
 

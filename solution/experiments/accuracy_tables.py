@@ -299,19 +299,21 @@ def pile_table(piles):
     return Table("Settled piles", heads, rows, note)
 
 
-def same_step_table(race):
+def same_step_table(races):
     rows = [
         [
+            race["balls"],
             shown(row["engine"]),
             row["substeps"] if row["engine"] in ("stable", "compiled") else "-",
             number(row["overlap"]),
             span(row["ratio"], "x"),
         ]
+        for race in races
         for row in race["rows"]
     ]
-    heads = ["engine", "substeps", "overlap, px", "time"]
+    heads = ["balls", "engine", "substeps", "overlap, px", "time"]
     note = (
         "Steps of 1/120 s; pymunk with its 10 iterations has the time 1. The fewest substeps that "
         "are accurate enough tell what plain Python costs beside compiled code."
     )
-    return Table(f"A settled pile of {race['balls']}: the same step as pymunk's", heads, rows, note)
+    return Table("Settled piles: the same step as pymunk's", heads, rows, note)

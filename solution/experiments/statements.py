@@ -20,9 +20,15 @@ def of_accuracy(results):
             lines |= of_dials(answers, error)
     for row in results["piles"]:
         lines |= of_pile(row)
-    balls = results["same step"]["balls"]
-    for row in results["same step"]["rows"]:
-        name = f"pile of {balls} in the same step, {row['engine']} with {row['substeps']} substeps"
+    for race in results["same step"]:
+        lines |= of_same_step(race)
+    return lines
+
+
+def of_same_step(race):
+    lines, pile = {}, f"pile of {race['balls']} in the same step"
+    for row in race["rows"]:
+        name = f"{pile}, {row['engine']} with {row['substeps']} substeps"
         lines[f"{name}: overlap"] = row["overlap"]
         lines |= ends(f"{name}: time in pymunk's", row["ratio"])
     return lines

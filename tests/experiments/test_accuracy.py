@@ -470,7 +470,8 @@ def test_the_results_are_complete(tiny):
     assert [len(row["methods"]) for row in results["smooth"]["systems"]] == [4, 4, 4]
     assert results["piles"][0]["asleep"]["asleep"] == 8
     assert results["piles"][0]["stable"]["overlap"] < results["piles"][0]["lesson"]["overlap"]
-    same = {(row["engine"], row["substeps"]): row for row in results["same step"]["rows"]}
+    (race,) = results["same step"]
+    same = {(row["engine"], row["substeps"]): row for row in race["rows"]}
     depths = [same[who]["overlap"] for who in (("stable", 4), ("stable", 1), ("lesson", 1))]
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
 
