@@ -60,15 +60,16 @@ grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder (COURSE_FI
 	@$(PY) -m grader grade \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
 
-contained: RESULTS ?= $(SUBMISSIONS)-results
 contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podman (SEED=number)
+	@test -d "$(SUBMISSIONS)" || { echo 'SUBMISSIONS="$(SUBMISSIONS)" is no folder of submissions.'; exit 2; }
 	@$(ENGINE) build --tag physics-grader --file Containerfile .
-	@mkdir -p "$(RESULTS)"
-	@$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
-		--volume "$(abspath $(SUBMISSIONS)):/instructor/submissions:ro" \
-		--volume "$(abspath $(RESULTS)):/instructor/results" \
-		$(if $(COURSE_FILE),--volume "$(abspath $(COURSE_FILE)):/instructor/kit/course.toml:ro") \
-		physics-grader $(if $(SEED),--seed $(SEED))
+	@submissions=$$(cd "$(SUBMISSIONS)" && pwd) && results="$(or $(RESULTS),$$submissions-results)" && \
+	mkdir -p "$$(dirname "$$results")" && beside=$$(cd "$$(dirname "$$results")" && pwd) && \
+	$(ENGINE) run --rm --network none --read-only --tmpfs /tmp:size=1g --pids-limit 1024 \
+		--volume "$$submissions:/instructor/submissions:ro" \
+		--volume "$$beside:/instructor/beside" \
+		$(if $(COURSE_FILE),--volume "$$(realpath "$(COURSE_FILE)"):/instructor/kit/course.toml:ro") \
+		physics-grader --out "/instructor/beside/$$(basename "$$results")" $(if $(SEED),--seed $(SEED))
 
 dashboard: $(CORE) ## Make a page of a graded class: RESULTS=folder (SUBMISSIONS=folder for replays)
 	@$(PY) -m grader dashboard "$(RESULTS)" $(if $(SUBMISSIONS),--submissions "$(SUBMISSIONS)")

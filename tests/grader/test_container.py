@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -72,26 +73,53 @@ def test_what_is_copied_is_not_ignored():
     assert all((KIT / name).exists() for name in copied())
 
 
+class Asked:
+    """What `make contained` asks of the engine, which is stood in for by a script."""
+
+    def __init__(self, folder: Path, *settings: str) -> None:
+        engine = folder / "engine"
+        engine.write_text(f"""#!/bin/sh\nprintf '%s\\n' "$@" '' >> '{folder}/asked'\n""")
+        engine.chmod(0o755)
+        command = ["make", "contained", f"ENGINE='{engine}'", *settings]
+        subprocess.run(command, cwd=KIT, check=True, stdout=subprocess.DEVNULL)
+        self.build, run = (each.split("\n") for each in self.asked(folder))
+        image = run.index("physics-grader")
+        self.options, self.arguments = run[:image], run[image + 1 :]
+        self.read, self.written = {}, {}
+        for option, volume in pairwise(self.options):
+            if option == "--volume":
+                outside, inside, *only = volume.split(":")
+                (self.read if only else self.written)[inside] = Path(outside)
+
+    def asked(self, folder: Path) -> list[str]:
+        return (folder / "asked").read_text().removesuffix("\n\n").split("\n\n")
+
+
 @pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
-def test_one_command_grades_a_folder_in_it(tmp_path: Path):
-    """The engine is stood in for by a script that writes down what it is asked."""
-    engine = tmp_path / "engine"
-    engine.write_text(f'#!/bin/sh\nprintf "%s\\n" "$*" >> {tmp_path}/asked\n')
-    engine.chmod(0o755)
-    folder = tmp_path / "class"
+@pytest.mark.parametrize("results", ["", "marks"])
+def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
+    folder = tmp_path / "a class"
     folder.mkdir()
-    command = ["make", "contained", f"ENGINE={engine}", f"SUBMISSIONS={folder}", "SEED=7"]
-    subprocess.run(command, cwd=KIT, check=True, stdout=subprocess.DEVNULL)
-    build, run = (tmp_path / "asked").read_text().splitlines()
-    assert build == "build --tag physics-grader --file Containerfile ."
-    assert "--network none" in run and f"{folder}:/instructor/submissions:ro" in run
-    assert f"{folder}-results:/instructor/results" in run
-    assert run.endswith("physics-grader --seed 7")
-    assert (tmp_path / "class-results").is_dir()
+    settings = [f"RESULTS={tmp_path}/given back/{results}"] if results else []
+    asked = Asked(tmp_path, f"SUBMISSIONS={folder}/", "SEED=7", *settings)
+    assert asked.build == ["build", "--tag", "physics-grader", "--file", "Containerfile", "."]
+    assert ("--network", "none") in pairwise(asked.options) and "--read-only" in asked.options
+    assert asked.read["/instructor/submissions"] == folder
+    assert asked.written == {"/instructor/beside": tmp_path / "given back" if results else tmp_path}
+    out = f"/instructor/beside/{results or 'a class-results'}"
+    assert asked.arguments == ["--out", out, "--seed", "7"]
 
 
-@pytest.mark.soak
-def test_what_is_copied_grades_a_class(tmp_path: Path):
+@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+def test_who_names_no_folder_is_told(tmp_path: Path):
+    done = subprocess.run(
+        ["make", "contained", "ENGINE=false"], cwd=KIT, stdout=subprocess.PIPE, text=True
+    )
+    assert done.returncode != 0 and "is no folder of submissions" in done.stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     """The entry point as it stands, on what the container holds, in another folder."""
     kit = tmp_path / "kit"
     kit.mkdir()
@@ -101,10 +129,18 @@ def test_what_is_copied_grades_a_class(tmp_path: Path):
     ann = tmp_path / "submissions" / "ann"
     ann.mkdir(parents=True)
     shutil.copy(KIT / "solution" / "integrators.py", ann)
+    asked = Asked(tmp_path, f"SUBMISSIONS={ann.parent}", f"RESULTS={tmp_path}/class")
+    (beside,) = asked.written
     (line,) = re.findall(r"^ENTRYPOINT (.+)$", INSTRUCTIONS, re.MULTILINE)
-    entry = [each.replace("/instructor", str(tmp_path)) for each in json.loads(line)]
+    command = [*json.loads(line), *asked.arguments, "--jobs", "1", "--todo", "8a"]
+    command = [each.replace("/instructor", str(tmp_path)) for each in command]
+    before = set(tmp_path.rglob("*"))
     subprocess.run(
-        [sys.executable, *entry[1:], "--jobs", "1"], cwd=kit, check=True, stdout=subprocess.DEVNULL
+        [sys.executable, "-B", *command[1:]], cwd=kit, check=True, stdout=subprocess.DEVNULL
     )
-    marks = json.loads((tmp_path / "results" / "ann.json").read_text(encoding="utf-8"))
-    assert marks["points"] == 6
+    out = Path(beside.replace("/instructor", str(tmp_path)))
+    marks = json.loads((out / "class" / "ann.json").read_text(encoding="utf-8"))
+    assert marks["points"] == marks["max_points"] == 2
+    assert [
+        new for new in set(tmp_path.rglob("*")) - before if out not in (new, *new.parents)
+    ] == []
