@@ -2,7 +2,6 @@
 
 import sys
 from pathlib import Path
-from statistics import median
 
 import pytest
 
@@ -38,10 +37,7 @@ def test_a_greedy_submission_is_greedy_in_every_todo(name: str, tmp_path: Path):
 
 @pytest.mark.soak  # ten minutes
 def test_the_others_of_a_class_pay_a_tenth_more_at_most():
-    """The nine are the same, so what one costs alone varies by as much as the machine makes it."""
     without, together = compare(rounds=3)
-    most = max(each.cpu for costs in without.values() for each in costs)
-    ratios = []
     assert len(together) == CLASS and set(together) - set(without) == set(GREEDY)
     for name, costs in together.items():
         if name in GREEDY:
@@ -50,6 +46,4 @@ def test_the_others_of_a_class_pay_a_tenth_more_at_most():
             assert max(each.points for each in costs) <= 5
         else:
             assert {each.points for each in costs} == {100}
-            assert least(costs) <= MOST_MORE * most
-            ratios.append(least(costs) / least(without[name]))
-    assert median(ratios) <= MOST_MORE
+            assert least(costs) <= MOST_MORE * least(without[name])
