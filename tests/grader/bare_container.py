@@ -1,8 +1,9 @@
-"""Runs a command as in a container that forbids namespaces, on a kernel without Landlock.
+"""Runs a command where namespaces are forbidden, or the kernel has no Landlock, or both.
 
-    python bare_container.py COMMAND ...
+    python bare_container.py namespaces,landlock COMMAND ...
 
-A filter on system calls, as of seccomp(2), refuses them as such a container and such a kernel do.
+A filter on system calls, as of seccomp(2), refuses them as a plain container and an old kernel do.
+Where namespaces are, root keeps those capabilities that Docker leaves it.
 """
 
 import ctypes
@@ -11,11 +12,15 @@ import os
 import struct
 import sys
 
-PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
+PR_SET_SECCOMP, SECCOMP_MODE_FILTER, PR_CAPBSET_DROP, PR_SET_NO_NEW_PRIVS = 22, 2, 24, 38
 LOAD, SAME, ANSWER = 0x20, 0x15, 0x06  # of the filter's machine: BPF_LD, BPF_JEQ, BPF_RET
 ALLOW, REFUSE = 0x7FFF0000, 0x00050000  # SECCOMP_RET_ALLOW, SECCOMP_RET_ERRNO
-LANDLOCK = (444, 445, 446)
-UNSHARE = {"x86_64": 272, "aarch64": 97}
+REFUSED = {
+    "landlock": dict.fromkeys((444, 445, 446), errno.ENOSYS),
+    "namespaces": {{"x86_64": 272, "aarch64": 97}.get(os.uname().machine, -1): errno.EPERM},
+}
+LAST_CAPABILITY = 40
+DOCKERS = {0, 1, 3, 4, 5, 6, 7, 8, 10, 13, 18, 27, 29, 31}  # see capabilities(7)
 
 
 class Program(ctypes.Structure):
@@ -27,18 +32,23 @@ def instruction(code: int, value: int, otherwise: int = 0) -> bytes:
     return struct.pack("HBBI", code, 0, otherwise, value)
 
 
-def refuse() -> None:
-    answers = dict.fromkeys(LANDLOCK, errno.ENOSYS) | {UNSHARE[os.uname().machine]: errno.EPERM}
-    text = instruction(LOAD, 0)  # the number of the call
-    for number, error in answers.items():
-        text += instruction(SAME, number, otherwise=1) + instruction(ANSWER, REFUSE | error)
-    text += instruction(ANSWER, ALLOW)
+def refuse(what: set[str]) -> None:
     libc = ctypes.CDLL(None, use_errno=True)
+    text = instruction(LOAD, 0)  # the number of the call
+    for each in sorted(what):
+        for number, error in REFUSED[each].items():
+            text += instruction(SAME, number, otherwise=1) + instruction(ANSWER, REFUSE | error)
+    text += instruction(ANSWER, ALLOW)
     program = Program(len(text) // 8, text)
+    if os.geteuid() != 0:
+        libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
     if libc.prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, ctypes.byref(program), 0, 0):
         raise OSError(ctypes.get_errno(), "the filter on system calls was not taken")
+    if "namespaces" in what and os.geteuid() == 0:
+        for capability in set(range(LAST_CAPABILITY + 1)) - DOCKERS:
+            libc.prctl(PR_CAPBSET_DROP, capability, 0, 0, 0)
 
 
 if __name__ == "__main__":
-    refuse()
-    os.execv(sys.argv[1], sys.argv[1:])
+    refuse({each for each in sys.argv[1].split(",") if each})
+    os.execv(sys.argv[2], sys.argv[2:])

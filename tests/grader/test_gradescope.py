@@ -197,7 +197,7 @@ def test_root_without_namespaces_and_landlock_keeps_marks_and_reference(open_top
     program = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
     burglar = open_top / "submission" / "integrators.py"
     burglar.write_text(program + BURGLAR.format(top=str(open_top)), encoding="utf-8")
-    results = run(open_top, inside=(sys.executable, bare_container.__file__))
+    results = run(open_top, inside=(sys.executable, bare_container.__file__, "namespaces,landlock"))
     log = (open_top / "log").read_text()
     assert results["score"] == 6, log
     assert "own-user" in log and "not confined here: files." in log
