@@ -174,7 +174,7 @@ def play(
     camera.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
-        start(subject, request.module, lambda: bool(steps))
+        start(subject, request.module, steps, len(request.frames))
     except SystemExit:
         pass  # as good an end as any
     except PlayOver:

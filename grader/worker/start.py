@@ -7,25 +7,64 @@ single file, in the module that is there, the statements that ask for `__name__`
 
 import ast
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Iterator, Sized
+from contextlib import contextmanager
 from pathlib import Path
-from types import CodeType
+from types import CodeType, ModuleType
 
-from grader.worker.subject import Subject
+from grader.worker.subject import ContractError, Subject
 
 
-def start(subject: Subject, module: str, has_run: Callable[[], bool]) -> None:
-    """Start a program; by its main() where that has run no frame of it, as a test has not."""
-    package = subject.folder / module / "__main__.py"
-    with suppress(SystemExit):
-        if package.exists():
-            names = {"__name__": "__main__", "__package__": module, "__file__": str(package)}
-            exec(compile(package.read_bytes(), package, "exec"), names)
-        elif (code := main_block(subject.folder / f"{module}.py")) is not None:
-            exec(code, vars(sys.modules[module]))
-    if not has_run():
-        subject.find(f"{module}:main")()
+def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
+    """Start a program, of which `shown` counts the frames; one that has none yet by its main().
+
+    There may be no window in what asks for the name, as in a test, or nobody to press Enter. Who
+    waits for that once all is over has ended.
+    """
+    failed: Exception | None = None
+    try:
+        run_as_main(subject.folder, module)
+    except SystemExit:
+        pass
+    except EOFError as error:
+        if 0 < len(shown) < frames - 1:
+            raise
+        failed = error
+    except Exception as error:
+        if len(shown):
+            raise
+        failed = error
+    if not len(shown):
+        try:
+            main = subject.find(f"{module}:main")
+        except ContractError:
+            raise failed or ContractError(f"there is no main in {module}") from None
+        main()
+
+
+def run_as_main(folder: Path, module: str) -> None:
+    """What `python -m module` runs besides what an import does."""
+    path = folder / module / "__main__.py"
+    if path.exists():
+        code: CodeType | None = compile(path.read_bytes(), path, "exec")
+        program = ModuleType("__main__")
+        vars(program).update(__package__=module, __file__=str(path))
+    else:
+        code, program = main_block(folder / f"{module}.py"), sys.modules[module]
+    if code is not None:
+        with known_as_main(program):
+            exec(code, vars(program))
+
+
+@contextmanager
+def known_as_main(program: ModuleType) -> Iterator[None]:
+    """Meanwhile `__main__` is this module, for profilers and tests that look there."""
+    before = sys.modules["__main__"]
+    sys.modules["__main__"] = program
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = before
 
 
 def main_block(path: Path) -> CodeType | None:

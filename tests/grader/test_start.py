@@ -34,6 +34,11 @@ LAST_LINES = {
     'if __name__ != "__main__":\n    kept = 1\nelse:\n    run("other")': "other",
     'if __name__ == "__main__":\n    print("a test")': "main",
     'if __name__ == "__main__":\n    raise SystemExit("all tests passed")': "main",
+    'if __name__ == "__main__":\n    input()\n    run("other")': "main",
+    'if __name__ == "__main__":\n    run("other")\n    input()': "other",
+    'if __name__ == "__main__":\n    import os; os.system("clear"); run("other")': "other",
+    'if __name__ == "__main__":\n    import cProfile; cProfile.run("run(\'other\')")': "other",
+    'if __name__ == "__main__":\n    import doctest; doctest.testmod(); run("other")': "other",
 }
 
 
@@ -53,6 +58,7 @@ def test_of_a_file_it_is_what_asks_for_the_name(tmp_path: Path, lines: str, star
     ("lines", "started"),
     {
         "from mini_engine import main\nmain()": "main",
+        "import cProfile\nfrom . import main\ncProfile.run('main()')": "main",
         "from . import run\n\nif __name__ == '__main__':\n    run('other')": "other",
     }.items(),
 )
