@@ -6,20 +6,22 @@ said to be the cause only where it is the TODO's own, or where the failure names
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
 import msgspec
 
-from grader.judge.definitions import statements
+from grader.judge.definitions import MAX_READ, statements
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import load_given
 from grader.todo_regions import python_files, read_source
 
+MOST = 1000  # functions of a program; the lesson's have sixty
 ALIKE = 0.6  # of two names, from which on one may be the other's new one
 
 # What a message of Python's means where a student may not know it.
@@ -129,9 +131,21 @@ class Names:
         if module not in self.found:
             package, single = self.folder / module, self.folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
-            texts = [read_source(path) for path in paths if path.is_file()]
-            self.found[module] = {each.path: each for text in texts for each in signatures(text)}
+            texts = bounded(path for path in paths if path.is_file())
+            all_of_them = (each for text in texts for each in signatures(text))
+            found = {each.path: each for each in islice(all_of_them, MOST)}
+            self.found[module] = found if len(found) < MOST else {}  # nobody wrote these
         return self.found[module]
+
+
+def bounded(paths: Iterable[Path]) -> Iterator[str]:
+    """Their texts, up to as much as is read of a submission elsewhere."""
+    read = 0
+    for path in paths:
+        read += path.stat().st_size
+        if read > MAX_READ:
+            return
+        yield read_source(path)
 
 
 def renamed(

@@ -5,6 +5,7 @@ import os
 import shutil
 from collections import deque
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path, PurePath, PurePosixPath
@@ -53,7 +54,9 @@ class Submission:
         """Whether there is such a file in it: what a child says may name any."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
-        return safe and (self.folder / inside).is_file()
+        with suppress(OSError):  # such as a name that is too long for any file
+            return safe and (self.folder / inside).is_file()
+        return False
 
 
 def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
