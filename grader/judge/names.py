@@ -105,6 +105,7 @@ class Names:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.found: dict[str, dict[str, Signature]] = {}
+        self.told: dict[str, dict[str, str]] = {}
 
     def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
         """What a failed check owes to a name or an argument; empty where it is something else."""
@@ -116,7 +117,12 @@ class Names:
         return next((words for error, words in ERRORS if re.search(error, check.got)), "")
 
     def changed(self, module: str) -> Mapping[str, str]:
-        """By the name that was handed out, what has become of it."""
+        """By the name that was handed out, what has become of it; found out once."""
+        if module not in self.told:
+            self.told[module] = self._changed(module)
+        return self.told[module]
+
+    def _changed(self, module: str) -> dict[str, str]:
         theirs, ours = handed_out(module), self.of(module)
         told = {}
         for path, meant in theirs.items() if ours else ():
@@ -133,8 +139,7 @@ class Names:
             paths = python_files(package) if package.is_dir() else [single]
             texts = bounded(path for path in paths if path.is_file())
             all_of_them = (each for text in texts for each in signatures(text))
-            found = {each.path: each for each in islice(all_of_them, MOST)}
-            self.found[module] = found if len(found) < MOST else {}  # nobody wrote these
+            self.found[module] = {each.path: each for each in islice(all_of_them, MOST)}
         return self.found[module]
 
 
