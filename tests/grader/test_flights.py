@@ -73,7 +73,7 @@ def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
     want_no_jump(lab, before, [next_to(before, 0, 0)], 2)
     want_no_jump(lab, before, [next_to(before, 200, -400), after], 2)
     want_no_jump(lab, before, [ball(200, 222, 0, 0)], 2)  # pushed out at once
-    with pytest.raises(NotYet, match="near there|one at"):
+    with pytest.raises(NotYet, match=r"near there|one at"):
         want_no_jump(lab, before, [after], 2)
     with pytest.raises(NotYet, match="one at"):
         want_no_jump(lab, ball(200, 230, 0, 1e9), [before], 2)  # near everything, so never clear
