@@ -149,7 +149,8 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    hidden = folder.name.startswith(".") or folder.name in IGNORED
+    """No virtual environment, and no name that is no text: it would be in those of its files."""
+    hidden = folder.name.startswith(".") or folder.name in IGNORED or not folder.name.isprintable()
     return not hidden and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
