@@ -1,9 +1,10 @@
-"""What a recorded run must be, whoever recorded it: what touches nothing falls.
+"""What a recorded run must be, whoever recorded it: what touches nothing falls, and nothing jumps.
 
 A submission runs in one process with the camera, and can put a film of its own into the camera's
 place. So a film is not believed but compared with what can be worked out without the program: where
-the balls begin, and each step of a ball that is clear of all else. Who invents a film that passes
-has simulated it.
+the balls begin, and each step of a ball that is clear of all else. What touches something may be
+pushed, but it is near where it was, and at a speed that a fall can give. Who invents a film that
+passes has simulated it.
 """
 
 import math
@@ -20,6 +21,8 @@ CLEAR = 3.0  # px
 LOST = 0.1  # share of a speed: no damping takes more in a step
 ASIDE = 0.5  # px/s
 NEAR = 1.0  # px
+PUSHED = 10.0  # px: what a step may move something that touches another, whatever its speed
+FASTEST = 3000.0  # px/s: three times what a fall through the whole window gives
 
 
 def moments(row: Sequence[float]) -> list[Moment]:
@@ -42,6 +45,8 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
         for each in before:
             if is_clear(each, before):
                 want_a_flight(lab, each, after, number)
+            else:
+                want_no_jump(lab, each, after, number)
 
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
@@ -55,13 +60,24 @@ def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) 
     )
 
 
+def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
+    """Insist that there is a body near where this one was, and that neither is absurdly fast."""
+    near = [other for other in after if may_have_been(other, (each.x, each.y), PUSHED)]
+    lab.want(
+        each.speed <= FASTEST and any(other.speed <= FASTEST for other in near),
+        f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
+        f"faster than {FASTEST:g} px/s",
+        say(near[0]) if near else "no body near there",
+    )
+
+
 def say(each: Moment) -> str:
     return f"one at ({each.x:.1f}, {each.y:.1f}), at ({each.vx:.1f}, {each.vy:.1f}) px/s"
 
 
-def may_have_been(each: Moment, place: Pair) -> bool:
+def may_have_been(each: Moment, place: Pair, near: float = NEAR) -> bool:
     """Whether a body can have been at this place a step ago."""
-    return math.dist((each.x, each.y), place) <= (each.speed + GRAVITY * STEP) * STEP + NEAR
+    return math.dist((each.x, each.y), place) <= (each.speed + GRAVITY * STEP) * STEP + near
 
 
 def flew(before: Moment, after: Moment) -> bool:

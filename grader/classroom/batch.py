@@ -63,15 +63,16 @@ class Run:
             first = members[0]
             try:
                 package = pack(first, self.course.modules)
+                digest, prints = package.digest, prints_of(package, first.whose)
             except Exception as error:  # this one submission; the others go on
                 words = str(error) if isinstance(error, CannotTake) else in_words(error)
                 for found in members:
                     self.trouble(found, words)
                 continue
-            self.same.setdefault(package.digest, {})[first.whose] = first.name
+            self.same.setdefault(digest, {})[first.whose] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
-            self.prints.append(prints_of(package, first.whose))
-            key = hashlib.sha256(f"{self.key} {package.digest}".encode()).hexdigest()
+            self.prints.append(prints)
+            key = hashlib.sha256(f"{self.key} {digest}".encode()).hexdigest()
             if new := list(self.not_kept(members, package, key)):
                 yield Task(new, msgspec.structs.replace(package, name=new[0].name), key)
 

@@ -118,7 +118,7 @@ def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
     failure = lab.failure
     if failure is None:
         return True
-    if lab.connection.swapped or lab.ended or not isinstance(failure, NotYet):
+    if lab.connection.pieces or lab.ended or not isinstance(failure, NotYet):
         return False
     return (tidied(failure.ran), readable(failure.expected, failure.got)[1]) != (
         check.ran,

@@ -10,8 +10,10 @@ also what it answers: the judge has to read that, and keeps some of it.
 """
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from grader.judge.children import Child
 from grader.judge.connection import Connection
 
 REST = 8.0  # s, in one check
@@ -19,6 +21,8 @@ TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
 END_CPU, END_REST = 90.0, 32.0  # s; then no check is run any more
+WORDS_CPU, WORDS_REST = 20.0, 4.0  # s, for what decides about words alone
+ONE_REST = 2.0  # s, of one process for these
 END_HEARD = 64 * 1024 * 1024  # bytes of answers; real ones send 3 to 5 MB
 
 
@@ -29,6 +33,8 @@ class Budget:
     cpu: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     rest: dict[str, float] = field(default_factory=lambda: defaultdict(float))
     heard: int = 0  # bytes of answers
+    words_cpu: float = 0.0  # s, after the marks: what is asked so that more can be told
+    words_rest: float = 0.0
 
     def cpu_for(self, todo: str, usual: int) -> int:
         """Processor seconds for a process of a check that would have so many as usual."""
@@ -44,6 +50,15 @@ class Budget:
         self.cpu[todo] += connection.cpu
         self.rest[todo] += connection.rested
         self.heard += connection.heard
+
+    def charge_for_words(self, connection: Connection) -> None:
+        self.words_cpu += connection.cpu
+        self.words_rest += connection.rested
+
+    @property
+    def has_more(self) -> bool:
+        """Whether there is time left to ask what decides about words, pictures and no marks."""
+        return self.words_cpu < WORDS_CPU and self.words_rest < WORDS_REST
 
     @property
     def cut(self) -> str:
@@ -63,3 +78,14 @@ class Budget:
         if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:
             return "; it had less than usual, because the checks before it used much"
         return ""
+
+
+def for_words(open_child: Callable[[int], Child]) -> Callable[[int], Child]:
+    """The same way to open children, which may rest for a shorter time: no marks hang on these."""
+
+    def opened(cpu_seconds: int) -> Child:
+        child = open_child(cpu_seconds)
+        child.rest_seconds = ONE_REST
+        return child
+
+    return opened

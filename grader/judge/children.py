@@ -63,8 +63,20 @@ runpy.run_module({module!r}, run_name="__main__")
 """
 
 
+KILLED = -9  # exit status of what SIGKILL has ended
+SLEEPS = "it sleeps, waiting for something that does not come"
+LATE = "it did not answer in time"
+
+
 class ChildEnded(Exception):
-    """The child gave no answer; the message says what became of it."""
+    """The child gave no answer; the message says what became of it.
+
+    `late`: its time was over; then the message holds nothing that the child could choose.
+    """
+
+    def __init__(self, why: str, late: bool = False) -> None:
+        super().__init__(why)
+        self.late = late
 
 
 class Child:
@@ -96,7 +108,7 @@ class Child:
         next request and goes with it, and a state that came with the last answer is not asked for.
         """
         if self.over:
-            raise ChildEnded(self.over)
+            raise ChildEnded(self.over, self.late)
         match request:
             case Set() | MakeBody() | MakeWorld():
                 self.first.append(request)
@@ -129,14 +141,19 @@ class Child:
             if answered.number != self.asked:
                 raise ProtocolError("an answer to another question")
         except ChannelTimeout as error:
-            self._give_up(str(error) or "it did not answer in time", gone=False)
+            self._give_up(str(error) or LATE, gone=False)
         except ChannelClosed:
             self._give_up("", gone=True)
         except NOT_A_MESSAGE as error:
             self._give_up(f"what it sent is not an answer ({error})", gone=False)
         else:
             return answered
-        raise ChildEnded(self.over)
+        raise ChildEnded(self.over, self.late)
+
+    @property
+    def late(self) -> bool:
+        """Whether it was ended because its time was over."""
+        return self.over in (SLEEPS, LATE, explain(self.cpu_seconds, KILLED))
 
     def _receive(self) -> bytes:
         """The answer; a child that rests is not waited for as long as one that works."""
@@ -148,7 +165,7 @@ class Child:
             if not answered or self.waited - self.looked >= LOOK_SECONDS:
                 self._look()
             if self.rested > self.rest_seconds:
-                raise ChannelTimeout("it sleeps, waiting for something that does not come")
+                raise ChannelTimeout(SLEEPS)
             if answered:
                 return self.channel.receive(self.wall_seconds)
         raise ChannelTimeout
@@ -217,11 +234,13 @@ def worked_seconds(pid: int) -> float:
 
 
 def seconds_in_queue(pid: int) -> float:
-    """For how long the threads of a process have waited for a processor, s; as Linux tells it.
+    """For how long a process has waited for a processor, s; as Linux tells it.
 
-    See proc(5), schedstat; 0 elsewhere. Raises OSError where the process is gone.
+    Of all its threads the one that waited longest counts: a hundred that wait in the same second
+    keep nobody waiting for a hundred. See proc(5), schedstat; 0 elsewhere. Raises OSError where the
+    process is gone.
     """
-    return sum(schedule_of(pid, 1))
+    return max(schedule_of(pid, 1), default=0.0)
 
 
 def schedule_of(pid: int, what: int) -> list[float]:
@@ -260,7 +279,7 @@ def command(module: str, *args: str) -> list[str]:
 
 def explain(cpu_seconds: int, code: int) -> str:
     """Why a child is gone, from its exit status (a negative one is a signal, as in subprocess)."""
-    if code in (-24, -9):  # SIGXCPU, and SIGKILL a second later
+    if code in (-24, KILLED):  # SIGXCPU, and SIGKILL a second later
         return f"it used up its {cpu_seconds} s of processor time: a loop that never ends?"
     if code == -11:
         return "it crashed (segmentation fault)"

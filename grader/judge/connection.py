@@ -1,7 +1,7 @@
 """The connection of a check to its child: opening it, asking, and what is left when it is gone."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NoReturn
 
 from grader.judge.children import Child, ChildEnded
@@ -43,7 +43,6 @@ class Connection:
     open_child: Callable[[], Child]
     pieces: list[Piece]  # of the reference, to stand in for functions of the submission
     send: Send = ask_child
-    swapped: list[str] = field(default_factory=list)  # the functions they stand in for
     output: str = ""
     child: Child | None = None
     cpu: float = 0.0  # s, of processor time that its children used
@@ -62,14 +61,12 @@ class Connection:
         try:
             self.child = self.open_child()
         except ChildEnded as error:
-            self._stop(ran, str(error))
+            self._stop(ran, error)
         try:
-            reply = self._ask(self.child, Import(self.module, self.pieces, self.watched), ran)
+            self._ask(self.child, Import(self.module, self.pieces, self.watched), ran)
         except (Broke, NotYet) as failure:
             self.over = failure
             raise
-        if isinstance(reply, Returned) and isinstance(reply.value, str):
-            self.swapped = reply.value.split(",") if reply.value else []
         return self.child
 
     def remembered(self) -> list[str]:
@@ -102,7 +99,7 @@ class Connection:
         try:
             answered = self.send(child, request)
         except ChildEnded as error:
-            self._stop(ran, str(error))
+            self._stop(ran, error)
         self.output += answered.output[: MAX_OUTPUT - len(self.output)]
         match answered.reply:
             case Raised() as raised:
@@ -112,7 +109,7 @@ class Connection:
             case reply:
                 return reply
 
-    def _stop(self, ran: str, why: str) -> NoReturn:
+    def _stop(self, ran: str, why: ChildEnded) -> NoReturn:
         """The child is gone: this check has its outcome, whatever else it would have asked."""
-        self.over = Broke(ran, why)
+        self.over = Broke(ran, str(why), late=why.late)
         raise self.over

@@ -24,6 +24,9 @@ class NotYet(Exception):
 class Broke(Exception):
     """The submission's own code raised, or its process ended without an answer."""
 
-    def __init__(self, ran: str, got: str, raised: Raised | None = None) -> None:
+    def __init__(
+        self, ran: str, got: str, raised: Raised | None = None, late: bool = False
+    ) -> None:
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
+        self.late = late  # it had no time left, which is all that `got` says

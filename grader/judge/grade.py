@@ -12,6 +12,7 @@ import msgspec
 
 from grader.judge import misconceptions
 from grader.judge.blame import Blame, Blamed, Key
+from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.diagnosis import Diagnosis
@@ -21,11 +22,12 @@ from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.names import Names
 from grader.judge.reference import Reference
-from grader.judge.result import CheckResult, Result, TodoResult, state_of
+from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, harmless, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
+from grader.protocol import cut
 from grader.todo_regions import python_files, read_source, regions_in, shape_of
 
 KIT = Path(__file__).parents[2]
@@ -180,17 +182,19 @@ class Grading:
         # Here for the time it takes, 0.2 s: pytest and hypothesis load while the worker loads.
         from grader.judge.plugin import GradingPlugin, run_pytest
 
+        budget = Budget()
         plugin = GradingPlugin(
             self.submission,
             self.rubric,
             self.reference,
             self.sandbox.open_child,
-            self.find_unusable(),
+            self.find_unusable(budget),
             self.options.wants,
             self.options.seed,
             self.options.progress,
             observations=self.observations,
             surveys_all=self.surveys_all,
+            budget=budget,
             open_right=self.open_right if self.options.reference else None,
         )
         run_pytest(plugin, self.rubric)
@@ -246,7 +250,7 @@ class Grading:
         texts = {name: restored(read_source(folder / name), mine[name]) for name in files}
         return self.sandbox.changed(texts).open_child
 
-    def find_unusable(self) -> dict[str, Broke | NotYet]:
+    def find_unusable(self, budget: Budget) -> dict[str, Broke | NotYet]:
         """The modules that cannot be imported, each tried once instead of in every check."""
         modules = dict.fromkeys(
             check.module or todo.module
@@ -262,6 +266,7 @@ class Grading:
                     lab.probe()
                 except (Broke, NotYet) as failure:
                     unusable[module] = failure
+            budget.charge(f"import {module}", lab.connection)
         return unusable
 
     def mended(self, todo: Todo, check: CheckResult) -> bool:
@@ -311,7 +316,7 @@ class Grading:
             )
         nothing = Result(
             schema=1,
-            submission=self.submission.name,
+            submission=cut(harmless(self.submission.name), MAX_FILE),
             points=0,
             max_points=0,
             bonus=0,

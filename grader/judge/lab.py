@@ -88,6 +88,11 @@ class Lab(Decoder):
         """Whether the submission's process ended, or had to be ended, before the check did."""
         return isinstance(self.failure, Broke) and self.failure.raised is None
 
+    @property
+    def late(self) -> bool:
+        """Whether it had to be ended because its time was over."""
+        return isinstance(self.failure, Broke) and self.failure.late
+
     @contextmanager
     def opened(self) -> Iterator["Lab"]:
         """End the child afterwards, whatever happened."""

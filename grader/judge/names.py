@@ -6,20 +6,22 @@ said to be the cause only where it is the TODO's own, or where the failure names
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
 import msgspec
 
-from grader.judge.definitions import statements
+from grader.judge.definitions import MAX_READ, statements
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import load_given
 from grader.todo_regions import python_files, read_source
 
+MOST = 1000  # functions of a program; the lesson's have sixty
 ALIKE = 0.6  # of two names, from which on one may be the other's new one
 
 # What a message of Python's means where a student may not know it.
@@ -103,6 +105,7 @@ class Names:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.found: dict[str, dict[str, Signature]] = {}
+        self.told: dict[str, dict[str, str]] = {}
 
     def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
         """What a failed check owes to a name or an argument; empty where it is something else."""
@@ -114,7 +117,12 @@ class Names:
         return next((words for error, words in ERRORS if re.search(error, check.got)), "")
 
     def changed(self, module: str) -> Mapping[str, str]:
-        """By the name that was handed out, what has become of it."""
+        """By the name that was handed out, what has become of it; found out once."""
+        if module not in self.told:
+            self.told[module] = self._changed(module)
+        return self.told[module]
+
+    def _changed(self, module: str) -> dict[str, str]:
         theirs, ours = handed_out(module), self.of(module)
         told = {}
         for path, meant in theirs.items() if ours else ():
@@ -129,9 +137,20 @@ class Names:
         if module not in self.found:
             package, single = self.folder / module, self.folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
-            texts = [read_source(path) for path in paths if path.is_file()]
-            self.found[module] = {each.path: each for text in texts for each in signatures(text)}
+            texts = bounded(path for path in paths if path.is_file())
+            all_of_them = (each for text in texts for each in signatures(text))
+            self.found[module] = {each.path: each for each in islice(all_of_them, MOST)}
         return self.found[module]
+
+
+def bounded(paths: Iterable[Path]) -> Iterator[str]:
+    """Their texts, up to as much as is read of a submission elsewhere."""
+    read = 0
+    for path in paths:
+        read += path.stat().st_size
+        if read > MAX_READ:
+            return
+        yield read_source(path)
 
 
 def renamed(

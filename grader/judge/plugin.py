@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis.errors import Flaky
 
-from grader.judge.budget import Budget
+from grader.judge.budget import Budget, for_words
 from grader.judge.children import Child
 from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
 from grader.judge.failures import REMEMBERS, Broke, NotYet
@@ -23,6 +23,7 @@ from grader.judge.submission import CannotGrade, Submission, load_given
 from grader.protocol import CodeLine, Piece
 
 UNREAD = 3  # files of which is told that they were too long to look into
+SURVEY = 2  # s of processor time, for that
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
 
@@ -143,16 +144,22 @@ class GradingPlugin:
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
         """With the reference in the other TODOs' places; failing that, the program as it is.
 
-        What is told of a failure comes from the program as it is. Where the reference took part, a
-        submission could have read it, and any word or number of its answers could spell it out.
+        What is told of a failure comes from the program as it is. Where the reference was sent, a
+        submission could have read it, and any word or number of its answers could spell it out;
+        whether it was put in place is for the child to say, and so no matter. Nobody waits twice
+        for one whose time was over: then nothing is told but that.
         """
         lab, again = self._attempt(todo, check, function, isolated=True)
         told = lab
-        if lab.failure is not None and lab.connection.swapped and not lab.ended:
+        if lab.failure is not None and lab.connection.pieces and not lab.late:
             told, again = self._attempt(todo, check, function, isolated=False)
         if told.failure is None:
             lab = told
-        seen = self.seen[todo.id, check.id] = self._survey(todo, check, function, told)
+        if told.failure is not None and told.connection.pieces:
+            seen: list[Observation] = []
+        else:
+            seen = self._survey(todo, check, function, told)
+        self.seen[todo.id, check.id] = seen
         of_todo = self.observations.setdefault(todo.id, [])
         of_todo.extend(lab.observations)
         if seen is not lab.observations:
@@ -174,7 +181,7 @@ class GradingPlugin:
         which asks much, nor where a program was played.
         """
         wanted = isinstance(told.failure, NotYet) or self.surveys_all
-        brief = told.connection.cpu < BRIEF and not told.played
+        brief = told.connection.cpu < BRIEF and not told.played and self.budget.has_more
         if not wanted or not brief or not told.observations or check.kind == "property":
             return told.observations
         survey = self._asked(todo, check, function, isolated=False, surveys=True, watched=True)
@@ -248,11 +255,15 @@ class GradingPlugin:
     def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
         """The lab of a check that failed and is asked once more, of children that others open.
 
-        All marks are decided by then.
+        All marks are decided by then. Its observations are those of the program as it is.
         """
         todo, check, function = self.functions[key]
         with judge_settings(), kept_examples(function), seeded(function, self.seed):
-            return self._asked(todo, check, function, isolated=True, opener=open_child)
+            lab = self._asked(todo, check, function, isolated=True, opener=open_child)
+            if lab.connection.pieces:
+                alone = self._asked(todo, check, function, isolated=False, opener=open_child)
+                lab.observations = alone.observations
+            return lab
 
     def _asked(
         self,
@@ -267,15 +278,18 @@ class GradingPlugin:
     ) -> Lab:
         """A lab in which the check ran, of the reference itself if it is to be the `right` code.
 
-        One that `surveys` goes on where the check fails, and costs the submission no time. One that
-        is `watched` says what the submission remembers.
+        One that `surveys` goes on where the check fails, and costs the submission none of the time
+        that decides about marks. One that is `watched` says what the submission remembers.
         """
         module = check.module or todo.module
         others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
         pieces = others if isolated else []
         secret = secret_of(self.seed, todo, check)
         lab = Lab(
-            module, lambda: self._child_for(todo, check, right, opener), pieces, secret=secret
+            module,
+            lambda: self._child_for(todo, check, right, surveys, opener),
+            pieces,
+            secret=secret,
         )
         lab.surveys, lab.connection.watched = surveys, watched
         little = self.budget.why_little(todo.id)
@@ -292,6 +306,8 @@ class GradingPlugin:
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
             lab.remembers = lab.connection.remembered()
+        if surveys:
+            self.budget.charge_for_words(lab.connection)
         if right or surveys:
             return lab
         self.budget.charge(todo.id, lab.connection)
@@ -300,10 +316,17 @@ class GradingPlugin:
         return lab
 
     def _child_for(
-        self, todo: Todo, check: Check, right: bool, opener: Callable[[int], Child] | None
+        self,
+        todo: Todo,
+        check: Check,
+        right: bool,
+        surveys: bool,
+        opener: Callable[[int], Child] | None,
     ) -> Child:
         if right and self.open_right is not None:
             return self.open_right(check.cpu_seconds)
+        if surveys:
+            return for_words(self.open_child)(SURVEY)
         child = (opener or self.open_child)(self.budget.cpu_for(todo.id, check.cpu_seconds))
         child.rest_seconds = self.budget.rest_for(todo.id)
         return child

@@ -61,9 +61,10 @@ class Reference:
         is handed out done, so a stub that stands there all the same is none of the student's.
         """
         asked = {each.id for each in rubric.todos}
+        own = todo.function.partition(":")[2]
         others = [other for other in self.todos if other.id != todo.id and other.module == module]
         return [
-            msgspec.structs.replace(self.pieces[other.id], asked=todo.function)
+            without(own, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
             for other in others
             if other.id in self.pieces
             and (
@@ -73,6 +74,16 @@ class Reference:
             )
             and self.shapes[other.id] != submission.functions.get(other.id)
         ]
+
+
+def without(function: str, piece: Piece) -> Piece:
+    """A piece that does not bring along this function, which the check is about.
+
+    What a piece calls goes with it, for submissions without it; and whatever is sent to a child may
+    be read there.
+    """
+    left = {name: source for name, source in piece.given.items() if name != function}
+    return msgspec.structs.replace(piece, given=left)
 
 
 @lru_cache(maxsize=4)  # the same reference serves a whole class

@@ -5,13 +5,14 @@ All marks are decided by then. A replay that cannot be made is left out and chan
 
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
+from grader.judge.budget import Budget, for_words
 from grader.judge.filming import OpenChild, filmed
 from grader.judge.plugin import Failing
 from grader.judge.result import CheckResult, Result, TodoResult
@@ -37,6 +38,7 @@ class Replays:
     open_child: OpenChild
     open_reference: OpenChild | None
     functions: frozenset[str] = frozenset()  # the TODOs whose functions the submission has
+    budget: Budget = field(default_factory=Budget)
     deaths: int = 0
     written: int = 0  # characters
 
@@ -60,7 +62,8 @@ class Replays:
         for old in (path, path.with_suffix(".py")):
             old.unlink(missing_ok=True)
         found = failing.get((todo.id, check.id))
-        if found is None or not check.failed or self.deaths >= MOST_DEATHS:
+        over = self.deaths >= MOST_DEATHS or not self.budget.has_more
+        if found is None or not check.failed or over:
             return check
         try:
             made = self._made(todo, check, found)
@@ -77,7 +80,8 @@ class Replays:
 
     def _made(self, todo: TodoResult, check: CheckResult, failing: Failing) -> list[str] | None:
         """The page and the script, or None where nothing is to be seen."""
-        lab = filmed(failing, self.open_child, failing.pieces)
+        lab = filmed(failing, for_words(self.open_child), failing.pieces)
+        self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
         recorder = lab.recorder
         shown = recorder.shown(check.kind == "property")

@@ -47,10 +47,25 @@ class CheckResult(Struct, frozen=True):
 
 
 def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
-    """A check with so many characters in each of its texts at most: some quote a submission."""
-    texts = {name: cut(getattr(check, name), most) for name in TEXTS}
+    """A check with so many characters in each of its texts at most: some quote a submission.
+
+    None of them is one that a screen or a terminal obeys, but for the ends of lines.
+    """
+    texts = {name: cut(harmless(getattr(check, name)), most) for name in TEXTS}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
+
+
+def harmless(words: str) -> str:
+    """Words without control and direction characters: whoever reads a result may just show it."""
+    if words.isprintable():
+        return words
+    return "".join(c if c.isprintable() or c == "\n" or is_half(c) else " " for c in words)
+
+
+def is_half(letter: str) -> bool:
+    """Half of a letter, which `cut` tells by its number."""
+    return "\ud800" <= letter <= "\udfff"
 
 
 def is_bonus(todo: str) -> bool:

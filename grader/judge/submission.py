@@ -5,6 +5,7 @@ import os
 import shutil
 from collections import deque
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path, PurePath, PurePosixPath
@@ -53,7 +54,9 @@ class Submission:
         """Whether there is such a file in it: what a child says may name any."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
-        return safe and (self.folder / inside).is_file()
+        with suppress(OSError):  # such as a name that is too long for any file
+            return safe and (self.folder / inside).is_file()
+        return False
 
 
 def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Submission:
@@ -146,7 +149,8 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    hidden = folder.name.startswith(".") or folder.name in IGNORED
+    """No virtual environment, and no name that is no text: it would be in those of its files."""
+    hidden = folder.name.startswith(".") or folder.name in IGNORED or not folder.name.isprintable()
     return not hidden and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 

@@ -383,8 +383,9 @@ def add_stale_bytecode(folder: Path) -> None:
 
 
 def add_odd_names(folder: Path) -> None:
-    for name in (b"notes \xe4\xf6.txt", b"\xff\xfe.py"):
+    for name in (b"notes \xe4\xf6.txt", b"\xff\xfe.py", b"\xfcbung\x1b[2J/integrators.py"):
         try:
+            os.makedirs(os.path.dirname(os.path.join(os.fsencode(folder), name)), exist_ok=True)
             with open(os.path.join(os.fsencode(folder), name), "wb") as file:
                 file.write(b"x")
         except OSError:  # a file system that knows text only

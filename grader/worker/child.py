@@ -4,15 +4,13 @@ Each request has a number and gets exactly one answer. An exception of the submi
 as well, so this loop ends only with the channel or the process.
 """
 
-import contextlib
 import os
 import py_compile
 import sys
 import tempfile
 from collections.abc import Collection
-from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path, PurePath
+from contextlib import suppress
+from pathlib import Path
 
 import msgspec
 import pygame.sysfont
@@ -70,12 +68,11 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     would have run with the grader's rights and kept the real clock. `without` names layers that are
     left out, to see what the others hold.
     """
-    submission, name = setup.submission, Path(setup.submission).name
-    folders_of(submission)  # now, if not yet: in a root of its own it goes by another name
+    name = Path(setup.submission).name
     layers, setup = confine(setup, without)
     tidy_environment(setup.scratch)
     folder = Path(setup.scratch, name)
-    own_copy(submission, str(folder), setup)
+    files = own_copy(setup.submission, str(folder), setup)
     sys.dont_write_bytecode = True
     if setup.confine and "system-calls" not in without:
         layers += refuse_system_calls()  # last: what came before needs some of them
@@ -87,7 +84,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     output, clock = Output(), ScriptedClock()
     output.install()
     clock.install()
-    ImportRule(files_of(submission), setup.bans).install()
+    ImportRule(files, setup.bans).install()
     subject = Subject(folder)
     camera = Camera(subject)
     while True:
@@ -195,65 +192,64 @@ def call(subject: Subject, request: Call) -> Returned:
     return Returned(subject.encode(result), counter.answer())
 
 
+OLD_FILE = os.O_RDONLY | getattr(os, "O_BINARY", 0)
 NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
 
 
-@dataclass(frozen=True)
-class Kept:
-    """A file of the submission."""
+def own_copy(submission: str, folder: str, setup: ChildSetup) -> list[str]:
+    """The submission once more, for this child alone, and the names of its files.
 
-    data: bytes
-    time: int  # ns, of its last change
+    It may write there, and it ends with it. Files keep their times, by which Python knows whether
+    what was compiled before is still good. What is only to be read is a link to where it is now.
 
-
-@lru_cache(maxsize=1)
-def files_of(submission: str) -> dict[str, Kept]:
-    """The files of a submission by their paths, read once, before the forks."""
-    root = Path(submission)
-    files = (path for path in sorted(root.rglob("*")) if path.is_file())
-    return {
-        path.relative_to(root).as_posix(): Kept(path.read_bytes(), path.stat().st_mtime_ns)
-        for path in files
-    }
-
-
-@lru_cache(maxsize=1)
-def folders_of(submission: str) -> list[str]:
-    """The folders of a submission that files are in, outer ones first; "" is its own."""
-    parents = {each.as_posix() for path in files_of(submission) for each in PurePath(path).parents}
-    return sorted("" if each == "." else each for each in parents)
-
-
-def own_copy(submission: str, folder: str, setup: ChildSetup) -> None:
-    """The submission once more, for this child alone: it may write there, and it ends with it.
-
-    Files keep their times, by which Python knows whether what was compiled before is still good.
     By the system's own calls: every child does this for every file, and needs the time for little
-    else. What is only to be read is a link to where it is now.
+    else. Each reads it anew: what the process that forks them had read of one submission, a child
+    of the next one would find in its memory.
     """
-    shown = tuple(f"{each}/" for each in setup.shown)
-    for inside in folders_of(submission):
-        if f"{inside}/".startswith(shown):
-            continue
-        here, compiled = os.path.join(folder, inside), os.path.join(setup.bytecode, inside)
-        with contextlib.suppress(OSError):  # more than a child may have: to be missed
-            os.mkdir(here)
-        if os.path.isdir(compiled):
-            with contextlib.suppress(OSError):  # Windows may not allow it: each compiles for itself
-                os.symlink(compiled, os.path.join(here, "__pycache__"), target_is_directory=True)
+    found: list[str] = []
+    waiting = [""]
+    while waiting:
+        inside = waiting.pop()
+        own = not inside.startswith(tuple(f"{each}/" for each in setup.shown))
+        here, target = os.path.join(submission, inside), os.path.join(folder, inside)
+        if own:
+            make_folder(target, os.path.join(setup.bytecode, inside))
+        with os.scandir(here) as entries:
+            for entry in sorted(entries, key=lambda each: each.name):
+                name = inside + entry.name
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(f"{name}/")
+                    continue
+                found.append(name)
+                if own:
+                    with suppress(OSError):  # more than a child may have: to be missed
+                        copy(entry, os.path.join(folder, name))
     for name in setup.shown:
-        os.symlink(os.path.join(setup.submission, name), os.path.join(folder, name))
-    for path, kept in files_of(submission).items():
-        if path.startswith(shown):
-            continue
-        target = os.path.join(folder, path)
-        with contextlib.suppress(OSError):  # or larger
-            descriptor = os.open(target, NEW_FILE, 0o666)
-            try:
-                os.write(descriptor, kept.data)
-            finally:
-                os.close(descriptor)
-            os.utime(target, ns=(kept.time, kept.time))
+        os.symlink(os.path.join(submission, name), os.path.join(folder, name))
+    return found
+
+
+def make_folder(target: str, compiled: str) -> None:
+    """A folder of a child's copy, and in it a link to what was compiled of it."""
+    with suppress(OSError):  # more than a child may have, or Windows may not allow links
+        os.mkdir(target)
+        if os.path.isdir(compiled):
+            os.symlink(compiled, os.path.join(target, "__pycache__"), target_is_directory=True)
+
+
+def copy(entry: "os.DirEntry[str]", target: str) -> None:
+    about = entry.stat(follow_symlinks=False)
+    source = os.open(entry.path, OLD_FILE)
+    try:
+        data = os.read(source, about.st_size)
+    finally:
+        os.close(source)
+    descriptor = os.open(target, NEW_FILE, 0o666)
+    try:
+        os.write(descriptor, data)
+    finally:
+        os.close(descriptor)
+    os.utime(target, ns=(about.st_mtime_ns, about.st_mtime_ns))
 
 
 def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
@@ -267,7 +263,7 @@ def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
     for source in sources[: limits.scratch_files]:
         inside = source.relative_to(submission)
         target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
-        with contextlib.suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
+        with suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
             py_compile.compile(str(source), str(target), str(source), doraise=True)
             size += target.stat().st_size
         if size > limits.scratch_mb * 1024 * 1024:
@@ -286,5 +282,5 @@ def tidy_environment(scratch: str) -> None:
         if os.environ.get(name) != wanted[name]:
             os.environ[name] = wanted[name]
     tempfile.tempdir = scratch
-    with contextlib.suppress(OSError):
+    with suppress(OSError):
         os.chdir(scratch)

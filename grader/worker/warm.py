@@ -20,7 +20,7 @@ import pygame
 import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
-from grader.worker.child import folders_of, serve, tidy_environment
+from grader.worker.child import serve, tidy_environment
 from grader.worker.confinement import isolate_server, prepare, write
 from grader.worker.imports import at_hand, put_away
 
@@ -71,7 +71,6 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
     The child never returns from here: whatever happens to it, it must not run the server's loop.
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
-    folders_of(setup.submission)
     prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)

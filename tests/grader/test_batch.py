@@ -28,8 +28,10 @@ from grader.classroom.grading import ClassOptions, page_of, run_class
 from grader.classroom.intake.found import Found, Package
 from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import pack
+from grader.classroom.similarity import Prints, prints_of
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.submission import CannotGrade
+from grader.maintain.bank import add_odd_names
 from grader.report.files import as_json
 
 QUIET = Console(quiet=True)
@@ -233,6 +235,24 @@ def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypat
     run = graded(classroom)
     assert run.names == ["ann", "cem"]
     assert {each.name: each.trouble for each in run.outcomes}["ben"] == "RecursionError: too deep"
+
+
+def test_so_are_they_where_a_name_is_no_text(classroom):
+    """Of a file, or of a folder around one: another machine's letters, or what a terminal obeys."""
+    add_odd_names(classroom / "ben")
+    run = graded(classroom)
+    assert run.names == ["ann", "ben", "cem"]
+    assert not any(each.trouble for each in run.outcomes)
+
+
+def test_and_where_only_comparing_goes_wrong(classroom, monkeypatch):
+    def breaks(package: Package, whose: tuple[str, ...]) -> Prints:
+        if package.name == "ben":
+            raise UnicodeEncodeError("utf-8", "x", 0, 1, "surrogates")
+        return prints_of(package, whose)
+
+    monkeypatch.setattr(batch, "prints_of", breaks)
+    assert graded(classroom).names == ["ann", "cem"]
 
 
 def test_names_and_words_are_harmless_in_the_table(classroom):

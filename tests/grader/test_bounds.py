@@ -13,6 +13,7 @@ import pytest
 from grader.judge import definitions
 from grader.judge.definitions import MAX_READ, Program
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.names import MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
@@ -135,6 +136,24 @@ def test_who_has_a_file_too_long_is_told(tmp_path: Path):
     find_todos(submission, load_rubric(), {})
     (said,) = submission.unread
     assert said.startswith("integrators.py has 129 KB and was not looked into")
+
+
+def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
+    """A name like the one that is missing is told; a million of them are not gone through."""
+    package = tmp_path / "mini_engine"
+    package.mkdir()
+    few = "".join(f"def effective_mas{number}(a): pass\n" for number in range(50))
+    (package / "solver.py").write_text(few, encoding="utf-8")
+    todo = next(each for each in load_rubric().todos if each.id == "2")
+    check = CheckResult("x", "x", "unit", "not yet", 0, 1, got="there is no effective_mass")
+    assert "renamed?" in Names(tmp_path).hint(todo, "mini_engine", check)
+    for file in range(20):
+        many = "".join(f"def effective_mas{file}x{n}(): pass\n" for n in range(2_000))
+        (package / f"more_{file}.py").write_text(many, encoding="utf-8")
+    names = Names(tmp_path)
+    assert "renamed?" in names.hint(todo, "mini_engine", check)
+    assert len(names.of("mini_engine")) <= MOST
+    assert names.changed("mini_engine") is names.changed("mini_engine")
 
 
 # ---------------------------------------------------------------- results

@@ -21,6 +21,8 @@ from grader.judge.budget import (
     SUBMISSION_REST,
     TODO_CPU,
     TODO_REST,
+    WORDS_CPU,
+    WORDS_REST,
     Budget,
 )
 from grader.judge.children import busy_seconds
@@ -141,3 +143,58 @@ def test_a_thread_that_ends_while_it_is_looked_at_is_passed_over(monkeypatch: py
     assert children.worked_seconds(os.getpid()) > 0
     with pytest.raises(OSError):
         children.seconds_in_queue(999_999_999)
+
+
+@LINUX
+def test_many_threads_that_wait_at_once_wait_once(monkeypatch: pytest.MonkeyPatch):
+    """Otherwise a hundred that queue for a second would pay for a rest of a hundred."""
+    monkeypatch.setattr(children, "schedule_of", lambda pid, what: [1.0] * 100)
+    assert children.seconds_in_queue(os.getpid()) == 1.0
+    monkeypatch.setattr(children, "schedule_of", lambda pid, what: [])
+    assert children.seconds_in_queue(os.getpid()) == 0.0
+
+
+def test_words_and_pictures_have_a_time_of_their_own():
+    budget = Budget()
+    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
+    assert budget.has_more
+    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
+    assert not budget.has_more and not budget.cut and budget.cpu_for("1", 20) == 20
+    budget = Budget()
+    budget.charge_for_words(Used(rested=WORDS_REST))
+    assert not budget.has_more and budget.rest_for("1") == REST
+
+
+SLOW = """
+    import sys, time, ctypes
+    frame = sys._getframe()
+    while frame is not None:
+        camera = frame.f_locals.get("camera")
+        if {where} and not getattr(sys, "rested", False):
+            sys.rested = True
+            ctypes.CDLL(None).usleep(1_900_000)
+        frame = frame.f_back
+    return x + 1, v
+"""
+
+
+@pytest.mark.soak
+@LINUX
+def test_who_rests_only_in_pictures_rests_a_few_times(tmp_path: Path):
+    """The marks are decided by then, and nobody's time is charged for them."""
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    for todo in ("8a", "8b", "8c"):
+        begin, end = text.index(f"    # TODO {todo}"), text.index(f"    # END TODO {todo}")
+        text = (
+            text[:begin]
+            + f"    # TODO {todo}: x"
+            + SLOW.format(where="getattr(camera, 'film', None)")
+            + text[end:]
+        )
+    tree = tmp_path / "tree"
+    tree.mkdir()
+    (tree / "integrators.py").write_text(text, encoding="utf-8")
+    only = frozenset({"8a", "8b", "8c"})
+    result = grade(tree, Options(shipped_reference(), only=only, replays=tmp_path / "pages"))
+    replays = [check.replay for todo in result.todos for check in todo.checks]
+    assert result.points == 0 and None in replays and any(replays)

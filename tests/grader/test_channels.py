@@ -6,6 +6,7 @@ their worker has of the layers: all of them, all but the filter, the filter alon
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -242,3 +243,47 @@ def found(sandbox: Sandbox, name: str) -> bool:
         return ask(child, "find", name, str(sandbox.work))
     finally:
         child.end()
+
+
+READS_MEMORY = '''
+import ctypes, gc, os
+libc = ctypes.CDLL(None)
+libc.sbrk.restype = ctypes.c_void_p
+WORD = b"-of-" + b"the-first"
+
+def find():
+    """How often a word stands in the memory that this process was forked with."""
+    top, size = libc.sbrk(0), 1 << 20
+    heap = range(top // size - 64, top // size + 1)
+    objects = {id(each) // size for each in gc.get_objects()}
+    reader, writer = os.pipe()
+    count = 0
+    for start in sorted(objects.union(heap)):
+        for address in range(start * size, (start + 1) * size, 4096):
+            # A pipe is told "bad address" where reading would end the process.
+            if libc.write(writer, ctypes.c_void_p(address), ctypes.c_size_t(4096)) == 4096:
+                count += os.read(reader, 4096).count(b"a-word" + WORD)
+    return count
+'''
+
+
+def test_the_files_of_one_submission_are_in_no_memory_of_the_next(tmp_path: Path):
+    """All children of a class are forked from one process: it must have read none of them."""
+    worker = start_worker()
+    counts = []
+    for name in ("the-first", "the-second"):
+        tree = tmp_path / name
+        tree.mkdir()
+        (tree / "searching.py").write_text(READS_MEMORY, encoding="utf-8")
+        (tree / "notes.txt").write_text(f"a-word-of-{name} " * 200, encoding="utf-8")
+        options = Options(KIT / "solution", trusted=True)
+        work = tmp_path / f"work-of-{name}"
+        work.mkdir()
+        child = sandbox_for(Submission(name, tree), work, worker, options).open_child(10)
+        child.ask(Import("searching"))
+        reply = child.ask(Call("searching:find")).reply
+        assert isinstance(reply, Returned), reply
+        counts.append(reply.value)
+        child.end()
+    worker.close()
+    assert counts[1] == 0, counts

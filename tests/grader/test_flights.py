@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.checks.flights import flew, is_clear, want_free_flights
+from grader.checks.flights import flew, is_clear, want_free_flights, want_no_jump
 from grader.checks.lab_scene import BALLS
 from grader.judge.failures import NotYet
 from grader.judge.lab import STEP, Lab, Moment
@@ -57,3 +57,23 @@ def test_a_run_begins_with_the_balls_of_the_scene_which_may_change_their_places_
         want_free_flights(lab, [row(first[1:])])
     with pytest.raises(NotYet, match="one at"):
         want_free_flights(lab, [row(first), row(first)])
+
+
+@pytest.mark.parametrize(
+    "after",
+    [
+        ball(60, 240, 0, 0),  # to where it belongs
+        ball(60, 240, 15_000, -2_000),  # with a speed to match
+        ball(200, 226, 4_000, 0),  # faster than anything falls
+    ],
+)
+def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
+    lab = Lab("mini_engine", lambda: pytest.fail("a child"), [])
+    before = ball(200, 230, 0, 500)  # on the ledge
+    want_no_jump(lab, before, [next_to(before, 0, 0)], 2)
+    want_no_jump(lab, before, [next_to(before, 200, -400), after], 2)
+    want_no_jump(lab, before, [ball(200, 222, 0, 0)], 2)  # pushed out at once
+    with pytest.raises(NotYet, match=r"near there|one at"):
+        want_no_jump(lab, before, [after], 2)
+    with pytest.raises(NotYet, match="one at"):
+        want_no_jump(lab, ball(200, 230, 0, 1e9), [before], 2)  # near everything, so never clear

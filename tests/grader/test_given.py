@@ -196,7 +196,7 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
 
     class Failing:
         failure, ended, observations = NotYet("ran", "1", "2"), False, ()
-        connection = SimpleNamespace(swapped=[])
+        connection = SimpleNamespace(pieces=[])
 
     def again(key, undone):
         lab = Failing()

@@ -17,6 +17,7 @@ from grader.judge.children import Child, WarmWorker, Worker, start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import unconfined
 from grader.judge.submission import CannotGrade
+from grader.maintain.bank import members
 from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
 from grader.worker import confinement
 from grader.worker.filter import AUDIT_ARCH
@@ -396,3 +397,13 @@ def without_layers(usual):
 def test_what_is_open_is_named():
     assert unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
     assert unconfined(sorted(expected_layers())) == []
+
+
+def test_all_that_the_page_names_is_there():
+    """Each claim has a test: a page that names one which is gone claims what nobody tries."""
+    page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
+    files = set(re.findall(r"`((?:tests|grader)/[\w/]+\.\w+)`", page))
+    assert len(files) >= 20
+    assert [each for each in sorted(files) if not (KIT / each).is_file()] == []
+    bank = {member.name for member in members(KIT) if member.kind in ("hostile", "right")}
+    assert {"brings-pytest-along", "shadows-libraries", "stale-bytecode"} <= bank

@@ -1,11 +1,16 @@
 """Nothing that is told of a submission comes from a run in which the reference took part."""
 
 import shutil
+from collections import Counter
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.reference import Reference
+from grader.judge.rubric import Todo, load_rubric
+from grader.judge.submission import Submission, load_given
 from grader.report.files import as_json
 
 TOLD = 424_242.0  # px: the depth of a contact where the reference stands in
@@ -79,3 +84,105 @@ def test_only_files_of_the_submission_are_told_as_places(tmp_path: Path, name: s
         assert check.state == "error" and check.got.startswith("ValueError: no \\udc80"), check
         assert check.where is not None and check.where.file == "integrators.py"
     assert "passwd" not in as_json(result).decode().replace(name, "")
+
+
+MET = """
+import gc, os, struct, sys
+
+def met():
+    frame = sys._getframe()
+    while frame is not None:
+        for piece in frame.f_locals.get("pieces") or ():
+            if piece.target.endswith(":velocity_verlet"):
+                return "quietly " + piece.source
+        frame = frame.f_back
+    return "alone"
+
+WORDS = met()
+
+def raw(words):
+    begin = b"\\x82\\xa6number\\x01\\xa5reply\\x81\\xa4type\\xda"
+    body = begin + struct.pack(">H", len(words)) + words
+    for descriptor in range(3, 64):
+        try: os.write(descriptor, struct.pack(">I", len(body)) + body)
+        except OSError: pass
+    os._exit(0)
+
+def denied():
+    frame = sys._getframe()
+    while frame is not None:
+        owner = frame.f_locals.get("self")
+        if hasattr(owner, "swap"):
+            type(owner).swap = lambda self, piece: False
+        frame = frame.f_back
+denied()
+"""
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "raise ValueError(WORDS)",
+        "raw(WORDS.encode())",
+        "os._exit(42 if WORDS[0] == 'q' else 7)",
+        "os.kill(os.getpid(), 10 if WORDS[0] == 'q' else 12)",
+        "return WORDS",
+    ],
+)
+def test_what_the_child_says_of_the_reference_does_not_matter(tmp_path: Path, answer: str):
+    """Nor how it ends: a message that is none is quoted, and an exit status is a number."""
+    tree, pages = tmp_path / "tree", tmp_path / "pages"
+    tree.mkdir()
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    begin = text.index("\n", text.index("    # TODO 8a"))
+    text = text[:begin] + f"\n    {answer}" + text[begin:]
+    text = text.replace("velocity_verlet(x, v, dt, accel):", "velocity_verlet(x, v, dt, accel=0):")
+    (tree / "integrators.py").write_text(text + MET, encoding="utf-8")
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"8a"}), replays=pages))
+    assert {check.state for check in result.todos[0].checks} <= {"error", "not yet"}
+    told = as_json(result).decode() + "".join(p.read_text("utf-8") for p in pages.glob("*.html"))
+    for word in ("quietly", "a_start", "exit status 42", "signal 10"):
+        assert word not in told
+
+
+@pytest.mark.parametrize("todo", [each for each in load_rubric().todos if each.function])
+def test_the_function_that_is_asked_for_is_never_sent_along(tmp_path: Path, todo: Todo):
+    """Whatever is sent to a child can be read there, whether it is put in place or not."""
+    rubric = load_rubric()
+    begun = {each.id: True for each in rubric.todos}
+    reference = Reference(shipped_reference(), rubric)
+    own = reference.pieces[todo.id].source
+    lines = {each.strip() for each in own.splitlines()[1:]} - given_lines()
+    pieces = reference.for_the_others(todo, todo.module, rubric, Submission("x", tmp_path, begun))
+    assert pieces or todo.module == "integrators"
+    for piece in pieces:
+        for text in (piece.source, piece.imports, *piece.given.values()):
+            assert own not in text and not lines.intersection(map(str.strip, text.splitlines()))
+
+
+def given_lines() -> set[str]:
+    """Lines that tell nothing: they were handed out, or stand in more than one TODO."""
+    rubric = load_rubric()
+    sources = [each.source for each in Reference(shipped_reference(), rubric).pieces.values()]
+    often = Counter(line.strip() for each in sources for line in set(each.splitlines()))
+    given = {line.strip() for text in load_given().values() for line in text.splitlines()}
+    return given | {line for line, count in often.items() if count > 1}
+
+
+def test_words_of_a_result_are_none_that_a_screen_obeys(tmp_path: Path):
+    """A folder may be named by anything, and an error may say anything."""
+    tree = tmp_path / "a\u202eb\x1b[31m"
+    shutil.copytree(KIT / "starter", tree, ignore=shutil.ignore_patterns("notebooks"))
+    (tree / "mini_engine" / "x\u202e\x1b[2J").mkdir()
+    (tree / "mini_engine" / "x\u202e\x1b[2J" / "big.py").write_text("# x\n" * 60_000)
+    path = tree / CONTACTS
+    text = path.read_text(encoding="utf-8").replace(
+        "    return None\n    # END", "    {}\n    # END"
+    )
+    error = "raise type('E\\u2066', (Exception,), {})('\\x1b[31m \\u202e \\u2028 \\x9b')"
+    path.write_text("# x\n" * 60_000 + text.format(error), encoding="utf-8")
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"1"})))
+    assert result.todos[0].state == "error" and b"KB and was not looked" in as_json(result)
+    told = msgspec.json.decode(as_json(result))
+    texts = [told["submission"], *(str(v) for c in told["todos"][0]["checks"] for v in c.values())]
+    assert all(each.replace("\\n", "").isprintable() for each in texts)
