@@ -281,7 +281,7 @@ class Event(Struct, frozen=True):
 
 
 class Play(Struct, frozen=True, tag="play"):
-    """Run a program's main() headless: one entry of `frames` per frame, its length in whole ms."""
+    """Run a program headless: one entry of `frames` per frame, its length in whole ms."""
 
     module: str
     frames: list[int]

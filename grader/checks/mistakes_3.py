@@ -98,6 +98,23 @@ known(
     "The speed along the rod is left out; the impulse is for what is missing.",
     velocities(lambda rod: exact.pushed(rod, rod.bias / rod.k)),
 )
+
+
+def as_seen(rod: Rod, seen: Rod) -> Ends:
+    """After the impulse for the speed of another rod, of which one end rests."""
+    return exact.pushed(rod, (rod.bias - seen.speed) / rod.k)
+
+
+known(
+    "speed-of-b-alone",
+    "The speed of B alone counts; it is B's speed away from A that bias is for.",
+    velocities(lambda rod: as_seen(rod, rod._replace(vel_a=(0.0, 0.0)))),
+)
+known(
+    "speed-of-a-alone",
+    "The speed of A alone counts; it is B's speed away from A that bias is for.",
+    velocities(lambda rod: as_seen(rod, rod._replace(vel_b=(0.0, 0.0)))),
+)
 known(
     "adds-the-speed",
     "Speed and bias are added; the impulse is for the difference, bias - speed.",

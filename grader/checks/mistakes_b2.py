@@ -43,6 +43,34 @@ known(
     lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
 )
 known(
+    "only-pulls",
+    "It only pulls, like a rubber band; a squeezed spring must push.",
+    lambda s: pulled(s, max(0.0, s.stiffness * s.stretch + brake(s))),
+)
+known(
+    "a-hundred-and-twentieth",
+    "The force acts for 1/120 s whatever dt is; it must act for dt seconds.",
+    lambda s: exact.pushed(s.rod, -(s.stiffness * s.stretch + brake(s)) / 120),
+)
+
+
+def brakes_all(spring: Spring) -> Ends:
+    """The velocity of B as seen from A is braked, and not its part along the spring."""
+    rod = spring.rod
+    (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
+    pull = spring.stiffness * spring.stretch
+    fx = rod.dt * (pull * x + spring.damping * (bx - ax))
+    fy = rod.dt * (pull * y + spring.damping * (by - ay))
+    a, b = exact.inverse(rod.mass_a), exact.inverse(rod.mass_b)
+    return (ax + a * fx, ay + a * fy), (bx - b * fx, by - b * fy)
+
+
+known(
+    "damps-sideways-as-well",
+    "The damping brakes what goes across the spring, too; it is for the speed along it.",
+    brakes_all,
+)
+known(
     "forgets-the-step",
     "The force acts for dt seconds: what changes the velocities is force·dt.",
     lambda spring: exact.pushed(spring.rod, -spring.stiffness * spring.stretch - brake(spring)),

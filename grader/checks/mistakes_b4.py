@@ -1,15 +1,15 @@
 """Known mistakes in TODO B4, as models of what is counted.
 
-Of balls and pegs: in so many steps in which one is thrown at the other ("throw") or lies against it
-("touch"). Of others: a ball at a ball, a ball at the ledge, a box at a peg. And in a new space,
-after so many hits in the space before.
+Of balls and pegs: in so many steps in which one is thrown at the other ("throw"), lies against it
+("touch") or is far from it again ("leave"). Of others: a ball at a ball, a ball at the ledge, a box
+at a peg. And in a new space, after so many hits in the space before.
 """
 
 from functools import partial
 
 from grader.judge.misconceptions import Undecided, always, mistake, truth
 
-truth("hits", always(1))
+truth("hits", lambda what, steps: int(what != "leave"))
 truth("others", always([0, 0, 0]))
 truth("afresh", always(0))
 
@@ -42,7 +42,7 @@ known_hits("counts-nothing", "No hit is counted: is begin handed to the space?",
 def every_step(what: str, steps: int) -> int:
     if what == "throw":  # the touch may last a step or two
         raise Undecided
-    return steps
+    return steps if what == "touch" else 0
 
 
 known_hits(
@@ -51,7 +51,12 @@ known_hits(
 known_hits(
     "counts-when-they-part",
     "The end of a touch is counted: what still touches has not been counted yet.",
-    lambda what, steps: 1 if what == "throw" else 0,
+    lambda what, steps: int(what != "touch"),
+)
+known_hits(
+    "soft-touches-are-left-out",
+    "A ball that comes to lie at a peg is not counted; a soft touch is a hit, too.",
+    lambda what, steps: int(what == "throw"),
 )
 mistake(
     "B4",

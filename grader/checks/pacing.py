@@ -14,7 +14,8 @@ from grader.protocol import RUNAWAY, Played
 STEP_MS = 1000 * STEP
 MAX_STEPS = 8
 ROUNDING = 1e-6  # ms
-TINY = 1e-8  # s: who counts in nanoseconds, or keeps clear of rounding, is right
+TINY = 1e-5  # s: who counts in microseconds is right, and who keeps clear of rounding
+DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
 ENDLESS = "The loop of steps does not end: each step must take STEP from the accumulator."
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
@@ -69,8 +70,9 @@ class Pace:
         done = list(accumulate(self.steps[:frames]))
         ends = [0.0, *accumulate(self.lengths[:frames])]
         for frame, (end_before, end) in enumerate(pairwise(ends)):
-            latest = end + self.waiting + ROUNDING
-            if not end_before - STEP_MS <= done[frame] * self.step <= latest:
+            earliest = end_before * (1 - DRIFT) - STEP_MS
+            latest = end * (1 + DRIFT) + self.waiting + ROUNDING
+            if not earliest <= done[frame] * self.step <= latest:
                 return frame
         return None
 

@@ -35,7 +35,7 @@ STILL = (0.0, 0.0)
 ROUGH = (0.5, 0.5)
 ON_A_FLOOR = Discs(ROUGH, (0.0, 2.0))  # A is static, B 2 kg
 UNDER_A_CEILING = Discs(ROUGH, (2.0, 0.0))  # B is static
-IN_THE_AIR = Discs(ROUGH, (3.0, 2.0), ASLANT, (12.0, 7.0), (40.0, -25.0), (1.5, -2.0))
+IN_THE_AIR = Discs(ROUGH, (3.0, 2.0), ASLANT, (12.0, 7.0), (40.0, -25.0), (1.5078125, -2.0234375))
 ANGLES = (0.703125, -0.40625)  # rad
 TARGET = 5.125  # px/s
 
@@ -369,7 +369,9 @@ def a_ball_in_a_corner_has_two_totals(
 
 def within_the_limit_friction_ends_the_slip(lab: Lab) -> None:
     """Friction that stays within its limit ends the slip"""
-    slow = IN_THE_AIR._replace(drift=(0.5, -0.25), spin=(0.05, -0.1), normal=NEARLY_UPRIGHT)
+    slow = IN_THE_AIR._replace(
+        drift=(0.5, -0.25), spin=(0.0546875, -0.1015625), normal=NEARLY_UPRIGHT
+    )
     for slip in (30.0, -30.0, 5.0625, -5.0625, 1.5, -0.01):
         for discs in (ON_A_FLOOR, IN_THE_AIR, slow):
             passes = [Rubbing(500.0, slip), Rubbing(500.0, 0.0)]

@@ -87,7 +87,10 @@ def want_hits(lab: Lab, found: list[int], right: list[int]) -> None:
 
 def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
     """Every hit of a peg counts, and counts once"""
-    lab.ran(f"no gravity: a ball thrown at pegs three times, then {STEPS} steps against one")
+    lab.ran(
+        f"no gravity: a ball thrown at pegs three times, then {STEPS} steps against one, "
+        "and then far from it"
+    )
     here = course(lab)
     ball = here.balls[0]
     step_on(lab, here, ball)
@@ -100,7 +103,11 @@ def every_hit_of_a_peg_counts_once(lab: Lab) -> None:
     step_on(lab, here, ball)
     counts.append(hits(lab, here))
     lab.saw("hits", ("touch", STEPS), counts[-1] - counts[-2])
-    want_hits(lab, counts, [0, 1, 2, 3, 4])
+    lab.put(ball, position=FREE)
+    step_on(lab, here, ball)
+    counts.append(hits(lab, here))
+    lab.saw("hits", ("leave", STEPS), counts[-1] - counts[-2])
+    want_hits(lab, counts, [0, 1, 2, 3, 4, 4])
     lab.want(last.vy < 0, "a ball that bounces off the peg", f"its speed is {last.vy:.0f} px/s")
     bounce = here.elasticity * here.speed  # both surfaces count, as a product
     lab.want(

@@ -11,7 +11,7 @@ answer, and by how much. That is what was observed and no guess.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 from typing import Any
@@ -110,6 +110,17 @@ class Finding:
         return sentence(", ".join(places) + ": " * bool(places) + self.mistake.meaning)
 
 
+def together(findings: Iterable[Finding]) -> list[Finding]:
+    """The findings, of which each mistake in the same part is told once, wherever it shows."""
+    found: dict[tuple[Mistake, str], Finding] = {}
+    for each in findings:
+        before = found.get((each.mistake, each.part), each)
+        clauses = dict.fromkeys((before.where, each.where))
+        where = "" if "" in clauses else either(clauses)
+        found[each.mistake, each.part] = replace(before, where=where)
+    return list(found.values())
+
+
 class Diagnosis:
     """What can be told of a TODO by its answers."""
 
@@ -141,11 +152,12 @@ class Diagnosis:
         first = self.seen[numbers[0]]
         here = [each for each in self.findings if each.explains.intersection(numbers)]
         explained = [each.changed for each in here if numbers[0] in each.explains]
-        told = [each.meaning for each in here] if explained else []
+        told = [each.meaning for each in together(here)] if explained else []
         left = first.wrong.difference(*explained)
         narrowed = narrow(self.seen, first, left) if left else ""
         if not told and " where " not in narrowed:
-            told = [each.meaning for each in self.findings if each.mistake.about == first.about]
+            about = [each for each in self.findings if each.mistake.about == first.about]
+            told = [each.meaning for each in together(about)]
         if (narrowed and not told) or " where " in narrowed:
             told.append(narrowed)
         return " And: ".join(dict.fromkeys(told[:2]))
@@ -416,7 +428,12 @@ def values(seen: list[Seen], *kinds: str) -> dict[Any, int]:
 
 
 def either(clauses: Iterable[Any]) -> str:
-    return " or ".join(str(each) for each in clauses)
+    """One of the clauses; what all begin with is said once."""
+    told = [str(each) for each in clauses]
+    first, both, _ = told[0].partition(" and ") if len(told) > 1 else ("", "", "")
+    if both and all(each.startswith(first + both) for each in told):
+        return f"{first}, and {' or '.join(each.removeprefix(first + both) for each in told)}"
+    return " or ".join(told)
 
 
 # ---------------------------------------------------------------- by how much

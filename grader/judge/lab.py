@@ -369,9 +369,9 @@ class Lab(Decoder):
         pictures: bool = False,
         module: str = "",
     ) -> Played:
-        """Run the program's real main(), one entry of `frames` (ms) per frame.
+        """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
-        A second run has a process of its own: main() may count on being run once.
+        A second run has a process of its own: a program may count on being started once.
         """
         if self.played:
             self.start_anew()

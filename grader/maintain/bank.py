@@ -335,7 +335,7 @@ def into_one_file(folder: Path) -> None:
     merged = re.sub(RENAMED_IMPORT, r"\2 = \1\n", "\n\n".join(parts))
     merged = re.sub(r"^from \..*\n", "", merged, flags=re.MULTILINE)
     shutil.rmtree(package)
-    start = '\n\nif __name__ == "__main__":\n    main()\n'
+    start = "" if "__main__" in merged else '\n\nif __name__ == "__main__":\n    main()\n'
     (folder / "mini_engine.py").write_text(merged + start, encoding="utf-8")
 
 

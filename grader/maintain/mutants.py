@@ -12,12 +12,9 @@ import tempfile
 import textwrap
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
-from multiprocessing import get_context
-from os import cpu_count
+from functools import cache, partial
 from pathlib import Path
 from typing import Literal
 
@@ -36,7 +33,7 @@ from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.maintain.bank import Entry, Member
 from grader.maintain.slips import Scope, scopes, slipped
-from grader.maintain.verify import shared_worker
+from grader.maintain.verify import each_of, shared_worker
 from grader.questions.operators import changes, names_in, normal
 from grader.todo_regions import Region, python_files, read_source, regions_in
 
@@ -386,10 +383,7 @@ def campaign(
 
 
 def grade_all(chosen: Iterable[Mutant], jobs: int, alone: bool) -> Iterator[Outcome]:
-    context = get_context("spawn")
-    with ProcessPoolExecutor(jobs or cpu_count(), mp_context=context) as pool:
-        for future in as_completed([pool.submit(grade_mutant, mutant, alone) for mutant in chosen]):
-            yield future.result()
+    yield from each_of(partial(grade_mutant, alone=alone), chosen, jobs)
 
 
 def show(outcomes: Sequence[Outcome], console: Console) -> None:

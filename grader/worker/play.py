@@ -1,4 +1,4 @@
-"""Running a program's real main() for a number of frames, and stepping a world without a program.
+"""Running a program for a number of frames, and stepping a world without a program.
 
 A run is the same on every machine: it is counted in frames and steps, and its clock is scripted.
 """
@@ -36,6 +36,7 @@ from grader.worker.lines import OpcodeCounter, codes_of
 from grader.worker.output import Output
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
+from grader.worker.start import start
 from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
 
 MAX_STEP_SIZES = 16
@@ -144,13 +145,12 @@ def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Retu
 def play(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
 ) -> Played:
-    """Run main() on a scripted clock, and tell what it did in each frame.
+    """Run a program on a scripted clock, and tell what it did in each frame.
 
     It should end as a person would end it: by the frame budget in LAB_FRAMES, which lab_runtime
     reads, or by the QUIT event after the last frame. What still runs some frames later is stopped.
     The last entry of each list is for what came after the last frame.
     """
-    main = subject.find(f"{request.module}:main")
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
@@ -174,7 +174,7 @@ def play(
     camera.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
-        main()
+        start(subject, request.module, steps, len(request.frames))
     except SystemExit:
         pass  # as good an end as any
     except PlayOver:

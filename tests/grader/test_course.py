@@ -41,6 +41,7 @@ from grader.maintain.handed_out import students_tree, write_tree
 from grader.maintain.handouts import handouts_of
 from grader.maintain.leaks import leaks_in_text, secrets_of
 from grader.maintain.notebooks import notebooks_of
+from grader.maintain.pages import anchor
 from grader.maintain.release import build, wrong_submissions
 from grader.maintain.verify import grade_member, shared_worker, verify
 from grader.report.sinks.gradescope import gradescope
@@ -396,6 +397,26 @@ def test_no_page_asks_for_what_is_left_out(course: Course):
         for module in modules:
             assert not re.search(rf"(?<!/){module}(\.py|`)", page)
     assert ("bonus.md" in pages) == any(todo.bonus for todo in course.rubric.todos)
+
+
+TODOS = [todo.id for todo in load_rubric().todos if todo.function]
+MEASURED = ("effects.md",)  # tells of what was measured in the whole lab
+
+
+@pytest.mark.parametrize("todo", TODOS)
+def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
+    """With one bonus task there is a page of them, and not all that others link to on it."""
+    course = Course(todos=tuple(dict.fromkeys(("1", todo))))
+    texts = handouts_of(KIT / "handouts", course)
+    others = "|".join({each.id for each in course.given if each.bonus})
+    for name, text in texts.items():
+        for _, page, at in re.findall(r"(?<!!)\[([^\]]+)\]\(([\w-]+\.md)?#([\w-]+)\)", text):
+            there = texts[page or name]
+            headings = {anchor(re.sub("[`*]", "", h)) for h in re.findall(r"(?m)^#+ (.*)$", there)}
+            assert at in headings | set(re.findall(r'id="([\w-]+)"', there)), f"{name}: #{at}"
+        if name not in MEASURED:
+            assert not re.findall(rf"(?<![\w.#-])(?:{others})(?![\w-])", text), name
+
 
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
