@@ -418,7 +418,6 @@ def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
             assert not re.findall(rf"(?<![\w.#-])(?:{others})(?![\w-])", text), name
 
 
-
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
     sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
