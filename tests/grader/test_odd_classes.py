@@ -404,6 +404,13 @@ def test_identifiers_that_a_spreadsheet_destroyed_are_refused(tmp_path: Path, nu
         read_roster(tmp_path / "list.csv")
 
 
+@pytest.mark.parametrize("start", [b"PK\x03\x04", b"\xd0\xcf\x11\xe0"])
+def test_a_workbook_is_called_so_whatever_its_name(tmp_path: Path, start: bytes):
+    (tmp_path / "list.csv").write_bytes(start + b"\0" * 50)
+    with pytest.raises(CannotRead, match="is a spreadsheet's own file: export"):
+        read_roster(tmp_path / "list.csv")
+
+
 def test_zeros_that_a_spreadsheet_took_are_no_other_student(tmp_path: Path):
     classes.put(tmp_path / "list.csv", "ID number,Last name,First name\n123,Lee,Ann\n7,Poe,Bo\n")
     roster = read_roster(tmp_path / "list.csv")
