@@ -106,7 +106,7 @@ def grade_command(
     elif ci is not None:
         grade_in_ci(path, ci, out, json, at_least, options)
     else:
-        with submission_at(path) as folder:
+        with submission_at(path, chosen.modules) as folder:
             replays = None if out is None else out / folder.resolve().name
             result = shown(folder, replace(options, replays=replays))
         finish(result, out, json, at_least)

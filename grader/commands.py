@@ -17,13 +17,15 @@ from grader.words import clean
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
+COURSE_FILE = "COURSE_FILE"  # in the environment: make hands it on to every command
+
 console = Console(highlight=False, markup=False)
 
 CourseFile = Annotated[
     Path | None,
     typer.Option(
         "--course",
-        envvar="COURSE_FILE",
+        envvar=COURSE_FILE,
         show_envvar=False,
         help="What the course takes of the kit; its course.toml if left out.",
     ),
@@ -95,8 +97,11 @@ def graded(path: Path, options: Options) -> Result:
 
 
 @contextmanager
-def submission_at(path: Path) -> Iterator[Path]:
-    """The submission itself: what a zip holds is unpacked, in the instructor's grader."""
+def submission_at(path: Path, asked: Collection[str] = ()) -> Iterator[Path]:
+    """The submission itself: what a zip holds is unpacked, in the instructor's grader.
+
+    Two files for one program are a question only where the course has `asked` for it.
+    """
     if not find_spec("grader.classroom"):  # students have no zips and no folders of submissions
         yield path
         return
@@ -112,7 +117,7 @@ def submission_at(path: Path) -> Iterator[Path]:
             "them with --class, or name one"
         )
     try:
-        with opened_submission(path, lambda note: console.print(clean(note))) as folder:
+        with opened_submission(path, lambda note: console.print(clean(note)), asked) as folder:
             yield folder
     except CannotGrade as error:
         stop(str(error))

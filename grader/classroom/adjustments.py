@@ -23,10 +23,11 @@ is graded, and every change is shown with its reason.
 """
 
 import math
+import re
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from datetime import datetime, timedelta, tzinfo
+from datetime import date, datetime, time, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
@@ -36,7 +37,7 @@ from msgspec import Struct, structs
 
 from grader.classroom.intake.found import Found
 from grader.classroom.names import folded, names_of
-from grader.judge.course import FULL, Course, Late, wrong_late
+from grader.judge.course import EXAMPLE, FULL, Course, Late, wrong_late
 from grader.judge.submission import CannotGrade
 
 DAY = timedelta(days=1)
@@ -212,6 +213,7 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     """Read the file; without one, the course's rules are all. CannotGrade says what is wrong."""
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
+        whole_days(document)
         adjustments = msgspec.convert(within(course, document), Adjustments)
     except OSError as error:
         raise CannotGrade(f"there are no adjustments at {path}") from error
@@ -220,6 +222,26 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     if wrong := list(faults(adjustments, course.most)):
         raise CannotGrade(f"{path}: " + "; ".join(wrong))
     return adjustments
+
+
+def whole_days(document: dict[str, Any]) -> None:
+    """A date without a time is the end of that day, as in course.toml.
+
+    Raises ValueError where a date or a number of points cannot be one.
+    """
+    decisions = document.get("adjust")
+    for each in [document.get("late"), *(decisions if isinstance(decisions, list) else [])]:
+        if not isinstance(each, dict):
+            continue
+        due = each.get("due")
+        if isinstance(due, date) and not isinstance(due, datetime):
+            each["due"] = datetime.combine(due, time(23, 59, 59))
+        elif isinstance(due, str) and not re.match(r"\d{4}-\d\d-\d\d", due):
+            raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
+        for name in ("points", "add", "cap", "bonus"):
+            if name in each and type(each[name]) is not int:
+                whose = f" of {each['student']!r}" if "student" in each else ""
+                raise ValueError(f"{name} = {each[name]!r}{whose} must be a whole number")
 
 
 def within(course: Course, document: dict[str, Any]) -> dict[str, Any]:

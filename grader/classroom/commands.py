@@ -11,7 +11,15 @@ from typing import Annotated, Literal
 import msgspec
 import typer
 
-from grader.commands import CourseFile, console, course_in, needs_checkout, refuse_ignored, stop
+from grader.commands import (
+    COURSE_FILE,
+    CourseFile,
+    console,
+    course_in,
+    needs_checkout,
+    refuse_ignored,
+    stop,
+)
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
@@ -26,7 +34,7 @@ TakenFile = Annotated[  # where --course is nbgrader's folder
     Path | None,
     typer.Option(
         "--course-file",
-        envvar="COURSE_FILE",
+        envvar=COURSE_FILE,
         show_envvar=False,
         help="What the course takes of the kit; its course.toml if left out.",
     ),
@@ -374,7 +382,7 @@ def marks_command(
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_bytes(made.text.encode(made.encoding))
     for note in [*told, *made.notes]:
-        console.print(clean(note))
+        console.print(clean(note), soft_wrap=True)
     console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
     raise typer.Exit(0 if made.given == len(listed.rows) else 1)
 

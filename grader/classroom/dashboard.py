@@ -161,7 +161,8 @@ def with_replays(
                 continue
             again = replace(options, only=frozenset(todos), replays=folder / name)
             with suppress(CannotGrade, CannotTake), work_folder() as work:
-                result = grade(pack(found[name]).unpack(work), again, worker)
+                package = pack(found[name], options.course.modules)
+                result = grade(package.unpack(work), again, worker)
                 entry = Entry(entry.outcome, with_todos(entry.result, result.todos))
             yield entry
     finally:

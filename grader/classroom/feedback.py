@@ -71,7 +71,15 @@ def by_export(
     """The pages under the names that the LMS gave to what was handed in."""
     made = Feedback()
     graded = {each.outcome.name: each for each in entries}
-    made.notes += [f"{name}: left out, {why}" for name, why in intake.troubles.items()]
+    without = set(graded).difference(each.name for each in intake.found)
+    for name in sorted(without.union(intake.troubles)):
+        page = pages / f"{name}.html"
+        participant = people.participant(name) if people and system == "moodle" else ""
+        if participant and page.is_file():  # Moodle takes a page also where no file was handed in
+            made.files[moodle_name(participant, PAGE)] = page.read_bytes()
+        elif name in intake.troubles or page.is_file():
+            why = intake.troubles.get(name, "no file of theirs came that a page could answer")
+            made.notes.append(f"{name}: left out, {why}")
     works: dict[tuple[Path, ...], list[Returned]] = {}
     for found in sorted(intake.found, key=lambda each: each.handed_in_by != ""):
         entry = graded.get(found.name)
@@ -102,9 +110,13 @@ def for_moodle(source: Path, members: list[Returned]) -> Iterator[tuple[str, byt
     for each in members:
         own = each.participant if each.found.handed_in_by else ""
         file = PAGE if own else each.file
-        name, _, number = (own or first).rpartition("_")
-        name = name.replace("_", " ")  # Moodle takes what follows the first one for the number
-        yield f"{name}_{number}_assignsubmission_file_{file}", each.page
+        yield moodle_name(own or first, file), each.page
+
+
+def moodle_name(participant: str, file: str) -> str:
+    """What Moodle calls somebody's file; it takes what follows the first `_` for the number."""
+    name, _, number = participant.rpartition("_")
+    return f"{name.replace('_', ' ')}_{number}_assignsubmission_file_{file}"
 
 
 def for_canvas(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:

@@ -33,7 +33,7 @@ from grader.judge.course import FULL, Course
 from grader.report.sinks.tables import harmless
 from grader.words import clean
 
-TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.]+)")  # Blackboard's and Brightspace's columns
+TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # Blackboard's and Brightspace's columns
 COMMAS = ("worksheet", "brightspace")  # taken back in UTF-8 and with commas alone
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
@@ -186,6 +186,14 @@ def marks(
             f"{in_short(unowned)}: no mark, as that may be their work: say whose it is in a column "
             "Called, or with --others-known that it is nobody's here"
         )
+    above = [row[key] for row, mark, _ in rows if is_above(mark, marking.total)]
+    if above and roster.kind == "worksheet":
+        notes.append(
+            f"{in_short(above)}: above {marking.total:g}, which Moodle's worksheet leaves out "
+            "without a word: set their grades in its gradebook, or let the bonus count apart"
+        )
+    elif above:
+        notes.append(f"{in_short(above)}: above {marking.total:g}: may marks be so there?")
     worth = total_of(roster, marking.title)
     if worth is not None and worth != marking.total:
         notes.append(f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}")
@@ -269,9 +277,16 @@ def total_of(roster: Roster, title: str) -> float | None:
         columns = (name for name in roster.columns if name.startswith(title))
         told = next((match[1] for name in columns if (match := TOTAL.search(name))), "")
     try:
-        return float(told) if told else None
-    except ValueError:  # a number as another country writes it
+        return float(told.replace(",", ".")) if told else None  # as another country writes it
+    except ValueError:
         return None
+
+
+def is_above(mark: str, total: float) -> bool:
+    try:
+        return float(mark) > total
+    except ValueError:  # empty, or a word for who handed in nothing
+        return False
 
 
 def titled(roster: Roster, start: str, otherwise: str) -> str:

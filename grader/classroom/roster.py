@@ -131,12 +131,17 @@ class Roster:
         )
 
 
+WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # .xlsx and .ods, .xls: how they begin
+
+
 def read_roster(path: Path) -> Roster:
     """Read the gradebook of a learning system, or any CSV with a row of titles."""
     try:
         content = path.read_bytes()
     except OSError as error:
         raise CannotRead(f"there is no class list at {path}") from error
+    if content.startswith(WORKBOOKS):
+        raise CannotRead(f"{path} is a spreadsheet's own file: export the class list as CSV")
     text, encoding, doubt = text_of(content, path)
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     text = text.removeprefix(mark)

@@ -90,7 +90,10 @@ def copy_tree(path: Path, submission: Submission) -> None:
         files, size = files + 1, size + length
         target = submission.folder / inside
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(source, target)
+        try:
+            shutil.copyfile(source, target)
+        except PermissionError as error:
+            raise CannotGrade(unreadable(error, path)) from error
 
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
@@ -127,15 +130,18 @@ def load_given() -> dict[str, str]:
 def plain_files(path: Path) -> Iterator[Path]:
     """What may be part of a submission: no virtual environment, no name that is no text.
 
-    Folder by folder from the top. Raises CannotGrade where there is no end of it.
+    Folder by folder from the top. Raises CannotGrade where there is no end of it, or a folder
+    cannot be read: what lies in it may be the work, and must not count as none.
     """
     seen, waiting = 0, deque([(path, 0)])
     while waiting:
         here, depth = waiting.popleft()
         try:
             entries = os.scandir(here)
-        except OSError:  # not ours to read
+        except FileNotFoundError:  # it went away
             continue
+        except OSError as error:
+            raise CannotGrade(unreadable(error, path)) from error
         with entries:
             for entry in entries:
                 seen += 1
@@ -146,6 +152,16 @@ def plain_files(path: Path) -> Iterator[Path]:
                         waiting.append((here / entry.name, depth + 1))
                 elif entry.is_file(follow_symlinks=False) and entry.name.isprintable():
                     yield here / entry.name
+
+
+def unreadable(error: OSError, within: Path) -> str:
+    """Why a file or a folder of a submission cannot be read, by its name in there."""
+    why = error.strerror or type(error).__name__
+    name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
+    if not name or name == os.fspath(within):
+        return f"it cannot be read: {why}"
+    inside = os.path.relpath(name, within)
+    return f"{Path(name).name if inside.startswith('..') else inside} cannot be read: {why}"
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:

@@ -20,6 +20,7 @@ import msgspec
 from rich.console import Console
 
 import grader
+from grader.commands import COURSE_FILE
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, opened
 from grader.judge.replay import record_expected
@@ -190,12 +191,13 @@ def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Cours
 
 
 def grade_with(package: Path, tree: Path) -> Result:
-    """What the grader in another folder says of a submission."""
+    """What the grader in another folder says of a submission, by the course that it holds."""
     target = package / "result.json"
     target.unlink(missing_ok=True)
     words = ["grader", "grade", str(tree), "--json", str(target)]
     code = f"import runpy; sys.argv = {words!r}; runpy.run_module('grader', run_name='__main__')"
-    said = run(alone(package, code), package, dict(os.environ), statuses=(0, 1))
+    students = {name: value for name, value in os.environ.items() if name != COURSE_FILE}
+    said = run(alone(package, code), package, students, statuses=(0, 1))
     if not target.exists():
         raise Refused(f"the students' copy of the grader does not run:\n{said}")
     return msgspec.json.decode(target.read_bytes(), type=Result)

@@ -68,7 +68,7 @@ def experiments_command(
     if path is None:
         measure_one(own_tree(Path("."), chosen), options, out)
     else:
-        with submission_at(path) as folder:
+        with submission_at(path, chosen.modules) as folder:
             measure_one(folder, options, out)
 
 

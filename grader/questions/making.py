@@ -120,7 +120,7 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     notes: list[str] = []
     worker = start_worker()
     try:
-        with opened_submission(path, notes.append) as folder:
+        with opened_submission(path, notes.append, making.options.course.modules) as folder:
             name = printable(student or folder.resolve().name)
             made = making.make(name, folder, worker)
         making.finish()
@@ -149,7 +149,7 @@ def make_class(making: Making, path: Path, roster: Path | None, console: Console
 def made_of(making: Making, found: Found, worker: Worker) -> Made:
     """The sheet of one student of a class, or why there is none; the others go on."""
     try:
-        package = pack(found)
+        package = pack(found, making.options.course.modules)
         with work_folder() as work:
             return making.make(found.name, package.unpack(work), worker)
     except (CannotTake, CannotGrade) as error:

@@ -75,7 +75,7 @@ def test_nobody_else_is_touched(tmp_path):
         (adjust(), "one of"),
         (adjust(add=1, points=2), "one of"),
         (adjust(late=True), "late = false"),
-        (adjust(add=1.5), "int"),
+        (adjust(add=1.5), "add = 1.5 of .Ann. must be a whole number"),
         (adjust(ad=1), "ad"),
         ("[late]\nper_day = -1\n", "0 or more"),
         ("[late]\nper_day = 1\ndue = 2026-05-04T22:00:00\n", "time zone"),
@@ -85,6 +85,32 @@ def test_nobody_else_is_touched(tmp_path):
 def test_what_cannot_be_meant_is_refused(tmp_path, text, words):
     with pytest.raises(CannotGrade, match=words):
         loaded(tmp_path, text)
+
+
+def test_a_date_alone_is_the_end_of_that_day_in_the_schools_zone(tmp_path):
+    """As in course.toml; people write extensions so."""
+    text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
+    decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
+    assert decided.due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
+    assert decided.due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
+    with pytest.raises(CannotGrade, match="due = 2026-05-04 23:59:59 needs its time zone"):
+        loaded(tmp_path, "[late]\ndue = 2026-05-04\n")
+
+
+@pytest.mark.parametrize(
+    "line, words",
+    [
+        ("points = 70.5", "points = 70.5 of 'Ann' must be a whole number"),
+        ("add = '5'", "add = '5' of 'Ann' must be a whole number"),
+        ("bonus = true", "bonus = True of 'Ann' must be a whole number"),
+        ("due = '09.05.2026'", "must be a date without quotes, as in due = 2027"),
+    ],
+)
+def test_what_is_no_number_or_date_is_said_in_the_words_of_the_file(tmp_path, line, words):
+    name, _, value = line.partition(" = ")
+    with pytest.raises(CannotGrade) as refused:
+        loaded(tmp_path, LATE + f"[[adjust]]\nstudent = 'Ann'\nreason = 'x'\n{name} = {value}\n")
+    assert words in str(refused.value)
 
 
 def test_a_missing_file_is_said(tmp_path):

@@ -2,9 +2,11 @@
 
 import base64
 import bz2
+import errno
 import gzip
 import io
 import lzma
+import os
 import shutil
 import struct
 import sys
@@ -31,7 +33,7 @@ from grader.classroom.marks import Marking, Part, Parts, marks
 from grader.classroom.roster import CannotRead, ClassList, read_roster
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import MAX_FILES, take_in
+from grader.judge.submission import MAX_FILES, CannotGrade, take_in
 
 SOURCE = "points = 7\n"
 WORK: packed.Files = {"integrators.py": SOURCE}
@@ -84,6 +86,48 @@ OTHERS = ("integrators_final.py", "hello world.py", "integrators.py.html", "inte
 def test_a_name_that_may_be_a_file_of_ones_own_is_for_a_person(tmp_path: Path, name: str):
     with pytest.raises(CannotTake, match="nothing of the lab was found"):
         pack(one(tmp_path, {name: SOURCE}))
+
+
+def test_two_drafts_of_what_nobody_asks_for_are_no_question(tmp_path: Path):
+    drafts = {
+        "integrators.py": "a = 1\n",
+        "integrators (1).py": "a = 2\n",
+        "pymunk_scene.py": "x\n",
+    }
+    package = pack(one(tmp_path, drafts | {"more.zip": b"PK broken"}), ["pymunk_scene"])
+    assert dict(package.files)["integrators.py"] == b"a = 1\n"
+    assert "of several programs integrators integrators.py is taken, none is asked for" in (
+        package.notes
+    )
+    with pytest.raises(CannotTake, match="more than one program integrators"):
+        pack(Found("ann", (tmp_path / "ann",)), ["integrators"])
+
+
+@pytest.mark.parametrize("what", ["ann/mini_engine", "ann/mini_engine/world.py"])
+def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, monkeypatch, what):
+    """A folder that its owner has shut, or one of another user: somebody's work may lie in it."""
+    found = one(tmp_path, WORK | {"mini_engine/__init__.py": "", "mini_engine/world.py": ""})
+    shut(monkeypatch, tmp_path / what)
+    with pytest.raises(CannotTake, match=f"{what[4:]} cannot be read: Permission denied"):
+        pack(found)
+    with pytest.raises(CannotGrade, match=f"{what[4:]} cannot be read: Permission denied"):
+        take_in(found.sources[0], tmp_path / "copy", load_rubric(), {})
+
+
+def shut(monkeypatch, path: Path) -> None:
+    """As if a file or a folder were not ours to read, for the superuser too."""
+
+    def refusing(usual):
+        def ask(asked, *args, **options):
+            if Path(asked) == path:
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(asked))
+            return usual(asked, *args, **options)
+
+        return ask
+
+    monkeypatch.setattr(os, "scandir", refusing(os.scandir))
+    monkeypatch.setattr(shutil, "copyfile", refusing(shutil.copyfile))
+    monkeypatch.setattr(Path, "read_bytes", refusing(Path.read_bytes))
 
 
 def test_of_two_drafts_a_person_chooses_and_beside_the_right_name_it_is_left(tmp_path: Path):
@@ -360,6 +404,13 @@ def test_identifiers_that_a_spreadsheet_destroyed_are_refused(tmp_path: Path, nu
         read_roster(tmp_path / "list.csv")
 
 
+@pytest.mark.parametrize("start", [b"PK\x03\x04", b"\xd0\xcf\x11\xe0"])
+def test_a_workbook_is_called_so_whatever_its_name(tmp_path: Path, start: bytes):
+    (tmp_path / "list.csv").write_bytes(start + b"\0" * 50)
+    with pytest.raises(CannotRead, match="is a spreadsheet's own file: export"):
+        read_roster(tmp_path / "list.csv")
+
+
 def test_zeros_that_a_spreadsheet_took_are_no_other_student(tmp_path: Path):
     classes.put(tmp_path / "list.csv", "ID number,Last name,First name\n123,Lee,Ann\n7,Poe,Bo\n")
     roster = read_roster(tmp_path / "list.csv")
@@ -392,6 +443,22 @@ def test_canvas_with_names_in_two_columns(tmp_path: Path):
     title, possible, ann = made.text.splitlines()
     assert (title, possible) == (head.strip(), "    Points Possible,,,,,20")
     assert ann == "Lee,Ann,1,ann,A,12.0"
+
+
+@pytest.mark.parametrize("most", ["20,00", "20.00"])
+def test_marks_that_moodle_would_leave_out_are_told(tmp_path: Path, most: str):
+    """Its worksheet takes none above the assignment's maximum, and does not say so."""
+    head = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Feedback comments\n"
+    rows = (
+        f'Participant 1,Ann Lee,ann@x.de,,,"{most}",\nParticipant 2,Ben Öz,ben@x.de,,,"{most}",\n'
+    )
+    classes.put(tmp_path / "list.csv", head + rows)
+    roster = read_roster(tmp_path / "list.csv")
+    given = {"ann@x.de": {"engine": Part(21, 20)}, "ben@x.de": {"engine": Part(20, 20)}}
+    (note,) = marks(roster, roster.key(), given, MARKING).notes
+    assert note.startswith("ann@x.de: above 20, which Moodle's worksheet leaves out")
+    more = marks(roster, roster.key(), given, Marking("Physics engine", {"engine": 1}, 30)).notes
+    assert any("counts to 20 there" in each for each in more)
 
 
 def test_nobody_has_handed_in_nothing_while_some_work_has_no_owner(tmp_path: Path):

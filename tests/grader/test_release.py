@@ -274,6 +274,14 @@ def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path
         prove(released.wheel, tmp_path / "installed")
 
 
+def test_a_release_is_proved_by_the_course_in_it(released: Released, monkeypatch):
+    """`make release COURSE_FILE=…` hands the file on, and with it points of checks left out."""
+    one = KIT / "tests" / "courses" / "integrators.toml"
+    monkeypatch.setenv("COURSE_FILE", str(one))
+    result = releases.grade_with(released.installed, KIT / "starter")
+    assert result.max_points == visible(load_rubric()).max_points
+
+
 def test_students_can_practise_questions_about_their_own_program(
     released: Released, tmp_path: Path
 ):

@@ -185,14 +185,24 @@ def feedback_goes_back(graded: Class) -> None:
             assert set(names) <= given and len(names) == len(here)
         elif graded.system == "moodle":
             number = {name.split("_")[1] for name in names}
-            assert {f"{graded.students.index(each) + 1}" for each in here} <= number
+            paged = [each for each in graded.students if has_page(graded, each)]
+            assert {f"{graded.students.index(each) + 1}" for each in paged} == number
         else:
             assert {name.partition("/")[0] for name in names} <= given
+        for student in graded.students:
+            text = student.text and graded.system == "brightspace"  # has a folder there
+            without = not (student.files or text) and has_page(graded, student)
+            named = f"{graded.name(student)}: left out, " in done.output
+            assert named == (without and graded.system != "moodle"), student.login
     elif graded.system == "gradescope":
         out = graded.folder.parent / "mail"
         words += ["--for", "email", "--out", str(out)]
         CliRunner().invoke(commands.app, words)
         assert {f"{each.email}.html" for each in here} <= {path.name for path in out.iterdir()}
+
+
+def has_page(graded: Class, student: Student) -> bool:
+    return (graded.results / f"{graded.name(student)}.html").is_file()
 
 
 # ---------------------------------------------------------------- the same bytes

@@ -189,5 +189,5 @@ def programs_of(found: Found) -> frozenset[str]:
             return programs_in(root)
     except ManyPrograms:
         return modules()
-    except (CannotTake, OSError):
+    except (CannotTake, CannotGrade, OSError):
         return frozenset()

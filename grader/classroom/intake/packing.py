@@ -27,25 +27,29 @@ from grader.classroom.intake.places import (
     unwrapped,
 )
 from grader.classroom.names import MENTIONED, in_short, portable
-from grader.judge.submission import CannotGrade, module_of, plain_files
+from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
 from grader.judge.workplace import work_folder
 
 COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file that comes again
 
 
 @contextmanager
-def opened_submission(path: Path, say: Callable[[str], None] = lambda note: None) -> Iterator[Path]:
+def opened_submission(
+    path: Path,
+    say: Callable[[str], None] = lambda note: None,
+    asked: Collection[str] = (),
+) -> Iterator[Path]:
     """The submission at `path`, as the lab lays it out: unpacked, and its files put together.
 
     Raises CannotGrade where it cannot be taken. A folder with nothing of the lab is left as it is:
     whoever names one sees what is in it.
     """
-    if (path.is_file() and not is_archive(path)) or not path.exists() or lies_well(path):
+    if (path.is_file() and not is_archive(path)) or not path.exists() or lies_well(path, asked):
         yield path
         return
     with work_folder() as temporary:
         try:
-            package = pack(Found(portable(stem_of(path.resolve())), (path,)))
+            package = pack(Found(portable(stem_of(path.resolve())), (path,)), asked)
         except ManyPrograms as error:
             raise CannotGrade(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
@@ -55,12 +59,12 @@ def opened_submission(path: Path, say: Callable[[str], None] = lambda note: None
         yield package.unpack(temporary)
 
 
-def lies_well(path: Path) -> bool:
+def lies_well(path: Path, asked: Collection[str] = ()) -> bool:
     """Whether a folder can be graded as it lies, or holds nothing that could be put together."""
     if not path.is_dir():
         return False
     try:
-        laid = arranged(path)
+        laid = arranged(path, asked)
     except ManyPrograms:
         return False
     as_it_is = laid.as_found and laid.root == path
@@ -76,7 +80,7 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
     bounds, files = Bounds(), []
     asked = asked or modules()
     try:
-        with opened(found) as (folder, laid, notes):
+        with opened(found, asked) as (folder, laid, notes):
             if not any(module_of(PurePosixPath(name)) in asked for name in laid.files):
                 raise nothing_of_the_lab(folder, asked, notes)
             for name in sorted(laid.files, key=lambda each: weight(PurePosixPath(each))):
@@ -84,7 +88,7 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
                 if bounds.take(name, path.stat().st_size):
                     files.append((name, path.read_bytes()))
     except OSError as error:
-        raise CannotTake(f"it cannot be read: {error.strerror or type(error).__name__}") from error
+        raise CannotTake(unreadable(error, found.sources[0])) from error
     except CannotGrade as error:
         raise CannotTake(str(error)) from error
     said = [*notes, *no_programs(files, asked), *laid.notes, *bounds.notes]
@@ -123,45 +127,45 @@ def laid_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
 
 
 @contextmanager
-def opened(found: Found) -> Iterator[tuple[Path, Arranged, list[str]]]:
+def opened(found: Found, asked: Collection[str] = ()) -> Iterator[tuple[Path, Arranged, list[str]]]:
     """All that was handed in, archives unpacked, and the lab's files in it."""
     folder = found.sources[0]
     if len(found.sources) == 1 and folder.is_dir():
-        laid = arranged(folder)
-        if complete(laid) or not archives_in(folder):
-            yield folder, laid, unopened(folder, laid)
+        laid = arranged(folder, asked)
+        if complete(laid, asked) or not archives_in(folder):
+            yield folder, laid, unopened(folder, laid, asked)
             return
     with work_folder() as temporary:
         bounds = Bounds()
         gather_all(found, temporary, bounds)
-        laid = unpacked(found, temporary, bounds)
-        yield temporary, laid, [*unopened(temporary, laid), *bounds.notes]
+        laid = unpacked(found, temporary, bounds, asked)
+        yield temporary, laid, [*unopened(temporary, laid, asked), *bounds.notes]
 
 
-def complete(laid: Arranged) -> bool:
-    """Whether every program of the lab is there."""
+def complete(laid: Arranged, asked: Collection[str]) -> bool:
+    """Whether every program is there that the course asks for."""
     held = {name.partition("/")[0].removesuffix(".py") for name in laid.files}
-    return modules() <= held
+    return held.issuperset(asked or modules())
 
 
 def archives_in(folder: Path) -> list[Path]:
     return sorted(path for path in plain_files(folder) if is_archive(path))
 
 
-def unopened(folder: Path, laid: Arranged) -> list[str]:
+def unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[str]:
     names = [path.relative_to(folder).as_posix() for path in archives_in(folder)]
     enough = "all programs lie beside it"
     deep = f"archives are opened {DEEPEST} deep, one in the other"
-    return [f"{name} was not opened: {enough if complete(laid) else deep}" for name in names]
+    return [f"{name} was not opened: {enough if complete(laid, asked) else deep}" for name in names]
 
 
-def unpacked(found: Found, folder: Path, bounds: Bounds) -> Arranged:
-    """Unpack until all programs of the lab are there, or there is nothing left to unpack."""
+def unpacked(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Arranged:
+    """Unpack until all programs that are asked for are there, or nothing is left to unpack."""
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
         archives = archives_in(folder)
-        laid = arranged(folder)
-        if complete(laid) or not archives:
+        laid = arranged(folder, asked)
+        if complete(laid, asked) or not archives:
             break
         for path in archives:
             packed = path.rename(path.with_name(f".{path.name}"))
@@ -171,8 +175,8 @@ def unpacked(found: Found, folder: Path, bounds: Bounds) -> Arranged:
                 shutil.rmtree(path, ignore_errors=True)
                 refused[path.relative_to(folder).as_posix()] = str(error)
             packed.unlink()
-    laid = arranged(folder)
-    if refused and not complete(laid):
+    laid = arranged(folder, asked)
+    if refused and not complete(laid, asked):
         names = {each.name for each in found.sources}
         told = (
             f"{name}: {words}" * (name not in names) or words for name, words in refused.items()

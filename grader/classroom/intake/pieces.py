@@ -6,7 +6,7 @@ it was, and that is said. Where two files could be the same one, a person must c
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path, PurePosixPath
@@ -103,15 +103,20 @@ class Piece:
         return mine == others
 
 
-def arranged(folder: Path) -> Arranged:
+def arranged(folder: Path, asked: Collection[str] = ()) -> Arranged:
     """The submission in `folder`, each program of the lab where it belongs.
 
-    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top.
+    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top. Of
+    a program that the course does not ask for either will do: no mark hangs on it.
     """
     paths = sorted(PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     notes: list[str] = []
     found = candidates(paths)
-    pieces = [chosen(each, folder, notes) for each in by_module([*found, *renamed(paths, found)])]
+    asked = asked or modules()
+    pieces = [
+        chosen(each, folder, notes, each[0].module in asked)
+        for each in by_module([*found, *renamed(paths, found)])
+    ]
     if PACKAGE not in {piece.module for piece in pieces}:
         pieces += loose_package(paths, folder)
     if not pieces:
@@ -203,10 +208,17 @@ def by_module(pieces: list[Piece]) -> list[list[Piece]]:
     return [groups[name] for name in sorted(groups)]
 
 
-def chosen(pieces: list[Piece], folder: Path, notes: list[str]) -> Piece:
-    """Of all that could be one program, what lies nearest to the top."""
+def chosen(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
+    """Of all that could be one program, what lies nearest to the top.
+
+    Of several there the one of the right name, unless it `matters`: then a person chooses.
+    """
     nearest = min(len(piece.path.parts) for piece in pieces)
     first, *others = without_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
+    if others and not matters:
+        first = next((piece for piece in [first, *others] if piece.exact), first)
+        notes.append(f"of several programs {first.module} {first.path} is taken, none is asked for")
+        others = []
     for other in others:
         if first.exact and other.exact and first.path.parent == other.path.parent:
             continue  # a package beside a file: Python takes the package

@@ -19,7 +19,7 @@ from grader.classroom.intake.listing import opened_class
 from grader.classroom.intake.packing import laid_out
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options
-from grader.judge.submission import CannotGrade, plain_files
+from grader.judge.submission import CannotGrade, plain_files, unreadable
 from grader.maintain.handed_out import students_tree, write_tree
 from grader.maintain.notebooks import notebooks_of
 from grader.todo_regions import regions_in
@@ -147,7 +147,7 @@ def collect(folder: Path, course: Path) -> Iterator[Taken]:
                 try:
                     with laid_out(found) as (path, _):
                         yield take(found.name, path, course)
-                except CannotTake as error:
+                except (CannotTake, CannotGrade) as error:
                     yield Taken(found.name, str(error), False)
             for name, words in intake.troubles.items():
                 yield Taken(name, words, False)
@@ -180,7 +180,10 @@ def lay_out(path: Path, target: Path) -> int:
         if inside.name in wanted and inside.parts[:-1] in ((), (NOTEBOOKS,)):
             inside = Path(inside.name)
         (target / inside).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(source, target / inside)
+        try:
+            shutil.copyfile(source, target / inside)
+        except PermissionError as error:
+            raise CannotGrade(unreadable(error, path)) from error
     return sum((target / name).exists() for name in wanted)
 
 
