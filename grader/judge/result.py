@@ -51,21 +51,26 @@ def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
 
     None of them is one that a screen or a terminal obeys, but for the ends of lines.
     """
-    texts = {name: cut(harmless(getattr(check, name)), most) for name in TEXTS}
+    texts = {name: harmless(cut(getattr(check, name), most)) for name in TEXTS}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
 
 
 def harmless(words: str) -> str:
     """Words without control and direction characters: whoever reads a result may just show it."""
-    if words.isprintable():
-        return words
-    return "".join(c if c.isprintable() or c == "\n" or is_half(c) else " " for c in words)
+    return words.translate(HARMLESS)
 
 
-def is_half(letter: str) -> bool:
-    """Half of a letter, which `cut` tells by its number."""
-    return "\ud800" <= letter <= "\udfff"
+class Harmless(dict[int, int]):
+    """What each letter is shown as, by their numbers; they are looked at when they first come."""
+
+    def __missing__(self, number: int) -> int:
+        letter = chr(number)
+        self[number] = number if letter.isprintable() or letter == "\n" else ord(" ")
+        return self[number]
+
+
+HARMLESS = Harmless()
 
 
 def is_bonus(todo: str) -> bool:
