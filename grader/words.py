@@ -11,7 +11,7 @@ from datetime import datetime
 from msgspec import structs
 
 from grader.judge.course import Course
-from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.result import CheckResult, Result, State, TodoResult, harmless
 from grader.judge.rubric import load_rubric
 
 MEANINGS: dict[State, str] = {
@@ -29,7 +29,7 @@ NAMES = 10  # columns up to the words of *Got* and the like
 
 def printable(words: str) -> str:
     """Words without line breaks, control and direction characters."""
-    return "".join(c if c.isprintable() else " " for c in words)
+    return harmless(words).replace("\n", " ")
 
 
 def clean(words: str) -> str:

@@ -27,7 +27,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from datetime import date, datetime, time, timedelta, tzinfo
+from datetime import date, datetime, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
@@ -37,7 +37,7 @@ from msgspec import Struct, structs
 
 from grader.classroom.intake.found import Found
 from grader.classroom.names import folded, names_of
-from grader.judge.course import EXAMPLE, FULL, Course, Late, wrong_late
+from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late, wrong_late
 from grader.judge.submission import CannotGrade
 
 DAY = timedelta(days=1)
@@ -235,7 +235,7 @@ def whole_days(document: dict[str, Any]) -> None:
             continue
         due = each.get("due")
         if isinstance(due, date) and not isinstance(due, datetime):
-            each["due"] = datetime.combine(due, time(23, 59, 59))
+            each["due"] = datetime.combine(due, END_OF_DAY)
         elif isinstance(due, str) and not re.match(r"\d{4}-\d\d-\d\d", due):
             raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
         for name in ("points", "add", "cap", "bonus"):

@@ -21,6 +21,7 @@ from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
 EXAMPLE = "2027-05-04T23:59:00+02:00"
+END_OF_DAY = time(23, 59, 59)  # when something is due that is due on a day
 ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last of all
 
 
@@ -203,7 +204,7 @@ def read_course(path: Path | None = None) -> Course:
         raise WrongCourse(f"there is no course at {path}: name a file such as {PLACE}") from error
     except ValueError as error:  # no TOML, or no text
         raise WrongCourse(f"{path} is no TOML: {error}") from error
-    for name, at in (("due", time(23, 59, 59)), ("visible", time())):
+    for name, at in (("due", END_OF_DAY), ("visible", time())):
         if isinstance(document.get(name), date):
             document[name] = instant(document[name], at)
     complaint = next(complaints(document), "")

@@ -371,7 +371,7 @@ def campaign(
     chosen = sample(mutants, count, seed)
     outcomes: list[Outcome] = []
     with Counter("grading mutants", len(chosen), console) as counter:
-        for outcome in grade_all(chosen, jobs, alone):
+        for outcome in each_of(partial(grade_mutant, alone=alone), chosen, jobs):
             outcomes.append(outcome)
             counter.reached(len(outcomes))
             if outcome.complaint or outcome.naming == "wrong":
@@ -380,10 +380,6 @@ def campaign(
     outcomes.sort(key=lambda each: places[each.mutant])
     show(outcomes, console)
     return Campaign(outcomes)
-
-
-def grade_all(chosen: Iterable[Mutant], jobs: int, alone: bool) -> Iterator[Outcome]:
-    yield from each_of(partial(grade_mutant, alone=alone), chosen, jobs)
 
 
 def show(outcomes: Sequence[Outcome], console: Console) -> None:

@@ -133,9 +133,9 @@ def answer(
     """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
         case Import(module, pieces, watched):
-            swapped = subject.load(module, pieces)
+            subject.load(module, pieces)
             subject.memory = Memory(str(subject.folder)) if watched else None
-            return Returned(",".join(swapped))
+            return Returned(None)
         case Remembered():
             names = subject.memory.changed() if subject.memory else []
             return Returned(cut(",".join(names), MAX_TEXT))

@@ -26,12 +26,9 @@ def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
         run_as_main(subject.folder, module)
     except SystemExit:
         pass
-    except EOFError as error:
-        if 0 < len(shown) < frames - 1:
-            raise
-        failed = error
     except Exception as error:
-        if len(shown):
+        waits_at_the_end = isinstance(error, EOFError) and len(shown) >= frames - 1
+        if len(shown) and not waits_at_the_end:
             raise
         failed = error
     if not len(shown):

@@ -81,8 +81,8 @@ class Subject:
 
     # ------------------------------------------------------------ names
 
-    def load(self, module: str, pieces: list[Piece]) -> list[str]:
-        """Import `module`; returns the targets of the pieces that were swapped in."""
+    def load(self, module: str, pieces: list[Piece]) -> None:
+        """Import `module`, and swap in the pieces of the reference."""
         package = (self.folder / module).is_dir()
         if not package and not (self.folder / f"{module}.py").exists():
             raise ContractError(f"there is no {module}.py, and no folder {module}")
@@ -90,7 +90,8 @@ class Subject:
         importlib.import_module(module)
         if module == "pymunk_scene":
             self.pair_type = pymunk.Vec2d
-        return [piece.target for piece in pieces if self.swap(piece)]
+        for piece in pieces:
+            self.swap(piece)
 
     def find(self, target: str) -> Any:
         """What a target names: module:path, or #ref.path for an object. Raises ContractError."""
@@ -118,7 +119,7 @@ class Subject:
         parts = [part for key, part in sys.modules.items() if key.startswith(f"{module}.")]
         return next((each for each in parts if name in vars(each)), whole)
 
-    def swap(self, piece: Piece) -> bool:
+    def swap(self, piece: Piece) -> None:
         """Put the reference's function in the place of the submission's, for all who hold it.
 
         So an unfinished TODO costs no points in another one. Left alone when the submission has no
@@ -127,14 +128,12 @@ class Subject:
         try:
             original = plain_function(self.find(piece.target))
             if original is None or self._is_asked(piece, original):
-                return False
+                return
             wanted = fitted(self._build(piece, original), piece.parameters, original)
         except (ContractError, KeyError, ImportError):
-            return False
-        if wanted is None:
-            return False
-        put_in_place(original, wanted)
-        return True
+            return
+        if wanted is not None:
+            put_in_place(original, wanted)
 
     def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
         """Whether one function of the submission is both: the other TODO's, and the one asked."""
