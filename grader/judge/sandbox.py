@@ -30,6 +30,7 @@ class Sandbox:
     layers: list[str] = field(default_factory=list)  # of isolation around the last child
     bans: list[str] = field(default_factory=list)  # modules that it may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
+    unseen: str = ""  # a scratch folder that no child has ever seen
 
     def open_child(self, cpu_seconds: int) -> Child:
         """A child with this budget, of processor seconds.
@@ -40,10 +41,13 @@ class Sandbox:
         try:
             if not self.bytecode.exists():
                 self._compile()
-            child = self.worker.open(self._setup(cpu_seconds))
+            setup = self._setup(cpu_seconds)
+            child = self.worker.open(setup)
         except (ChildEnded, OSError) as error:
             raise CannotGrade(f"{error}. Is the disk full, or the memory?") from error
         self.layers = self._layers_around(child)
+        # In a mount namespace it lies under a file system of the child's own: the next may have it.
+        self.unseen = setup.scratch if "mount-namespace" in self.layers else ""
         return child
 
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
@@ -81,7 +85,7 @@ class Sandbox:
     def _setup(self, cpu_seconds: int, compiles: bool = False) -> ChildSetup:
         return ChildSetup(
             submission=str(self.tree),
-            scratch=tempfile.mkdtemp(dir=self.work),
+            scratch=self.unseen or tempfile.mkdtemp(dir=self.work),
             limits=Limits(cpu_seconds=cpu_seconds),
             confine=self.isolation != "none",
             hidden=self.hidden,

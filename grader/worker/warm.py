@@ -5,6 +5,7 @@ is the parent of all children and ends whatever they leave running. The judge dr
 `control`, with Open and End; requests go to the children over sockets of their own.
 """
 
+import ctypes
 import gc
 import importlib
 import os
@@ -54,7 +55,13 @@ def main(control_fd: int, without: list[str]) -> None:
 
 
 def warm_up() -> None:
-    """Use once what every child uses, so that none has to load it by itself."""
+    """Use once what every child uses, so that none has to load it by itself.
+
+    SDL looks for joysticks in each frame. Where it may not ask the kernel, as in a child, it loads
+    libudev for that each time anew, a tenth of a millisecond, unless it is there already.
+    """
+    with suppress(OSError):  # not on every machine, and then SDL does not find it either
+        ctypes.CDLL("libudev.so.1")
     pygame.init()
     pygame.display.set_mode((1, 1))
     pygame.font.Font(None, 26).render("0", True, "white")

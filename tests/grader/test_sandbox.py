@@ -1,6 +1,7 @@
 """What a child finds of its submission: a copy of its own, and folders as they were handed out."""
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from grader.protocol import Call, Import, Items, Raised, Returned
 
 PROGRAM = """
 import os
+import sys
 import stable_engine
 
 def told():
@@ -71,5 +73,28 @@ def test_it_is_read_where_it_lies_and_all_else_is_the_childs_own(trees, spawn):
             assert isinstance(asked("write_into", "stable_engine"), Raised)
             child.end()
         assert not list(submission.rglob("log.txt"))
+    finally:
+        worker.close()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the layers are Linux's")
+@pytest.mark.parametrize("without", [[], ["user-namespace"]], ids=["covered", "bare"])
+def test_a_scratch_folder_serves_again_only_where_no_child_can_see_it(trees, without):
+    worker = start_worker(without=without)
+    try:
+        with work_folder() as work:
+            taken = take_in(trees[0], work / "submission", load_rubric(), {})
+            sandbox = sandbox_for(taken, work, worker, Options(trusted=True))
+            for _ in range(3):
+                child = sandbox.open_child(5)
+                child.ask(Import("mini_engine", []))
+                written = child.ask(Call("mini_engine:write_into", [".."])).reply
+                assert isinstance(written, Returned)
+                child.end()
+            covered = "mount-namespace" in sandbox.layers
+            places = [path for path in work.iterdir() if path.name.startswith("tmp")]
+            # The one that compiles has a folder of its own: it is waited for by nobody's layers.
+            assert len(places) == (2 if covered else 4)
+            assert len(list(work.rglob("log.txt"))) == (0 if covered else 3)
     finally:
         worker.close()

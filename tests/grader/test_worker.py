@@ -1,5 +1,6 @@
 """One child and what it may do: questions over the wall to a hostile module."""
 
+import ctypes
 import os
 import sys
 from collections.abc import Iterator
@@ -136,6 +137,18 @@ posix = pytest.mark.skipif(os.name == "nt", reason="Windows finds its libraries 
 linux = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="the layer named in the test is Linux's"
 )
+
+
+@linux
+def test_what_sdl_looks_for_in_each_frame_is_there_before_the_fork(forked: Asker):
+    """Where a child may not ask for joysticks, it loaded this library 2,000 times in a grade."""
+    try:
+        ctypes.CDLL("libudev.so.1")
+    except OSError:
+        pytest.skip("no libudev here, so SDL does not load it either")
+    forked("folder")
+    child = psutil.Process(forked.worker.pid_of(forked.children[0]))
+    assert any("libudev" in each.path for each in child.memory_maps())
 
 
 def test_the_environment_tells_nothing(ask: Asker, monkeypatch: pytest.MonkeyPatch):
