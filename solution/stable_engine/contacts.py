@@ -8,7 +8,7 @@ from .broad_phase import BroadPhase
 from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
 from .effect import Effect
 from .soft import SAME_DIRECTION, Pace, softness
-from .sweep import stop_at_first_hit
+from .sweep import NO_HIT, first_hit, stop_at_first_hit
 from .validate import refuse
 from .world import World
 
@@ -245,19 +245,32 @@ class Contacts(Effect):
             a, b = c.a, c.b
             gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
             if gap < -CORE * a.radius:
-                self.let_no_deeper(c)
+                self.let_no_deeper(c, gap)
 
-    def let_no_deeper(self, c: Contact) -> None:
-        """Put a ball back whose core got into a static body, or deeper than it was, and stop it."""
+    def let_no_deeper(self, c: Contact, gap: float) -> None:
+        """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
+
+        gap is along the normal with which the step began. Another one counts where the ball has
+        gone round a corner since, but not where it has gone through the body.
+        """
         a, b = c.a, c.b
-        nx, ny, gap = the_way_it_came(c, *collide(a, b))
-        back = min(c.found, -CORE * a.radius) - gap
+        nx, ny, now = the_way_it_came(c, *collide(a, b))
+        if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
+            nx, ny, now = c.nx, c.ny, gap
+        back = min(c.found, -CORE * a.radius) - now
         if back > 0:
             a.x -= nx * back
             a.y -= ny * back
             closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
             a.vx -= nx * closing
             a.vy -= ny * closing
+
+    def went_through(self, c: Contact) -> bool:
+        """Whether the centre of a ball was in a static body in this step, at its start or later."""
+        a, b = c.a, c.b
+        (start,) = [last for last in self.broad_phase.bounds if last.body is a]
+        way = first_hit([b], 0.0, start.x, start.y, a.x - start.x, a.y - start.y)
+        return c.found < -a.radius or way < NO_HIT
 
     def tell(self, h: float) -> None:
         """Tell of hits, those whose bodies are still there."""

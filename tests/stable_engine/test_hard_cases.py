@@ -24,6 +24,7 @@ from experiments.scenes import (
     Block,
     G,
     Scene,
+    Spring,
     chain,
     closed_box,
     coincident,
@@ -215,6 +216,21 @@ def test_a_ball_pressed_beyond_the_middle_of_a_box_leaves_the_way_it_came():
     ball.pos = (0, 3)
     run(world, 1)
     assert ball.y == pytest.approx(-10, abs=0.01)
+
+
+@pytest.mark.parametrize("substeps", [1, 2, 4])
+@pytest.mark.parametrize("thick", [1, 4, 20, 100])
+def test_a_ball_that_is_pressed_into_a_static_body_never_goes_through_it(thick, substeps):
+    """No flight of its core begins outside of the body, so no sweep finds that it got in."""
+    ledge, disc = Block((0, thick / 2), (1000, thick / 2)), Ball((0, thick / 2), thick / 2, mass=0)
+    depths, speeds, steps = (0.25, 0.5, 0.9), (0, 3000, 100_000), (1 / 1000, 1 / 60, 1 / 20)
+    for wall, depth, fast, dt in product((ledge, disc), depths, speeds, steps):
+        ball = Ball((0, -10 + 10 * depth), 10, vel=(0, fast))
+        scene = Scene([wall, ball], springs=[Spring(1, 0, 1e6, length=0)], gravity=(0, 0))
+        world = build(scene, "Contacts", "Springs", substeps=substeps)
+        for _ in range(10):
+            world.step(dt)
+            assert world.bodies[1].y < 0
 
 
 # ---------------------------------------------------------------- fast bodies
