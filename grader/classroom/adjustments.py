@@ -213,7 +213,7 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     """Read the file; without one, the course's rules are all. CannotGrade says what is wrong."""
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
-        whole_days(document)
+        in_order(document)
         adjustments = msgspec.convert(within(course, document), Adjustments)
     except OSError as error:
         raise CannotGrade(f"there are no adjustments at {path}") from error
@@ -224,24 +224,33 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     return adjustments
 
 
-def whole_days(document: dict[str, Any]) -> None:
-    """A date without a time is the end of that day, as in course.toml.
-
-    Raises ValueError where a date or a number of points cannot be one.
-    """
+def in_order(document: dict[str, Any]) -> None:
+    """See to the dates and numbers of each decision before it is decoded."""
     decisions = document.get("adjust")
     for each in [document.get("late"), *(decisions if isinstance(decisions, list) else [])]:
-        if not isinstance(each, dict):
-            continue
-        due = each.get("due")
-        if isinstance(due, date) and not isinstance(due, datetime):
-            each["due"] = datetime.combine(due, END_OF_DAY)
-        elif isinstance(due, str) and not re.match(r"\d{4}-\d\d-\d\d", due):
-            raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
-        for name in ("points", "add", "cap", "bonus"):
-            if name in each and type(each[name]) is not int:
-                whose = f" of {each['student']!r}" if "student" in each else ""
-                raise ValueError(f"{name} = {each[name]!r}{whose} must be a whole number")
+        if isinstance(each, dict):
+            whole_day(each)
+            whole_points(each)
+
+
+def whole_day(decision: dict[str, Any]) -> None:
+    """A date without a time is the end of that day, as in course.toml.
+
+    Raises ValueError where it is none.
+    """
+    due = decision.get("due")
+    if isinstance(due, date) and not isinstance(due, datetime):
+        decision["due"] = datetime.combine(due, END_OF_DAY)
+    elif isinstance(due, str) and not re.match(r"\d{4}-\d\d-\d\d", due):
+        raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
+
+
+def whole_points(decision: dict[str, Any]) -> None:
+    """Raises ValueError where a number of points is none."""
+    for name in ("points", "add", "cap", "bonus"):
+        if name in decision and type(decision[name]) is not int:
+            whose = f" of {decision['student']!r}" if "student" in decision else ""
+            raise ValueError(f"{name} = {decision[name]!r}{whose} must be a whole number")
 
 
 def within(course: Course, document: dict[str, Any]) -> dict[str, Any]:

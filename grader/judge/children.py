@@ -63,9 +63,7 @@ runpy.run_module({module!r}, run_name="__main__")
 """
 
 
-KILLED = -9  # exit status of what SIGKILL has ended
-SLEEPS = "it sleeps, waiting for something that does not come"
-LATE = "it did not answer in time"
+OUT_OF_TIME = (-24, -9)  # exit statuses: SIGXCPU, and SIGKILL a second later
 
 
 class ChildEnded(Exception):
@@ -95,7 +93,8 @@ class Child:
         self.heard = 0  # bytes of its answers
         self.first: list[Setup] = []  # to be done before the next request
         self.seen: dict[int, Value] = {}  # states that came with the last answer, by object
-        self.over = ""
+        self.over = ""  # why it answers no more
+        self.late = False  # whether it was ended because its time was over
         try:
             self.ready = ready_decoder.decode(channel.receive(START_SECONDS))
         except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
@@ -141,7 +140,7 @@ class Child:
             if answered.number != self.asked:
                 raise ProtocolError("an answer to another question")
         except ChannelTimeout as error:
-            self._give_up(str(error) or LATE, gone=False)
+            self._give_up(str(error) or "it did not answer in time", gone=False, late=True)
         except ChannelClosed:
             self._give_up("", gone=True)
         except NOT_A_MESSAGE as error:
@@ -149,11 +148,6 @@ class Child:
         else:
             return answered
         raise ChildEnded(self.over, self.late)
-
-    @property
-    def late(self) -> bool:
-        """Whether it was ended because its time was over."""
-        return self.over in (SLEEPS, LATE, explain(self.cpu_seconds, KILLED))
 
     def _receive(self) -> bytes:
         """The answer; a child that rests is not waited for as long as one that works."""
@@ -165,7 +159,7 @@ class Child:
             if not answered or self.waited - self.looked >= LOOK_SECONDS:
                 self._look()
             if self.rested > self.rest_seconds:
-                raise ChannelTimeout(SLEEPS)
+                raise ChannelTimeout("it sleeps, waiting for something that does not come")
             if answered:
                 return self.channel.receive(self.wall_seconds)
         raise ChannelTimeout
@@ -179,9 +173,10 @@ class Child:
         ours = seconds_in_queue(os.getpid()) - self.began
         self.rested, self.looked = max(self.rested, self.waited - busy - ours), self.waited
 
-    def _give_up(self, why: str, gone: bool) -> None:
-        status = self.worker.end(self, gone)
-        self.over = why or status
+    def _give_up(self, why: str, gone: bool, late: bool = False) -> None:
+        code = self.worker.end(self, gone)
+        self.over = why or explain(self.cpu_seconds, code)
+        self.late = late or (not why and code in OUT_OF_TIME)
 
     def end(self) -> None:
         if not self.over:
@@ -266,7 +261,8 @@ class Worker(Protocol):
 
     def pid_of(self, child: Child) -> int: ...
 
-    def end(self, child: Child, gone: bool) -> str: ...
+    def end(self, child: Child, gone: bool) -> int | None:
+        """The exit status, a signal negative; None where it took the worker down with it."""
 
     def close(self) -> None: ...
 
@@ -277,9 +273,11 @@ def command(module: str, *args: str) -> list[str]:
     return [sys.executable, "-I", "-c", BOOT.format(root=root, args=list(args), module=module)]
 
 
-def explain(cpu_seconds: int, code: int) -> str:
-    """Why a child is gone, from its exit status (a negative one is a signal, as in subprocess)."""
-    if code in (-24, KILLED):  # SIGXCPU, and SIGKILL a second later
+def explain(cpu_seconds: int, code: int | None) -> str:
+    """Why a child is gone, from what its worker says of it."""
+    if code is None:
+        return "it took the worker down with it"
+    if code in OUT_OF_TIME:
         return f"it used up its {cpu_seconds} s of processor time: a loop that never ends?"
     if code == -11:
         return "it crashed (segmentation fault)"
@@ -347,17 +345,16 @@ class WarmWorker:
                     return process.pid
         return child.ready.pid
 
-    def end(self, child: Child, gone: bool) -> str:
+    def end(self, child: Child, gone: bool) -> int | None:
         child.channel.close()
         try:
             self.control.send(End(child.ready.pid, gone))
             ended = msgspec.msgpack.decode(self._hear(), type=Ended)
         except (ChannelClosed, ChannelTimeout):
             self._kill()
-            return "it took the worker down with it"
+            return None
         child.cpu = ended.cpu
-        code = -ended.code if ended.how == "signal" else ended.code
-        return explain(child.cpu_seconds, code)
+        return -ended.code if ended.how == "signal" else ended.code
 
     def _hear(self) -> bytes:
         """What the warm process says; one that a child has stopped is not waited for."""
@@ -451,7 +448,7 @@ class SpawnWorker:
     def pid_of(self, child: Child) -> int:
         return child.ready.pid
 
-    def end(self, child: Child, gone: bool) -> str:
+    def end(self, child: Child, gone: bool) -> int | None:
         child.channel.close()
         reaped = reaped_seconds()
         process = self.processes.pop(id(child))
@@ -473,7 +470,7 @@ class SpawnWorker:
         process.kill()
         code = process.wait()
         child.cpu = max(child.cpu, reaped_seconds() - reaped)
-        return explain(child.cpu_seconds, code)
+        return code
 
     def close(self) -> None:
         for process in [*self.processes.values(), *(process for process, _ in self.ahead)]:
