@@ -267,10 +267,13 @@ class Contacts(Effect):
 
     def went_through(self, c: Contact) -> bool:
         """Whether the centre of a ball was in a static body in this step, at its start or later."""
-        a, b = c.a, c.b
-        (start,) = [last for last in self.broad_phase.bounds if last.body is a]
-        way = first_hit([b], 0.0, start.x, start.y, a.x - start.x, a.y - start.y)
-        return c.found < -a.radius or way < NO_HIT
+        if c.found < -c.a.radius:
+            return True
+        for last in self.broad_phase.bounds:
+            if last.body is c.a:
+                way = c.a.x - last.x, c.a.y - last.y
+                return first_hit([c.b], 0.0, last.x, last.y, *way) < NO_HIT
+        return False
 
     def tell(self, h: float) -> None:
         """Tell of hits, those whose bodies are still there."""
