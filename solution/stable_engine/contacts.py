@@ -18,6 +18,7 @@ STIFFENING = 0.07  # of a substep, per step
 RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
+CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may be in another
 TOUCHING = 1e-6  # px, bodies that are no further apart touch, but for what numbers are rounded to
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
@@ -241,29 +242,35 @@ class Contacts(Effect):
             distance = abs(body.x - last.x) + abs(body.y - last.y)
             if distance > body.radius > 0 and not body.bullet:
                 self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
-        for c in self.statics.contacts:
-            a, b = c.a, c.b
-            gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-            if gap < -CORE * a.radius:
-                self.let_no_deeper(c, gap)
+        for _ in range(CORNER_PASSES):
+            put_back = False
+            for c in self.statics.contacts:
+                a, b = c.a, c.b
+                gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
+                if gap < -CORE * a.radius:
+                    put_back |= self.let_no_deeper(c, gap)
+            if not put_back:
+                break
 
-    def let_no_deeper(self, c: Contact, gap: float) -> None:
+    def let_no_deeper(self, c: Contact, gap: float) -> bool:
         """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
 
-        gap is along the normal with which the step began. Another one counts where the ball has
-        gone round a corner since, but not where it has gone through the body.
+        Returns whether it did. gap is along the normal with which the step began. Another one
+        counts where the ball has gone round a corner since, but not where it has gone through.
         """
         a, b = c.a, c.b
         nx, ny, now = the_way_it_came(c, *collide(a, b))
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
         back = min(c.found, -CORE * a.radius) - now
-        if back > 0:
-            a.x -= nx * back
-            a.y -= ny * back
-            closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
-            a.vx -= nx * closing
-            a.vy -= ny * closing
+        if back <= TOUCHING:
+            return False
+        a.x -= nx * back
+        a.y -= ny * back
+        closing = max((a.vx - b.vx) * nx + (a.vy - b.vy) * ny, 0.0)
+        a.vx -= nx * closing
+        a.vy -= ny * closing
+        return True
 
     def went_through(self, c: Contact) -> bool:
         """Whether the centre of a ball was in a static body in this step, at its start or later."""

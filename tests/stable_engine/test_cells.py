@@ -1,0 +1,140 @@
+"""Balls in the cells of a grid of walls, thin or thick, with effects and numbers drawn at random.
+
+Nobody built these scenes: what is asked is that each ball stays in its cell, after any step, and
+that rods give no ball energy it did not have.
+"""
+
+import math
+import random
+import warnings
+from itertools import pairwise
+
+import pytest
+
+import stable_engine
+from experiments.steps import at_random, hiccups, lasting
+from stable_engine import Body, Box, Circle, Contacts, Damping, Rod, Rods, Spring, World
+
+OTHERS = ("Bounce", "Friction", "Rods", "Springs", "Bullets", "Sleep", "Damping")
+GRAVITIES = ((0, 980), (0, 0), (3000, 0), (-500, 700), (0, 9800))
+STEPS = (lambda: lasting(99, iter(lambda: 1 / 120, 0)), at_random, lambda: hiccups(count=30))
+
+
+def direction(rng, speed):
+    turn = rng.uniform(0, 2 * math.pi)
+    return speed * math.cos(turn), speed * math.sin(turn)
+
+
+class Cells:
+    """A world of one to six cells, and of each ball the middle of its cell."""
+
+    def __init__(self, seed):
+        rng = self.rng = random.Random(f"cells {seed}")
+        self.names = [name for name in OTHERS if rng.random() < 0.6]
+        effects = [
+            Damping(0.3, 0.5) if name == "Damping" else getattr(stable_engine, name)()
+            for name in self.names
+        ]
+        substeps = rng.choice((1, 2, 4, 4, 8))
+        self.world = World(rng.choice(GRAVITIES), substeps, [Contacts(), *effects])
+        self.wide, self.high = rng.uniform(80, 200), rng.uniform(80, 200)
+        self.thick = 10 ** rng.uniform(0.3, 1.5)
+        self.steps = rng.choice(STEPS)
+        columns, rows = rng.randint(1, 3), rng.randint(1, 2)
+        across, down = columns * self.wide / 2, rows * self.high / 2
+        for i in range(columns + 1):
+            self.wall(i * self.wide, down, self.thick / 2, down + self.thick / 2)
+        for j in range(rows + 1):
+            self.wall(across, j * self.high, across + self.thick / 2, self.thick / 2)
+        self.homes = {}
+        for i in range(columns):
+            for j in range(rows):
+                self.fill((i + 0.5) * self.wide, (j + 0.5) * self.high)
+
+    def surface(self):
+        return {"restitution": self.rng.choice((0, 0.5, 1)), "friction": self.rng.random()}
+
+    def wall(self, x, y, half_x, half_y):
+        self.world.add(Body(Box((half_x, half_y)), (x, y), **self.surface()))
+
+    def fill(self, x, y):
+        """Balls in one cell that do not overlap, and what ties some of them."""
+        rng, balls = self.rng, []
+        for _ in range(40):
+            radius = rng.uniform(3, 18)
+            half_x, half_y = (side / 2 - self.thick / 2 - radius for side in (self.wide, self.high))
+            pos = rng.uniform(x - half_x, x + half_x), rng.uniform(y - half_y, y + half_y)
+            if all(math.dist(pos, ball.pos) > radius + ball.radius for ball in balls):
+                fast = "Bullets" in self.names and rng.random() < 0.2
+                mass = 10 ** rng.uniform(-1.5, 1.5)
+                ball = Body(Circle(radius), pos, mass, bullet=fast, **self.surface())
+                ball.vel = direction(rng, rng.choice((0, 100, 1000, 3000, 20_000)))
+                balls.append(self.world.add(ball))
+        self.homes |= dict.fromkeys(balls, (x, y))
+        for a, b in [rng.sample(balls, 2) for _ in range(3)] if len(balls) > 1 else []:
+            if "Rods" in self.names:
+                self.world.add(Rod(a, b))
+            if "Springs" in self.names:
+                stiffness, damping = 10 ** rng.uniform(0, 6), 10 ** rng.uniform(-2, 2)
+                self.world.add(Spring(a, b, stiffness, damping, rng.uniform(0, 80)))
+                wall = rng.choice(self.world.statics)
+                self.world.add(Spring(b, wall, stiffness, damping, rng.uniform(0, 30)))
+
+    def lost(self):
+        """The balls whose centre is beyond the middle of a wall of their cell."""
+        return [
+            ball
+            for ball, (x, y) in self.homes.items()
+            if abs(ball.x - x) > self.wide / 2 or abs(ball.y - y) > self.high / 2
+        ]
+
+
+def all_stay(seed, steps):
+    cells = Cells(seed)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of effects that a scene drawn at random does not use
+        for dt, _ in zip(cells.steps(), range(steps), strict=False):
+            cells.world.step(dt)
+            assert not cells.lost(), f"seed {seed}, {cells.names}"
+
+
+@pytest.mark.parametrize("seed", [7, 10, 24, 31, 41, 64])  # each lost a ball once
+def test_balls_stay_in_their_cells(seed):
+    all_stay(seed, 50)
+
+
+@pytest.mark.soak  # three minutes
+def test_balls_stay_in_a_thousand_grids_of_cells():
+    for seed in range(1000):
+        all_stay(seed, 240)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_rods_give_no_energy_however_fast_their_ends_pass(count):
+    """In a step their ends may come past each other, and then seem to part. No force acts here."""
+    for seed in range(150):
+        rng = random.Random(f"{count} on rods, {seed}")
+        world = World((0, 0), rng.choice((1, 2, 4)), [Rods()])
+        balls = [
+            Body(Circle(5), (rng.uniform(0, 200), rng.uniform(0, 200)), 10 ** rng.uniform(-1, 1))
+            for _ in range(count)
+        ]
+        for ball in balls:
+            world.add(ball).vel = direction(rng, 10 ** rng.uniform(1, 6))
+        for a, b in pairwise(balls):
+            world.add(Rod(a, b))
+        before, dt = energy_in_the_middle_frame(balls), 10 ** rng.uniform(-3, -1)
+        for _ in range(10):
+            world.step(dt)
+            assert energy_in_the_middle_frame(balls) <= 1.0001 * before, seed
+
+
+def energy_in_the_middle_frame(balls):
+    """Kinetic energy (kg px²/s²) about the centre of mass, which nothing inside can raise."""
+    mass = sum(ball.m for ball in balls)
+    vx, vy = (sum(ball.m * v for ball, v in each) / mass for each in velocities(balls))
+    return sum(ball.m * ((ball.vx - vx) ** 2 + (ball.vy - vy) ** 2) / 2 for ball in balls)
+
+
+def velocities(balls):
+    return [(ball, ball.vx) for ball in balls], [(ball, ball.vy) for ball in balls]
