@@ -42,18 +42,21 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
             "none near it",
         )
     for number, (before, after) in enumerate(pairwise(rows), 2):
-        for each in before:
+        for place, each in enumerate(before):
+            likeliest_first = [*after[place:], *after[:place]]
             if is_clear(each, before):
-                want_a_flight(lab, each, after, number)
+                want_a_flight(lab, each, likeliest_first, number)
             else:
-                want_no_jump(lab, each, after, number)
+                want_no_jump(lab, each, likeliest_first, number)
 
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that there is a ball that flew to where it is; who sorts bodies may have moved it."""
+    if any(may_have_been(other, (each.x, each.y)) and flew(each, other) for other in after):
+        return
     near = [other for other in after if may_have_been(other, (each.x, each.y))]
     lab.want(
-        any(flew(each, other) for other in near),
+        False,
         f"a ball at ({each.x:.1f}, {each.y:.1f}) that touches nothing to fall: at "
         f"({each.vx:.1f}, {each.vy + GRAVITY * STEP:.1f}) px/s after step {number}",
         say(near[0]) if near else "no ball near there",
@@ -62,9 +65,14 @@ def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) 
 
 def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that there is a body near where this one was, and that neither is absurdly fast."""
-    near = [other for other in after if may_have_been(other, (each.x, each.y), PUSHED)]
+    place = each.x, each.y
+    if each.speed <= FASTEST and any(
+        other.speed <= FASTEST and may_have_been(other, place, PUSHED) for other in after
+    ):
+        return
+    near = [other for other in after if may_have_been(other, place, PUSHED)]
     lab.want(
-        each.speed <= FASTEST and any(other.speed <= FASTEST for other in near),
+        False,
         f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
         f"faster than {FASTEST:g} px/s",
         say(near[0]) if near else "no body near there",
