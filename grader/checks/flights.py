@@ -42,8 +42,8 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
             "none near it",
         )
     for number, (before, after) in enumerate(pairwise(rows), 2):
-        for place, each in enumerate(before):
-            likeliest_first = [*after[place:], *after[:place]]
+        for which, each in enumerate(before):
+            likeliest_first = [*after[which:], *after[:which]]
             if is_clear(each, before):
                 want_a_flight(lab, each, likeliest_first, number)
             else:
