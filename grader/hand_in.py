@@ -43,9 +43,7 @@ def packed_files(tree: Path, course: Course) -> dict[str, Path]:
     return {
         name: found[name]
         for name in sorted(found)
-        if name.partition("/")[0] not in given
-        and not name.endswith(SUFFIXES)
-        and not found[name].name.startswith(".")
+        if name.partition("/")[0] not in given and not name.endswith(SUFFIXES)
     }
 
 

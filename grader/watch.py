@@ -239,7 +239,7 @@ def python_sources(folder: Path) -> Sources:
     """The Python files that would be handed in. One that goes away meanwhile is left out."""
     found = {}
     for path in plain_files(folder):
-        if path.suffix == ".py" and not path.name.startswith("."):
+        if path.suffix == ".py":
             with suppress(OSError):
                 found[path.relative_to(folder).as_posix()] = read_source(path)
     return found

@@ -155,6 +155,11 @@ known(
     "Only B gets the impulse; A must get the opposite one.",
     velocities(lambda rod: (rod.vel_a, exact.pushed(rod, right_impulse(rod))[1])),
 )
+known(
+    "b-does-it-all",
+    "B changes speed for both, as if A were static; each end takes the impulse by its inv_mass.",
+    velocities(lambda rod: (rod.vel_a, moved(rod.vel_b, rod.axis, rod.bias - rod.speed))),
+)
 
 
 def same_way(rod: Rod) -> Ends:

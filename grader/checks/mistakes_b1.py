@@ -8,6 +8,7 @@ from grader.checks.todo_b1 import (
     AFTER_A_PUSH,
     AFTER_A_SPIN,
     AFTER_THE_AIR,
+    ANOTHER_HIT,
     AT_FIRST,
     AT_REST,
     CARRIED_AWAY,
@@ -27,7 +28,7 @@ from grader.judge.misconceptions import Undecided, mistake, truth
 HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
 HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
 AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
-ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, CHEAP)
+ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, CHEAP)
 RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
 truth("sleep", RIGHT.__getitem__)
@@ -75,6 +76,11 @@ known(
     "sleeps-through-a-hit",
     "A sleeper sleeps on when something faster than WAKING touches it.",
     wrong_at(*HIT),
+)
+known(
+    "one-hit-wakes-all",
+    "A hit wakes those that nothing has touched, too: only who is touched wakes.",
+    wrong_at(ANOTHER_HIT),
 )
 known(
     "floats-when-its-support-leaves",

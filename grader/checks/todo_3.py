@@ -139,6 +139,8 @@ def a_stretched_rod_pulls_its_ends_together(lab: Lab) -> None:
     want_exact(lab, like(lab, Rod(1.0, 4.0, 80.0, (-60.0, 80.0), SLOW, FAST, STEP)), at=FAR_AWAY)
     want_exact(lab, like(lab, Rod(1.0, 4.0, 0.0, (-3.0, 4.0), SLOW, FAST, STEP)))
     want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR + 50.0), SLOW, FAST, STEP)))
+    # A static end that is carried along has a speed for all that.
+    want_exact(lab, like(lab, Rod(0.0, 2.0, 50.0, (60.0, 0.0), SLOW, FAST, STEP)))
 
 
 def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
@@ -146,6 +148,24 @@ def a_squeezed_rod_pushes_its_ends_apart(lab: Lab) -> None:
     want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (40.0, 0.0), STILL, STILL, STEP)))
     want_exact(lab, like(lab, Rod(1.0, 4.0, 120.0, (60.0, -80.0), SLOW, FAST, STEP)))
     want_exact(lab, like(lab, Rod(3.0, 1.0, 50.0, (0.0, A_HAIR - 50.0), SLOW, FAST, STEP)))
+    ends_in_one_place_part(lab)
+
+
+def ends_in_one_place_part(lab: Lab) -> None:
+    """Which way is for `prepare` to say: it has given the rod an axis."""
+    rod = like(lab, Rod(3.0, 1.0, 50.0, STILL, SLOW, SLOW, STEP))
+    lab.ran(f"solve on a rod {rod.length:g} px long whose ends are in one place, both {SLOW} px/s")
+    joint, a, b = joined(lab, rod)
+    lab.tell(joint, "solve", changes={a: "vel", b: "vel"}, sees=(a, b))
+    vel_a, vel_b = velocities((lab.state(a), lab.state(b)))
+    after, right = rod._replace(vel_a=vel_a, vel_b=vel_b), BETA / rod.dt * rod.length
+    apart = abs(math.dist(vel_a, vel_b) - right) <= 1e-9 * right
+    kept = math.dist(after.momentum, rod.momentum) <= 1e-9 * right
+    lab.want(
+        apart and kept,
+        f"B leaves A at bias, {right:g} px/s, and the momentum is as before",
+        say(vel_a, vel_b),
+    )
 
 
 def a_rod_of_the_right_length_stops_only_the_speed_along_it(lab: Lab) -> None:

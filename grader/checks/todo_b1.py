@@ -22,6 +22,7 @@ ON_A_ROD, ON_A_SPRING = "on its rod", "on its spring"
 AFTER_A_PUSH = "for half a second after the push, as its time begins anew"
 AFTER_THE_AIR = "for half a second after it came down, as its time begins anew"
 AFTER_A_HIT, AFTER_A_SPIN = "after the hit", "when a ball that spins has touched it"
+ANOTHER_HIT = "when another one is hit, far away"
 FLOOR_GONE, CARRIED_AWAY = "when its floor is gone", "when the ball below is gone"
 ONE_OF_TWO_GONE = "when one of the two boxes it lies on is gone"
 CHEAP = "a pile that sleeps costs next to nothing"
@@ -241,15 +242,16 @@ def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
 
 def a_hit_wakes(lab: Lab) -> None:
     lab.ran("a ball that rolls at 200 px/s into one that sleeps, and again when that sleeps anew")
-    sleeper, ground = ball(lab), floor(lab)
-    world = room(lab, ground, sleeper)
+    sleeper, another, ground = ball(lab), ball(lab, -400.0), floor(lab)
+    world = room(lab, ground, sleeper, another)
     for _ in range(3):
-        put_to_sleep(lab, world, sleeper)
+        put_to_sleep(lab, world, sleeper, another)
         x = lab.state(sleeper).pos.x
         roller = ball(lab, x - 60.0, vel=(200.0, 0.0), omega=20.0)
         lab.tell(world, "add", roller)
         run(lab, world, 0.3)
         want(lab, False, sleeper, AFTER_A_HIT)
+        want(lab, True, another, ANOTHER_HIT)
         # Of two equal balls that do not bounce each goes on at half the speed.
         speed = lab.state(sleeper).vel.x
         lab.want(speed > 50.0, "it rolls on at about 100 px/s", f"{speed:.1f} px/s")

@@ -22,6 +22,7 @@ STATES = 8  # balls of a scene that may be of any weight, and move
 PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
 WHOLE_CELLS = 4800.0  # px: many cells of each size that AT_THE_RIM asks about
 MANY = 4500  # to compare these pair by pair takes many seconds, and to look at cells a part of one
+A_HAIR = 1 / 64  # px
 MOST_TOLD = 1000  # contacts come with an answer
 GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
 
@@ -98,22 +99,28 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
     want_the_same_contacts(lab, [*level, *upright], [floor, wall])
     lab.ran("find_contacts with balls that overlap by half a pixel, left of 0 and above it")
     want_the_same_contacts(lab, AT_THE_RIM, [])
+    lab.ran("find_contacts with 100 balls of 1 px so close together that a cell holds them all")
+    crowded = [Disc(10 + 1.75 * (n % 10), 10 + 1.75 * (n // 10), 1.0) for n in range(100)]
+    want_the_same_contacts(lab, crowded, [])
     lab.ran("find_contacts with balls that overlap just left of 0, above it, at 640 and at 928 px")
     at_0 = [Disc(each, 300.0, 10.0) for each in (-8.0, -25.0)]
     at_0 += [Disc(600.0, each, 10.0) for each in (-8.0, -25.0)]
     want_the_same_contacts(lab, [*at_0, *overlapping_at(640.0), *overlapping_at(928.0)], [])
 
 
-def overlapping_at(line: float) -> list[Disc]:
+def overlapping_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
     """Two balls side by side and two one below the other, around a line half a pixel off."""
-    before, behind = line - 10.25, line + 9.25
+    before, behind = line + before, line + behind
     side_by_side = [Disc(each, 40.0 * line, 10.0) for each in (before, behind)]
     return side_by_side + [Disc(40.0 * line + 500.0, each, 10.0) for each in (before, behind)]
 
 
+SIZES = (32.0, 40.0, 48.0, 50.0, 64.0, 96.0, 100.0)  # px, of cells
 # Of cells of many sizes the balls share one, and by a hair: who rounds to 0 leaves them in two.
-AT_THE_RIM = [
-    ball for size in (32, 40, 48, 50, 64, 96, 100) for ball in overlapping_at(-float(size))
+AT_THE_RIM = [ball for size in SIZES for ball in overlapping_at(-size)]
+# Here they share none, as they do not touch, and by a hair.
+ON_BOTH_SIDES = [
+    ball for size in SIZES for ball in overlapping_at(-size, -10.0 - A_HAIR, 10.0 + A_HAIR)
 ]
 
 
@@ -168,6 +175,14 @@ def contacts_follow_the_bodies(lab: Lab) -> None:
     want_no_other(lab, *without_and_with(lab, world, bodies))
     lab.ran(f"{lab.running}, and a third time when that one is asleep")
     lab.put(bodies[1], asleep=True)
+    want_no_other(lab, *without_and_with(lab, world, bodies))
+    creep = 4 * A_HAIR
+    lab.ran(f"find_contacts with balls nearly touching, and again after half crept {creep:g} px")
+    world, bodies = crowd(lab, ON_BOTH_SIDES, [])
+    want_no_other(lab, *without_and_with(lab, world, bodies))
+    for number, (body, each) in enumerate(zip(bodies, ON_BOTH_SIDES, strict=True)):
+        if number % 2:
+            lab.put(body, pos=(each.x - creep, each.y - creep))
     want_no_other(lab, *without_and_with(lab, world, bodies))
 
 

@@ -181,11 +181,18 @@ class Diagnosis:
                 each
                 for where, some in group
                 for each in self.named(where, some)
-                if len(each.explains) > len(way)
+                if len(each.explains) > len(way) and self.telling(each)
             ]
             if self.explained(found) > self.explained(best):
                 best = found
         return best
+
+    def telling(self, finding: Finding) -> bool:
+        """Whether more speaks for it than answers that are missing in some of the questions.
+
+        Nothing at all is what many mistakes leave of an answer, and this one would show elsewhere.
+        """
+        return not finding.where or any(self.seen[n].answer is not None for n in finding.explains)
 
     def explained(self, findings: list[Finding]) -> int:
         """How many wrong parts of answers these mistakes explain."""

@@ -128,8 +128,9 @@ def load_given() -> dict[str, str]:
 
 
 def plain_files(path: Path) -> Iterator[Path]:
-    """What may be part of a submission: no virtual environment, no name that is no text.
+    """What may be part of a submission: nothing hidden, no environment, no name that is no text.
 
+    A Mac leaves a hidden `._contacts.py`, which is no Python, beside each file on a foreign disk.
     Folder by folder from the top. Raises CannotGrade where there is no end of it, or a folder
     cannot be read: what lies in it may be the work, and must not count as none.
     """
@@ -150,7 +151,7 @@ def plain_files(path: Path) -> Iterator[Path]:
                 if entry.is_dir(follow_symlinks=False):
                     if may_be_entered(entry):
                         waiting.append((here / entry.name, depth + 1))
-                elif entry.is_file(follow_symlinks=False) and entry.name.isprintable():
+                elif entry.is_file(follow_symlinks=False) and may_be_read(entry.name):
                     yield here / entry.name
 
 
@@ -164,10 +165,15 @@ def unreadable(error: OSError, within: Path) -> str:
     return f"{Path(name).name if inside.startswith('..') else inside} cannot be read: {why}"
 
 
+def may_be_read(name: str) -> bool:
+    """No hidden file or folder, and no name that is no text."""
+    return name.isprintable() and not name.startswith(".")
+
+
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    """No virtual environment, and no name that is no text: it would be in those of its files."""
-    hidden = folder.name.startswith(".") or folder.name in IGNORED or not folder.name.isprintable()
-    return not hidden and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
+    """No virtual environment, and no name that would be wrong in those of its files."""
+    ours = may_be_read(folder.name) and folder.name not in IGNORED
+    return ours and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:

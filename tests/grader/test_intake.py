@@ -448,10 +448,20 @@ def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
         archive.writestr(link, "/etc/passwd")
         for name in ("env/pyvenv.cfg", "env/lib/site.py", ".git/config", "__MACOSX/._x.py"):
             archive.writestr(name, "")
+        for name in ("mini_engine/._contacts.py", "mini_engine/._world.py", "._integrators.py"):
+            archive.writestr(name, b"\0\5\26\7\0\2\0\0Mac OS X")
         for number in range(MAX_FILES + 1):
             archive.writestr(f"node_modules/{number}.py", "")
     package = pack(handed_in(classroom, content.getvalue()))
     assert [name for name, _ in package.files] == sorted(PROGRAM) and not package.notes
+
+
+def test_what_a_mac_leaves_beside_each_file_is_no_part_of_a_folder(classroom):
+    shadows = [".DS_Store", "._mini_engine", "._integrators.py", "mini_engine/._contacts.py"]
+    write(classroom, under("ann") | under("ann", dict.fromkeys(shadows, b"\0\5\26\7")))
+    with opened_class(classroom) as taken:
+        (found,) = taken.found
+        assert names_in(found) == sorted(PROGRAM)
 
 
 @pytest.mark.parametrize("said", [True, False])
