@@ -9,6 +9,7 @@ import select
 import socket
 import struct
 import time
+from contextlib import suppress
 from typing import Annotated, Literal
 
 import msgspec
@@ -523,25 +524,74 @@ class ChannelTimeout(Exception):
     """No answer in time."""
 
 
+AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)  # as much as there is room for; not on Windows
+
+
+def packed(message: object) -> bytes:
+    """A message as it is sent, its length first."""
+    body = msgspec.msgpack.encode(message)
+    if len(body) > MAX_MESSAGE:
+        raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
+    return HEADER.pack(len(body)) + body
+
+
 class Channel:
     """Framed messages over a connected socket.
 
     An eager one reads as much as there is; one over which file descriptors travel must not.
+
+    `send` and `receive` wait for the other side: a long message is sent only as fast as it is read
+    there, and half a message may be all that comes. Who must not be held up by it uses `post`,
+    `gone` and `complete`.
     """
 
     def __init__(self, sock: socket.socket, eager: bool = True) -> None:
         self.sock = sock
         self.eager = eager
         self.ahead = bytearray()  # read already, not asked for yet
+        self.behind = b""  # posted, not sent yet
 
     def send(self, message: object) -> None:
-        body = msgspec.msgpack.encode(message)
-        if len(body) > MAX_MESSAGE:
-            raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
         try:
-            self.sock.sendall(HEADER.pack(len(body)) + body)
+            self.sock.sendall(packed(message))
         except OSError as error:
             raise ChannelClosed(str(error)) from error
+
+    def post(self, message: object) -> None:
+        """Have a message ready, to be sent by `gone`."""
+        self.behind = packed(message)
+
+    def gone(self, seconds: float) -> bool:
+        """Send what was posted, for so many seconds at most; whether all of it is sent."""
+        deadline = time.monotonic() + seconds
+        try:
+            while self.behind:
+                with suppress(BlockingIOError):
+                    self.behind = self.behind[self.sock.send(self.behind, AT_ONCE) :]
+                    continue
+                left = deadline - time.monotonic()
+                if left <= 0 or not select.select([], [self.sock], [], left)[1]:
+                    return False
+        except OSError as error:
+            raise ChannelClosed(str(error)) from error
+        return True
+
+    def complete(self, seconds: float) -> bool:
+        """Whether all of a message is there, at the latest after so many seconds; eager ones only.
+
+        Of one that is too long nothing more is waited for: `receive` refuses it.
+        """
+        deadline = time.monotonic() + seconds
+        while not HEADER.size <= len(self.ahead) >= self._end:
+            if not self._take(1 << 16, max(0.0, deadline - time.monotonic())):
+                return False
+        return True
+
+    @property
+    def _end(self) -> int:
+        """Where the first message ends, once its header is there; of a long one the header."""
+        (length,) = HEADER.unpack_from(self.ahead)
+        return HEADER.size + (length if length <= MAX_MESSAGE else 0)
 
     def receive(self, timeout: float | None = None) -> bytes:
         """The body of the next message; `timeout` in seconds is for the whole of it."""

@@ -19,6 +19,8 @@ DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
 ENDLESS = "The loop of steps does not end: each step must take STEP from the accumulator."
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
+LONGEST_FRAME = 58  # ms: of those that are meant to stay below the cap
+LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room between them
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
@@ -29,7 +31,7 @@ def frames_at(rate: int, seconds: float) -> list[int]:
 
 def ever_longer_frames() -> list[int]:
     """Frames of all lengths below the cap, 6 of each: a length that is taken for another shows."""
-    return [length for length in range(1, 59) for _ in range(6)]
+    return [length for length in range(1, LONGEST_FRAME + 1) for _ in range(6)]
 
 
 @dataclass
@@ -78,8 +80,43 @@ class Pace:
 
 
 def pace(lab: Lab, frames: list[int]) -> Pace:
-    """Play the program with these frames and count its steps without running them."""
-    frames = [*OFF_BEAT, *frames, *SETTLE]
+    """Play the program with these frames and count its steps without running them.
+
+    One that waits by itself makes short frames as long as it likes: who always waits for as many
+    steps as always run has no need of an accumulator. So it is asked once more, with longer frames
+    that its waiting does not fill.
+    """
+    paced, waits = played_at(lab, frames)
+    if not waits:
+        return paced
+    lab.want(
+        waits <= LONGEST_WAIT,
+        f"frames of {min(frames)} to {max(frames)} ms, or of up to {LONGEST_WAIT} ms where the "
+        "program waits by itself",
+        f"one of {waits:.0f} ms",
+    )
+    paced, waits = played_at(lab, [beyond(waits, each) for each in frames])
+    lab.want(
+        not waits,
+        "a program that waits for no longer where its frames are longer",
+        f"a frame of {waits:.0f} ms",
+    )
+    return paced
+
+
+def beyond(waits: float, frame: int) -> int:
+    """The length of a frame, ms, for a program that waits for so long by itself.
+
+    Frames stay below the cap that were below it, and of two the longer one is longer.
+    """
+    least = math.floor(min(waits, LONGEST_WAIT)) + 1
+    room = LONGEST_UNCUT - least
+    return max(least + math.ceil(room * min(frame / LONGEST_FRAME, 1.0)), frame)
+
+
+def played_at(lab: Lab, asked: list[int]) -> tuple[Pace, float]:
+    """What the program makes of these frames; and the longest that it has made longer, ms, or 0."""
+    frames = [*OFF_BEAT, *asked, *SETTLE]
     played = lab.play(frames, physics=False)
     count = len(frames)
     # What ran before the first frame had a length is nothing to judge a program by, nor is a
@@ -89,9 +126,12 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
     lab.saw("frames", (tuple(frames),), (steps, sizes))
     want_a_proper_end(lab, played, count)
     lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
-    # A program that sleeps before its first steps may have part of a step left.
-    waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), STEP_MS)
-    return Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
+    both = zip(lengths[len(OFF_BEAT) :], asked, strict=False)
+    longer = (length for length, frame in both if length > frame + ROUNDING)
+    # A program that sleeps before its first steps may have all of that left.
+    waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), LONGEST_WAIT)
+    paced = Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
+    return paced, max(longer, default=0.0)
 
 
 def fixed(sizes: list[float]) -> bool:

@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -131,8 +131,8 @@ class Child:
                 raise ProtocolError("an answer came before its question")
             self.asked += 1
             first, self.first = self.first, []
-            self.channel.send(Asked(self.asked, request, first))
-            body = self._receive()
+            self.channel.post(Asked(self.asked, request, first))
+            body = self._exchange()
             self.heard += len(body)
             if self.heard > MAX_HEARD:
                 raise ProtocolError(f"more than {MAX_HEARD >> 20} MB of answers")
@@ -149,19 +149,28 @@ class Child:
             return answered
         raise ChildEnded(self.over, self.late)
 
-    def _receive(self) -> bytes:
-        """The answer; a child that rests is not waited for as long as one that works."""
+    def _exchange(self) -> bytes:
+        """Send what was posted and receive the answer; neither waits for a child that rests.
+
+        It may leave a question unread, so that no more of it can be sent, or answer by halves.
+        """
         deadline = self.waited + self.wall_seconds
+        self._wait_for(self.channel.gone, deadline)
+        self._wait_for(self.channel.complete, deadline)
+        return self.channel.receive()
+
+    def _wait_for(self, happens: Callable[[float], bool], deadline: float) -> None:
+        """Until it does; a child that rests is not waited for as long as one that works."""
         while self.waited < deadline:
             began = time.monotonic()
-            answered = self.channel.wait(min(LOOK_SECONDS, self.rest_seconds))
+            happened = happens(min(LOOK_SECONDS, self.rest_seconds))
             self.waited += time.monotonic() - began
-            if not answered or self.waited - self.looked >= LOOK_SECONDS:
+            if not happened or self.waited - self.looked >= LOOK_SECONDS:
                 self._look()
             if self.rested > self.rest_seconds:
                 raise ChannelTimeout("it sleeps, waiting for something that does not come")
-            if answered:
-                return self.channel.receive(self.wall_seconds)
+            if happened:
+                return
         raise ChannelTimeout
 
     def _look(self) -> None:

@@ -9,7 +9,7 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import count
+from itertools import accumulate, count
 from typing import Any, Literal, NamedTuple
 
 import msgspec
@@ -43,6 +43,7 @@ from grader.protocol import (
 )
 
 STEP = 1 / 120  # s
+ROUNDED = 1e-6  # ms
 Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
 NOTHING: Frame = {}
 OURS = 1_000_000  # numbers of objects from here on are given by us, lower ones by the child
@@ -380,6 +381,12 @@ class Lab(Decoder):
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
+        asked = zip(reply.clock, accumulate(frames, initial=0), strict=False)
+        self.want(
+            all(told >= ms - ROUNDED for told, ms in asked),
+            "frames that take as long as they are asked to",
+            "shorter ones",
+        )
         return reply
 
     def start_anew(self) -> None:

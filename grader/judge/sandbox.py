@@ -10,6 +10,7 @@ from pathlib import Path
 from grader.judge.children import Child, ChildEnded, Worker
 from grader.judge.isolation import Isolation, refusal
 from grader.judge.submission import CannotGrade
+from grader.judge.workplace import remove
 from grader.protocol import ChildSetup, Limits
 
 COMPILING_SECONDS = 5  # of processor time, for all files of a submission
@@ -31,6 +32,7 @@ class Sandbox:
     bans: list[str] = field(default_factory=list)  # modules that it may not import, by name
     shown: list[str] = field(default_factory=list)  # folders that children need not copy
     unseen: str = ""  # a scratch folder that no child has ever seen
+    used: list[tuple[Child, str]] = field(default_factory=list)  # children, and what they wrote to
 
     def open_child(self, cpu_seconds: int) -> Child:
         """A child with this budget, of processor seconds.
@@ -38,6 +40,7 @@ class Sandbox:
         Raises CannotGrade where none can be started: until then the submission has not run a line,
         so this says nothing about it.
         """
+        self._clear()
         try:
             if not self.bytecode.exists():
                 self._compile()
@@ -48,7 +51,16 @@ class Sandbox:
         self.layers = self._layers_around(child)
         # In a mount namespace it lies under a file system of the child's own: the next may have it.
         self.unseen = setup.scratch if "mount-namespace" in self.layers else ""
+        if not self.unseen:
+            self.used.append((child, setup.scratch))
         return child
+
+    def _clear(self) -> None:
+        """Remove what children that have ended wrote on the disk: each may write gigabytes."""
+        for child, scratch in self.used:
+            if child.over:
+                remove(Path(scratch))
+        self.used = [each for each in self.used if not each[0].over]
 
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
         """That of a copy of the tree with other text in some of its files, by their names.
@@ -65,7 +77,7 @@ class Sandbox:
             path.write_text(text, encoding="utf-8", newline="\n")
             os.utime(path, (later, later))
             path.chmod(0o444)
-        return replace(self, tree=tree)
+        return replace(self, tree=tree, used=[])
 
     @property
     def bytecode(self) -> Path:

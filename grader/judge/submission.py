@@ -1,5 +1,6 @@
 """Taking in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
 
+import errno
 import math
 import os
 import shutil
@@ -30,6 +31,7 @@ MAX_BYTES = 20 * 1024 * 1024
 MAX_SEEN = 20_000  # files and folders that are looked at
 MAX_DEPTH = 40  # folders in each other
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
+FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
@@ -83,16 +85,21 @@ def copy_tree(path: Path, submission: Submission) -> None:
     files = size = 0
     for source in sorted(plain_files(path), key=lambda each: weight(each.relative_to(path))):
         inside = source.relative_to(path)
-        length = source.stat().st_size
+        try:
+            length = source.stat().st_size
+        except OSError as error:  # such as a path that is too long
+            raise CannotGrade(unreadable(error, path)) from error
         if files + 1 > MAX_FILES or size + length > MAX_BYTES:
             submission.left_out.append(f"{inside.as_posix()}: too much")
             continue
         files, size = files + 1, size + length
         target = submission.folder / inside
-        target.parent.mkdir(parents=True, exist_ok=True)
         try:
+            target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
-        except PermissionError as error:
+        except OSError as error:
+            if error.errno in FULL:
+                raise
             raise CannotGrade(unreadable(error, path)) from error
 
 
@@ -115,7 +122,10 @@ def supply_given(folder: Path) -> None:
         own_package = (folder / package / "__init__.py").exists()
         hidden = (folder / f"{package}.py").exists() and not own_package
         target = folder / name
-        if target.exists() or ("/" in name and (hidden or not (folder / package).is_dir())):
+        there = next(each for each in (target, *target.parents) if each.exists())
+        if not there.is_dir() or there == target:  # it has it, or something else in its place
+            continue
+        if "/" in name and (hidden or not (folder / package).is_dir()):
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text, encoding="utf-8", newline="\n")

@@ -190,13 +190,16 @@ WALLS = {
     "seccomp": (317, 277),
     "personality": (135, 92),
 }
-# What the machine did before: which pages of which files it has read, and how busy it is. A child
-# could leave a word there, by emptying a file's pages or by working, and a later one find it.
+# What the machine did before: which pages of which files it has read, how busy it is, how full its
+# disks are. A child could leave a word there, by emptying a file's pages, by working or by writing,
+# and a later one find it.
 MEMORY = {
     "fadvise64": (221, 223),
     "mincore": (27, 232),
     "readahead": (187, 213),
     "sysinfo": (99, 179),
+    "statfs": (137, 43),
+    "fstatfs": (138, 44),
 }
 # The machine as a whole, and the parts of the kernel in which most holes were found.
 MACHINE = {
@@ -250,6 +253,10 @@ CHECKED = {
     "madvise": (28, 233),
     "preadv2": (327, 286),
     "prctl": (157, 167),
+    "clock_gettime": (228, 113),
+    "clock_getres": (229, 114),
+    "clock_nanosleep": (230, 115),
+    "timer_create": (222, 107),
 }
 # F_SETOWN, F_SETSIG, F_SETOWN_EX signal others; F_SETLEASE, F_NOTIFY hold up or watch them;
 # F_SETPIPE_SZ takes memory of the kernel.
@@ -269,6 +276,8 @@ LOAD, EQUAL, GREATER, ANY_BIT, RETURN = 0x20, 0x15, 0x25, 0x45, 0x06
 ALLOW, ERROR = 0x7FFF0000, 0x00050000
 REFUSE, UNKNOWN = ERROR | errno.EPERM, ERROR | errno.ENOSYS
 NUMBER, ARCHITECTURE, ARGUMENTS = 0, 4, 16  # offsets in struct seccomp_data
+
+OF_ANOTHER = 0x80000000  # a clock whose number is negative: how long some process has worked
 
 ANY_PID = 0xFEDCBA98  # stands for a number that no process has
 
@@ -320,6 +329,7 @@ def one_of(values: Sequence[int], inside: int, outside: int) -> list[Instruction
 def checked(pid: int) -> dict[str, list[Instruction]]:
     """The calls that hang on their arguments, for the process with this number."""
     own = argument(0) + one_of((pid,), ALLOW, REFUSE)
+    clock = argument(0) + when(ANY_BIT, OF_ANOTHER, answer(REFUSE)) + answer(ALLOW)
     return {
         "clone": argument(0)
         + when(ANY_BIT, CLONE_NEW, answer(REFUSE))
@@ -335,6 +345,10 @@ def checked(pid: int) -> dict[str, list[Instruction]]:
         "madvise": argument(2) + one_of(REFUSED_MADVISE, REFUSE, ALLOW),
         "prctl": argument(0) + one_of(REFUSED_PRCTL, REFUSE, ALLOW),
         "preadv2": argument(5) + one_of((0,), ALLOW, REFUSE),  # RWF_NOWAIT tells what is read
+        "clock_gettime": clock,
+        "clock_getres": clock,
+        "clock_nanosleep": clock,
+        "timer_create": clock,
     }
 
 

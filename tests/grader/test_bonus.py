@@ -96,6 +96,21 @@ def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(tmp_path: Path):
     assert (result.points, result.max_points, result.bonus) == (0, 0, sum(WORTH.values()))
 
 
+def test_a_picture_that_changes_by_itself_says_nothing_of_the_drawing(tmp_path: Path):
+    """A counter on the screen is something new in every frame, too."""
+    folder = mixed(tmp_path / "cy", "solution", "starter", frozenset({"B5"}))
+    window, loop = (folder / "mini_engine" / each for each in ("bonus/window.py", "game_loop.py"))
+    stub = "    # TODO B5: draw between steps\n"
+    began = window.read_text().replace(stub, f"{stub}    share = 1.0\n")
+    window.write_text(began)
+    cleared = "self.screen.fill(BACKGROUND)\n"
+    dot = "        self.dot = getattr(self, 'dot', 0) + 1\n"
+    dot += "        self.screen.set_at((self.dot % 900, 300), INK)\n"
+    loop.write_text(loop.read_text().replace(cleared, cleared + dot))
+    (todo,) = graded(folder, frozenset({"B5"})).todos
+    assert [check.state for check in todo.checks] == ["not yet", "waiting"] and not todo.points
+
+
 def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Path):
     folder = tmp_path / "old"
     folder.mkdir()

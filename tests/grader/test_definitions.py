@@ -1,5 +1,6 @@
 """Which of a submission's files says how far a TODO is: the one whose function runs."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -114,6 +115,15 @@ def test_a_given_file_that_is_missing_is_supplied(hand_in: HandIn, tmp_path: Pat
 def test_a_given_file_that_is_there_is_the_students_own(hand_in: HandIn, tmp_path: Path):
     submission = taken_in(hand_in("solution", lab_runtime_py="frames = 1\n"), tmp_path)
     assert (submission.folder / "lab_runtime.py").read_text() == "frames = 1\n"
+
+
+def test_nothing_is_put_where_something_else_is_in_the_way(hand_in: HandIn, tmp_path: Path):
+    folder = hand_in("solution", lab_runtime_py=None)
+    shutil.rmtree(folder / "mini_engine" / "bonus")
+    (folder / "mini_engine" / "bonus").write_text("a file\n")
+    (folder / "lab_runtime.py").mkdir()
+    submission = taken_in(folder, tmp_path)
+    assert (submission.folder / "mini_engine" / "bonus").read_text() == "a file\n"
 
 
 def test_nothing_is_laid_over_an_engine_in_one_file(hand_in: HandIn, tmp_path: Path):

@@ -122,6 +122,14 @@ BY_ARGUMENT = [
     ("prctl", (4, 1), False),  # PR_SET_DUMPABLE
     ("preadv2", (5, 0x1000, 1, 0, 0, 0), True),
     ("preadv2", (5, 0x1000, 1, 0, 0, 8), False),  # RWF_NOWAIT
+    ("clock_gettime", (1, 0x1000), True),  # CLOCK_MONOTONIC
+    ("clock_gettime", (2, 0x1000), True),  # CLOCK_PROCESS_CPUTIME_ID, its own
+    ("clock_gettime", (0xFFFFFFFFFFFFFFF2, 0x1000), False),  # that of process 1
+    ("clock_getres", (0xFFFFFFF2, 0x1000), False),
+    ("clock_nanosleep", (0, 0, 0x1000, 0), True),
+    ("clock_nanosleep", (0xFFFFFFF2, 0, 0x1000, 0), False),
+    ("timer_create", (1, 0, 0x1000), True),
+    ("timer_create", (0xFFFFFFF2, 0, 0x1000), False),
 ]
 
 
@@ -230,7 +238,7 @@ def loops():
 
 def machine():
     import locale, platform, resource, shutil, time
-    time.sleep(0); resource.getrlimit(resource.RLIMIT_NOFILE); shutil.disk_usage(".")
+    time.sleep(0); resource.getrlimit(resource.RLIMIT_NOFILE); shutil.which("true")
     locale.setlocale(locale.LC_ALL, ""); platform.platform(); platform.processor()
     return os.cpu_count() >= 1 and bool(time.localtime().tm_year) and not sys.stdout.isatty()
 
@@ -261,6 +269,10 @@ def times(): open("mine", "w").close(); os.utime("mine", (1, 1))
 def attribute(): open("mine", "w").close(); os.setxattr("mine", "user.a", b"1")
 def signal_parent(): os.kill(os.getppid(), 0)
 def unnamed(): os.memfd_create("x")
+def clock_of_another():
+    import time
+    time.clock_gettime(~os.getppid() << 3 | 2)
+def full_disk(): os.statvfs(os.__file__)
 """
 HONEST = [
     "threads",
@@ -286,6 +298,8 @@ REFUSED = [
     "attribute",
     "signal_parent",
     "unnamed",
+    "clock_of_another",
+    "full_disk",
 ]
 
 

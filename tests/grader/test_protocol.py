@@ -63,6 +63,32 @@ def test_a_long_message_is_not_sent_either(ends):
         ends[0].send("x" * (MAX_MESSAGE + 1))
 
 
+def test_a_question_that_nobody_reads_holds_up_nobody(ends):
+    ours, theirs = ends
+    ours.post("x" * (MAX_MESSAGE // 2))
+    assert not ours.gone(0.01)
+    assert not theirs.complete(0) and not ours.gone(0.01), "only what was read makes room"
+    while not ours.gone(0):
+        theirs.complete(0)
+    assert theirs.complete(1) and len(theirs.receive(0)) > MAX_MESSAGE // 2
+
+
+def test_half_an_answer_is_none_yet(ends):
+    ours, theirs = ends
+    theirs.sock.sendall(b"\x00\x00")
+    assert not ours.complete(0.01)
+    theirs.sock.sendall(b"\x00\x03ab")
+    assert ours.wait(0) and not ours.complete(0.01)
+    theirs.sock.sendall(b"c")
+    assert ours.complete(0) and ours.receive(0) == b"abc"
+
+
+def test_of_a_message_too_long_nothing_is_waited_for(ends):
+    ours, theirs = ends
+    theirs.sock.sendall((MAX_MESSAGE + 1).to_bytes(4, "big"))
+    assert ours.complete(0)
+
+
 BODY = BodyValue(1, Vec(0, 0), Vec(0, 0), 0.0, 0.0, 1.0, 1.0, 10.0)
 
 

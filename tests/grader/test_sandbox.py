@@ -94,7 +94,8 @@ def test_a_scratch_folder_serves_again_only_where_no_child_can_see_it(trees, wit
             covered = "mount-namespace" in sandbox.layers
             places = [path for path in work.iterdir() if path.name.startswith("tmp")]
             # The one that compiles has a folder of its own: it is waited for by nobody's layers.
-            assert len(places) == (2 if covered else 4)
-            assert len(list(work.rglob("log.txt"))) == (0 if covered else 3)
+            assert len(places) == 2
+            # What an ended child wrote on the disk is gone when there is a next one.
+            assert len(list(work.rglob("log.txt"))) == (0 if covered else 1)
     finally:
         worker.close()
