@@ -51,6 +51,8 @@ class Changed:
     @property
     def how(self) -> str:
         """What is different, in a sentence without its full stop."""
+        if self.theirs and self.theirs == self.given:
+            return f"`{self.theirs}` has been moved, to line {self.line} of {self.file}"
         if not self.theirs:
             return f"`{self.given}` is gone from {self.file}"
         before = f"was `{self.given}`" if self.given else "was not there"
@@ -155,7 +157,10 @@ def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ..
 
 
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
-    """The index of their first line that tells, that line, and the given one in its place."""
+    """The index of their first line that tells, that line, and the given one in its place.
+
+    A line that stands there as often as it was given has been moved, and is both of these.
+    """
     own, right = list(code_lines(mine)), list(code_lines(given))
     matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)
     for kind, start, stop, first, last in matcher.get_opcodes():
@@ -163,7 +168,12 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
             continue
         number = own[min(start, len(own) - 1)][0] if own else 0
         theirs = own[start][1] if start < stop else ""
-        return number, cut(theirs), cut(right[first][1] if first < last else "")
+        meant = right[first][1] if first < last else ""
+        alone = "" if theirs and meant else theirs or meant
+        places = [number for number, line in own if line == alone]
+        if places and len(places) == sum(line == alone for _, line in right):
+            return places[0], cut(alone), cut(alone)
+        return number, cut(theirs), cut(meant)
     return 0, cut(mine[0].strip()), cut(given[0].strip())
 
 
