@@ -17,7 +17,7 @@ def extent(body):
 
 
 def near_pairs(bodies):
-    """The pairs of bodies that may touch, each once and with the earlier body first.
+    """The pairs of bodies that may touch, each once.
 
     The plane is cut into square cells. A dictionary tells which bodies lie in which cell (x, y),
     with x and y whole numbers; a large body lies in many. Only bodies that share a cell may touch.
