@@ -282,6 +282,7 @@ def test_a_release_is_proved_by_the_course_in_it(released: Released, monkeypatch
     assert result.max_points == visible(load_rubric()).max_points
 
 
+@pytest.mark.soak  # a quarter of a minute; test_questions asks the same without a release
 def test_students_can_practise_questions_about_their_own_program(
     released: Released, tmp_path: Path
 ):
