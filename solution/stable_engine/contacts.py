@@ -4,7 +4,7 @@ from collections.abc import Callable
 from math import hypot
 
 from .body import Body
-from .broad_phase import BroadPhase
+from .broad_phase import Bounds, BroadPhase
 from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
 from .effect import Effect
 from .soft import SAME_DIRECTION, Pace, softness
@@ -18,7 +18,7 @@ STIFFENING = 0.07  # of a substep, per step
 RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
 SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
-CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may be in another
+CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
 TOUCHING = 1e-6  # px, bodies that are no further apart touch, but for what numbers are rounded to
 REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
 
@@ -238,19 +238,26 @@ class Contacts(Effect):
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
         for last in self.broad_phase.bounds:
-            body = last.body
-            distance = abs(body.x - last.x) + abs(body.y - last.y)
-            if distance > body.radius > 0 and not body.bullet:
-                self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
+            self.stop_core(last, h)
         for _ in range(CORNER_PASSES):
-            put_back = False
+            put_back = []
             for c in self.statics.contacts:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-                if gap < -CORE * a.radius:
-                    put_back |= self.let_no_deeper(c, gap)
+                if gap < -CORE * a.radius and self.let_no_deeper(c, gap):
+                    put_back.append(a)
             if not put_back:
                 break
+            for last in self.broad_phase.bounds:
+                if last.body in put_back:
+                    self.stop_core(last, h)
+
+    def stop_core(self, last: Bounds, h: float) -> None:
+        """Stop a ball that has gone further than its radius where its core met a static body."""
+        body = last.body
+        distance = abs(body.x - last.x) + abs(body.y - last.y)
+        if distance > body.radius > 0 and not body.bullet:
+            self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
         """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
