@@ -576,34 +576,35 @@ class Channel:
             raise ChannelClosed(str(error)) from error
         return True
 
-    def complete(self, seconds: float) -> bool:
-        """Whether all of a message is there, at the latest after so many seconds; eager ones only.
+    def complete(self, seconds: float | None = None) -> bool:
+        """Whether all of a message is there, at the latest after so many seconds.
 
         Of one that is too long nothing more is waited for: `receive` refuses it.
         """
-        deadline = time.monotonic() + seconds
-        while not HEADER.size <= len(self.ahead) >= self._end:
-            if not self._take(1 << 16, max(0.0, deadline - time.monotonic())):
+        deadline = None if seconds is None else time.monotonic() + seconds
+        while (missing := self._end - len(self.ahead)) > 0:
+            left = None if deadline is None else max(0.0, deadline - time.monotonic())
+            if not self._take(1 << 16 if self.eager else missing, left):
                 return False
         return True
 
     @property
     def _end(self) -> int:
-        """Where the first message ends, once its header is there; of a long one the header."""
+        """Where the first message ends; or its header, while that is missing or says too much."""
+        if len(self.ahead) < HEADER.size:
+            return HEADER.size
         (length,) = HEADER.unpack_from(self.ahead)
         return HEADER.size + (length if length <= MAX_MESSAGE else 0)
 
     def receive(self, timeout: float | None = None) -> bytes:
         """The body of the next message; `timeout` in seconds is for the whole of it."""
-        deadline = None if timeout is None else time.monotonic() + timeout
-        self._read(HEADER.size, deadline)
+        if not self.complete(timeout):
+            raise ChannelTimeout
         (length,) = HEADER.unpack_from(self.ahead)
         if length > MAX_MESSAGE:
             raise ProtocolError(f"a message of {length} bytes is longer than {MAX_MESSAGE}")
-        end = HEADER.size + length
-        self._read(end, deadline)
-        body = bytes(self.ahead[HEADER.size : end])
-        del self.ahead[:end]
+        body = bytes(self.ahead[HEADER.size : self._end])
+        del self.ahead[: self._end]
         return body
 
     def wait(self, seconds: float) -> bool:
@@ -615,15 +616,6 @@ class Channel:
 
     def close(self) -> None:
         self.sock.close()
-
-    def _read(self, count: int, deadline: float | None) -> None:
-        """Read on until so many bytes are there."""
-        while len(self.ahead) < count:
-            seconds = None if deadline is None else deadline - time.monotonic()
-            if seconds is not None and seconds <= 0:
-                raise ChannelTimeout
-            if not self._take(1 << 16 if self.eager else count - len(self.ahead), seconds):
-                raise ChannelTimeout
 
     def _take(self, most: int, seconds: float | None) -> bool:
         """Take in what is there; whether anything came within so many seconds."""

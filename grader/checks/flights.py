@@ -8,7 +8,7 @@ passes has simulated it.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from grader.checks.lab_scene import BALLS, FIXED, HOOK, ROD, Part
@@ -52,35 +52,34 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that there is a ball that flew to where it is; who sorts bodies may have moved it."""
-    if any(may_have_been(other, (each.x, each.y)) and flew(each, other) for other in after):
-        return
-    near = [other for other in after if may_have_been(other, (each.x, each.y))]
-    lab.want(
-        False,
-        f"a ball at ({each.x:.1f}, {each.y:.1f}) that touches nothing to fall: at "
-        f"({each.vx:.1f}, {each.vy + GRAVITY * STEP:.1f}) px/s after step {number}",
-        say(near[0]) if near else "no ball near there",
-    )
+    if not any(flew(each, other) for other in near(each, after)):
+        lab.want(
+            False,
+            f"a ball at ({each.x:.1f}, {each.y:.1f}) that touches nothing to fall: at "
+            f"({each.vx:.1f}, {each.vy + GRAVITY * STEP:.1f}) px/s after step {number}",
+            next(map(say, near(each, after)), "no ball near there"),
+        )
 
 
 def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
     """Insist that there is a body near where this one was, and that neither is absurdly fast."""
-    place = each.x, each.y
-    if each.speed <= FASTEST and any(
-        other.speed <= FASTEST and may_have_been(other, place, PUSHED) for other in after
-    ):
-        return
-    near = [other for other in after if may_have_been(other, place, PUSHED)]
-    lab.want(
-        False,
-        f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
-        f"faster than {FASTEST:g} px/s",
-        say(near[0]) if near else "no body near there",
-    )
+    slow = (other for other in near(each, after, PUSHED) if other.speed <= FASTEST)
+    if each.speed > FASTEST or not any(slow):
+        lab.want(
+            False,
+            f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
+            f"faster than {FASTEST:g} px/s",
+            next(map(say, near(each, after, PUSHED)), "no body near there"),
+        )
 
 
 def say(each: Moment) -> str:
     return f"one at ({each.x:.1f}, {each.y:.1f}), at ({each.vx:.1f}, {each.vy:.1f}) px/s"
+
+
+def near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
+    """The bodies that may have been where this one was, a step ago."""
+    return (other for other in after if may_have_been(other, (each.x, each.y), within))
 
 
 def may_have_been(each: Moment, place: Pair, near: float = NEAR) -> bool:

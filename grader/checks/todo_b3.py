@@ -105,23 +105,24 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
     lab.ran("find_contacts with balls that overlap just left of 0, above it, at 640 and at 928 px")
     at_0 = [Disc(each, 300.0, 10.0) for each in (-8.0, -25.0)]
     at_0 += [Disc(600.0, each, 10.0) for each in (-8.0, -25.0)]
-    want_the_same_contacts(lab, [*at_0, *overlapping_at(640.0), *overlapping_at(928.0)], [])
+    want_the_same_contacts(lab, [*at_0, *two_at(640.0), *two_at(928.0)], [])
 
 
-def overlapping_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
-    """Two balls side by side and two one below the other, around a line half a pixel off."""
-    before, behind = line + before, line + behind
-    side_by_side = [Disc(each, 40.0 * line, 10.0) for each in (before, behind)]
-    return side_by_side + [Disc(40.0 * line + 500.0, each, 10.0) for each in (before, behind)]
+def two_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
+    """Two balls side by side and two one below the other, so many px from a line.
+
+    Unless told otherwise they overlap by half a pixel.
+    """
+    places = line + before, line + behind
+    side_by_side = [Disc(each, 40.0 * line, 10.0) for each in places]
+    return side_by_side + [Disc(40.0 * line + 500.0, each, 10.0) for each in places]
 
 
 SIZES = (32.0, 40.0, 48.0, 50.0, 64.0, 96.0, 100.0)  # px, of cells
 # Of cells of many sizes the balls share one, and by a hair: who rounds to 0 leaves them in two.
-AT_THE_RIM = [ball for size in SIZES for ball in overlapping_at(-size)]
+AT_THE_RIM = [ball for size in SIZES for ball in two_at(-size)]
 # Here they share none, as they do not touch, and by a hair.
-ON_BOTH_SIDES = [
-    ball for size in SIZES for ball in overlapping_at(-size, -10.0 - A_HAIR, 10.0 + A_HAIR)
-]
+ON_BOTH_SIDES = [ball for size in SIZES for ball in two_at(-size, -10.0 - A_HAIR, 10.0 + A_HAIR)]
 
 
 ROUND = [

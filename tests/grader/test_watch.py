@@ -277,7 +277,7 @@ def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
 def test_a_virtual_environment_is_not_watched(hand_in):
     tree = hand_in("starter")
     for name in (".venv/lib", "env/lib", "build", "mini_engine/__pycache__"):
-        (tree / name).mkdir(parents=True)
+        (tree / name).mkdir(parents=True, exist_ok=True)
         (tree / name / "some.py").touch()
     (tree / "env" / "pyvenv.cfg").touch()
     watched = {folder.relative_to(tree).as_posix() for folder in folders_of(tree)}

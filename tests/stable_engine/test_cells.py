@@ -132,9 +132,6 @@ def test_rods_give_no_energy_however_fast_their_ends_pass(count):
 def energy_in_the_middle_frame(balls):
     """Kinetic energy (kg px²/s²) about the centre of mass, which nothing inside can raise."""
     mass = sum(ball.m for ball in balls)
-    vx, vy = (sum(ball.m * v for ball, v in each) / mass for each in velocities(balls))
+    vx = sum(ball.m * ball.vx for ball in balls) / mass
+    vy = sum(ball.m * ball.vy for ball in balls) / mass
     return sum(ball.m * ((ball.vx - vx) ** 2 + (ball.vy - vy) ** 2) / 2 for ball in balls)
-
-
-def velocities(balls):
-    return [(ball, ball.vx) for ball in balls], [(ball, ball.vy) for ball in balls]
