@@ -9,14 +9,14 @@
 - `tests/bank/ladders/6/2-keeps-the-rest.py`: a rung of a ladder, graded on its TODO alone. Rung 0
   earns nothing, the last one all, and none less than the one before. See ladders.py.
 - `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
-- `tests/bank/hostile/NAME.py` or `NAME/`: an attack, and the marks in `bank.toml`.
+- `tests/bank/hostile/NAME.py`, `NAME.toml` or `NAME/`: an attack, and the marks in `bank.toml`.
 - `tests/bank/old_package/`: the package as it was handed out before its bonus tasks had a folder.
 """
 
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -29,7 +29,7 @@ from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.judge.rubric import load_rubric
-from grader.todo_regions import python_files, read_source, regions_in, replaced
+from grader.todo_regions import Region, python_files, read_source, regions_in, replaced
 
 Kind = Literal["wrong", "right", "hostile", "ladder"]
 Form = Literal["package", "single file"]
@@ -64,9 +64,10 @@ class Replacement(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Edits(Struct, frozen=True, forbid_unknown_fields=True):
-    """What the file of a right member holds: the lines in which it is not the solution."""
+    """What the file of a right or hostile member holds: where it is not what it is made from."""
 
-    replace: list[Replacement]
+    replace: list[Replacement] = []
+    everywhere: str = ""  # code for every TODO
 
 
 class Breach(Edits, frozen=True, kw_only=True):
@@ -289,6 +290,17 @@ def replace_text(edits: Edits, folder: Path) -> None:
                 f"{each.file} holds {each.old!r} {text.count(each.old)} times, not once"
             )
         path.write_text(text.replace(each.old, each.new), encoding="utf-8")
+    if edits.everywhere:
+        fill_every_todo(folder, edits.everywhere)
+
+
+def fill_every_todo(folder: Path, code: str) -> None:
+    """Put the same code in the place of every TODO's."""
+    lines = tuple(code.strip().splitlines())
+    for path in python_files(folder):
+        text = read_source(path)
+        if here := {region.id: indented(lines, text, region) for region in regions_in(text)}:
+            path.write_text(replaced(text, here), encoding="utf-8")
 
 
 def patch(source: Path, folder: Path) -> None:
@@ -297,10 +309,7 @@ def patch(source: Path, folder: Path) -> None:
     for path in python_files(folder):
         text = read_source(path)
         here = {
-            region.id: tuple(
-                indent_of(text.splitlines()[region.start]) + line if line else line
-                for line in wanted[region.id]
-            )
+            region.id: indented(wanted[region.id], text, region)
             for region in regions_in(text)
             if region.id in wanted
         }
@@ -311,8 +320,11 @@ def patch(source: Path, folder: Path) -> None:
         raise ValueError(f"{source.name} patches TODO {', '.join(wanted)}, which is nowhere")
 
 
-def indent_of(line: str) -> str:
-    return line[: len(line) - len(line.lstrip())]
+def indented(lines: Iterable[str], text: str, region: Region) -> tuple[str, ...]:
+    """Lines that begin where those of a region of this text do."""
+    first = text.splitlines()[region.start]
+    indent = first[: len(first) - len(first.lstrip())]
+    return tuple(indent + line if line else line for line in lines)
 
 
 # ---------------------------------------------------------------- transforms

@@ -19,7 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.judge.grade import KIT
-from grader.todo_regions import python_files, read_source, regions_in, replaced
+from grader.maintain.bank import fill_every_todo
 
 CLASS, CORES = 12, 2
 MOST_CPU = 120.0  # s, of one submission: see grader/judge/budget.py
@@ -67,14 +67,7 @@ class Cost:
 def make_greedy(folder: Path, code: str) -> None:
     """The solution, with this code in every TODO."""
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
-    for path in python_files(folder):
-        text = read_source(path)
-        lines, instead = text.splitlines(), {}
-        for region in regions_in(text):
-            first = lines[region.start]
-            indent = first[: len(first) - len(first.lstrip())]
-            instead[region.id] = tuple(indent + each for each in code.strip().splitlines())
-        path.write_text(replaced(text, instead), encoding="utf-8", newline="\n")
+    fill_every_todo(folder, code)
 
 
 def cost_of(folder: Path) -> Cost:

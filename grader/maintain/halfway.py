@@ -8,7 +8,6 @@ is none: a student who is alone reads that.
 
 import re
 import shutil
-import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +19,7 @@ from grader.judge.children import Worker
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import load_rubric
-from grader.maintain.bank import Edits, Replacement, indent_of, replace_text
+from grader.maintain.bank import Edits, Replacement, indented, replace_text
 from grader.maintain.students_copy import visible
 from grader.todo_regions import read_source, regions_in, replaced
 
@@ -69,9 +68,9 @@ class Halfway:
                 shutil.copyfile(source, target)
         path = folder / self.file
         text = read_source(path)
-        start = next(region.start for region in regions_in(text) if region.id == self.todo)
-        lines = textwrap.indent(self.code, indent_of(text.splitlines()[start])).splitlines()
-        path.write_text(replaced(text, {self.todo: tuple(lines)}), encoding="utf-8")
+        region = next(region for region in regions_in(text) if region.id == self.todo)
+        lines = indented(self.code.splitlines(), text, region)
+        path.write_text(replaced(text, {self.todo: lines}), encoding="utf-8")
         replace_text(Edits(self.state.replace), folder)
 
     def complaint(self, result: Result) -> str:
