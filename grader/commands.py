@@ -13,7 +13,7 @@ from grader.judge.course import FULL, Course, WrongCourse, read_course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
-from grader.words import clean
+from grader.text import clean
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 

@@ -16,7 +16,8 @@ from grader.judge.submission import CannotGrade
 from grader.report.screen import Screen
 from grader.report.terminal import Teller, say, show_standing
 from grader.restore import CannotRestore, notes_on, restore
-from grader.words import clean, command, hidden_points_note, moment, plural
+from grader.text import clean, moment, plural
+from grader.words import command, hidden_points_note
 
 app = typer.Typer()
 

@@ -27,8 +27,8 @@ from grader.judge.submission import (
 )
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
+from grader.text import clean
 from grader.todo_regions import read_source
-from grader.words import clean
 
 Sources = dict[str, str]  # the text of each Python file, by its path inside the tree
 

@@ -3,7 +3,6 @@
 The terminal, pages, tables, exports and replays all take it from here, so that they say the same.
 """
 
-import math
 import os
 import sys
 from datetime import datetime
@@ -11,8 +10,9 @@ from datetime import datetime
 from msgspec import structs
 
 from grader.judge.course import Course
-from grader.judge.result import CheckResult, Result, State, TodoResult, harmless
+from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
+from grader.text import clean, moment
 
 MEANINGS: dict[State, str] = {
     "not yet": "a check got another answer than the right one",
@@ -20,21 +20,10 @@ MEANINGS: dict[State, str] = {
     "waiting": "something else must pass first; the line below it says what",
     "error": "the code raised an error, or gave no answer",
 }
-MAX_WORDS = 400  # characters of a submission in one line
 NAMES = 10  # columns up to the words of *Got* and the like
 
 
 # ---------------------------------------------------------------- a submission's own words
-
-
-def printable(words: str) -> str:
-    """Words without line breaks, control and direction characters."""
-    return harmless(words).replace("\n", " ")
-
-
-def clean(words: str) -> str:
-    """A submission's words on one line, with nothing that a terminal would obey."""
-    return printable(words)[:MAX_WORDS]
 
 
 # ---------------------------------------------------------------- why a check failed
@@ -95,43 +84,6 @@ def hidden_points_note(result: Result) -> str:
     points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
     words = f"{points} more points come from checks that only your instructor runs."
     return words if points else ""
-
-
-def plural(number: int, noun: str) -> str:
-    """`1 point`, `2 points`."""
-    return f"{number} {noun}" + "s" * (number != 1)
-
-
-def moment(when: datetime | None) -> str:
-    """`4 May 2027 23:59 (UTC+02:00)`; empty for none."""
-    return f"{when.day} {when:%B %Y %H:%M} ({when.tzname()})" if when else ""
-
-
-NUMBERS = (
-    *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
-    *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen"),
-    *("eighteen", "nineteen", "twenty"),
-)
-
-
-def number(count: int) -> str:
-    """A small number as a word: `three`."""
-    return NUMBERS[count] if count < len(NUMBERS) else str(count)
-
-
-def listed(words: list[str]) -> str:
-    """`a, b and c`."""
-    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
-
-
-def digits(value: float) -> str:
-    """Six digits, without the noise that rounding leaves around 0."""
-    return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
-
-
-def about(value: float) -> str:
-    """Three digits, or all before the point."""
-    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
 # ---------------------------------------------------------------- what to type

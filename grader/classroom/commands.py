@@ -23,7 +23,7 @@ from grader.commands import (
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
-from grader.words import clean
+from grader.text import clean
 
 app = typer.Typer()
 course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)

@@ -22,6 +22,7 @@ from grader.classroom.roster import CannotRead, ClassList, Roster
 from grader.judge.course import FULL, Course
 from grader.report.files import put_in
 from grader.report.sinks.tables import as_csv
+from grader.text import clean
 from grader.words import told
 
 System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
@@ -148,7 +149,7 @@ def as_text(entry: Entry) -> str:
     """The page in plain words, for where no page can be."""
     standing = standing_of(entry.outcome)
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
-    lines = [f"Mark: {mark}", *(f"{name}: {words.clean(text)}" for name, text in standing.lines)]
+    lines = [f"Mark: {mark}", *(f"{name}: {clean(text)}" for name, text in standing.lines)]
     for todo in entry.result.shown if entry.result else []:
         lines += [
             "",

@@ -22,7 +22,7 @@ from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
 from grader.judge.submission import CannotGrade
-from grader.words import clean
+from grader.text import clean
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
 LONGEST_PAGE = 2000  # rows of the page: its makers hold all results at once, 35 kB each

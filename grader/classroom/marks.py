@@ -31,7 +31,7 @@ from grader.classroom.roster import (
 )
 from grader.judge.course import FULL, Course
 from grader.report.sinks.tables import harmless
-from grader.words import clean
+from grader.text import clean
 
 TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # Blackboard's and Brightspace's columns
 COMMAS = ("worksheet", "brightspace")  # taken back in UTF-8 and with commas alone

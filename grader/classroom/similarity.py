@@ -33,8 +33,8 @@ from grader.judge.grade import KIT
 from grader.player.page import filled
 from grader.report.files import write_whole
 from grader.report.sinks.tables import as_csv
+from grader.text import printable
 from grader.todo_regions import python_files
-from grader.words import printable
 
 TEMPLATES = Path(__file__).with_name("templates")
 

@@ -22,12 +22,13 @@ from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.names import Names
 from grader.judge.reference import Reference
-from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, harmless, state_of
+from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
+from grader.text import harmless
 from grader.todo_regions import python_files, read_source, regions_in, shape_of
 
 KIT = Path(__file__).parents[2]
@@ -180,7 +181,7 @@ class Grading:
         if self.options.isolation == "none":
             load_everything()
         # Here for the time it takes, 0.2 s: pytest and hypothesis load while the worker loads.
-        from grader.judge.plugin import GradingPlugin, run_pytest
+        from grader.judge.plugin import GradingPlugin
 
         budget = Budget()
         plugin = GradingPlugin(
@@ -197,7 +198,7 @@ class Grading:
             budget=budget,
             open_right=self.open_right if self.options.reference else None,
         )
-        run_pytest(plugin, self.rubric)
+        plugin.run()
         seen = dict(plugin.seen)
         failed = {key: check for key, check in plugin.results.items() if check.failed}
         if failed and (changed := self.changed_given()):

@@ -1,13 +1,13 @@
 """The pytest plugin: collects what the rubric names and runs it against one submission."""
 
-import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-import pytest
 from hypothesis.errors import Flaky
 
 from grader.judge.budget import Budget, for_words
@@ -64,61 +64,28 @@ class GradingPlugin:
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
     open_right: Callable[[int], Child] | None = None  # a child of the reference itself
-    trouble: str = ""  # why a file of checks could not be read
     wrong: str = ""  # which check fails the right code, and how
-    interrupted: BaseException | None = None  # Ctrl-C, or what `progress` raised to end it all
 
-    def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
-        self.interrupted = excinfo.value
+    def run(self) -> None:
+        """Every check in the order of the rubric."""
+        with judge_settings():
+            for todo in filter(self.wanted, self.rubric.todos):
+                checks = loaded(CHECKS / f"{todo.file}.py")
+                for check in todo.checks:
+                    if not hasattr(checks, check.id):
+                        raise CannotGrade(f"{todo.file}.py has no check named {check.id}")
+                    self.judge(todo, check, getattr(checks, check.id))
+        if self.wrong:
+            raise CannotGrade(self.wrong)
 
-    # ------------------------------------------------------------ collecting
-
-    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
-        if report.failed:
-            self.trouble = str(report.longrepr)
-
-    def pytest_pycollect_makeitem(self, collector: Any, name: str, obj: Any) -> list[Any]:
-        """Only functions that the rubric names are checks, whatever they are called."""
-        todos = [t for t in self.rubric.todos if t.file == collector.path.stem]
-        found = [(t, check) for t in todos for check in t.checks if check.id == name]
-        items = []
-        for todo, check in found:
-            if not self.wanted(todo):
-                continue
-            item = pytest.Function.from_parent(collector, name=f"{name}[{todo.id}]", callobj=obj)
-            item.stash[TODO], item.stash[CHECK] = todo, check
-            items.append(item)
-        return items
-
-    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        """In the order of the rubric, so that every report reads like the lab sheet."""
-        order = {
-            (todo.id, check.id): number
-            for number, (todo, check) in enumerate(
-                (todo, check) for todo in self.rubric.todos for check in todo.checks
-            )
-        }
-        items.sort(key=lambda item: order[item.stash[TODO].id, item.stash[CHECK].id])
-
-    @pytest.fixture
-    def lab(self) -> None:
-        """Filled in by `pytest_pyfunc_call`, once per attempt."""
-
-    # ------------------------------------------------------------ running
-
-    @pytest.hookimpl(tryfirst=True)
-    def pytest_pyfunc_call(self, pyfuncitem: pytest.Function) -> bool:
-        todo, check = pyfuncitem.stash[TODO], pyfuncitem.stash[CHECK]
-        title = (pyfuncitem.obj.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
-        result = self._blocked(todo, check, title)
-        if result is None:
-            result = self._run(todo, check, title, pyfuncitem.obj)
+    def judge(self, todo: Todo, check: Check, function: Any) -> None:
+        title = (function.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
+        result = self._blocked(todo, check, title) or self._run(todo, check, title, function)
         self.results[todo.id, check.id] = result
         if result.failed:
-            self.functions[todo.id, check.id] = todo, check, pyfuncitem.obj
+            self.functions[todo.id, check.id] = todo, check, function
         if self.progress is not None:
             self.progress(result)
-        return True
 
     def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
         """The result of a check that need not run."""
@@ -379,8 +346,14 @@ class GradingPlugin:
         return in_bounds(result)
 
 
-TODO = pytest.StashKey[Todo]()
-CHECK = pytest.StashKey[Check]()
+@cache
+def loaded(path: Path) -> ModuleType:
+    """A file of checks, loaded once."""
+    spec = spec_from_file_location(f"grader.checks.{path.stem}", path)
+    assert spec is not None and spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 # By the property and its seed, all the examples that a submission passed.
@@ -390,45 +363,3 @@ passed_before: dict[tuple[Any, int | None], list[Example]] = {}
 def each_of(examples: list[Example], lab: Lab) -> None:
     for example in examples:
         example(lab=lab)
-
-
-@contextmanager
-def settled_environment() -> Iterator[None]:
-    """The judge's settings, and no option or plugin of pytest that is on this machine."""
-    usual = {name: value for name, value in os.environ.items() if name.startswith("PYTEST_")}
-    for name in usual:
-        del os.environ[name]
-    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
-    try:
-        with judge_settings():
-            yield
-    finally:
-        del os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"]
-        os.environ.update(usual)
-
-
-def run_pytest(plugin: GradingPlugin, rubric: Rubric) -> None:
-    """Run the checks in this process. The submission's folder is no part of it."""
-    files = dict.fromkeys(
-        str(CHECKS / f"{todo.file}.py") for todo in rubric.todos if plugin.wanted(todo)
-    )
-    with settled_environment():
-        status = pytest.main(
-            [
-                *("-c", str(CHECKS / "pytest.ini"), "--rootdir", str(CHECKS)),
-                *("-p", "no:terminal", "-p", "no:cacheprovider", "-p", "no:faulthandler"),
-                *("-p", "no:logging", "-p", "no:unraisableexception"),  # of no use here, and slow
-                *("--import-mode", "importlib", "--noconftest", "--assert=plain", *files),
-            ],
-            plugins=[plugin],
-        )
-    if plugin.interrupted is not None:
-        raise plugin.interrupted
-    if plugin.wrong:
-        raise CannotGrade(plugin.wrong)
-    if status not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
-        raise CannotGrade(f"the checks themselves could not be run: {plugin.trouble or status}")
-    for todo in filter(plugin.wanted, rubric.todos):
-        for check in todo.checks:
-            if (todo.id, check.id) not in plugin.results:
-                raise CannotGrade(f"{todo.file}.py has no check named {check.id}, as in the rubric")

@@ -6,6 +6,7 @@ import msgspec
 from msgspec import Struct, structs
 
 from grader.protocol import cut
+from grader.text import harmless
 
 State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
@@ -54,23 +55,6 @@ def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
     texts = {name: harmless(cut(getattr(check, name), most)) for name in TEXTS}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
-
-
-def harmless(words: str) -> str:
-    """Words without control and direction characters: whoever reads a result may just show it."""
-    return words.translate(HARMLESS)
-
-
-class Harmless(dict[int, int]):
-    """What each letter is shown as, by their numbers; they are looked at when they first come."""
-
-    def __missing__(self, number: int) -> int:
-        letter = chr(number)
-        self[number] = number if letter.isprintable() or letter == "\n" else ord(" ")
-        return self[number]
-
-
-HARMLESS = Harmless()
 
 
 def is_bonus(todo: str) -> bool:

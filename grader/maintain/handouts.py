@@ -14,7 +14,7 @@ from jinja2 import Environment, StrictUndefined
 
 from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
-from grader.words import listed, moment, number
+from grader.text import listed, moment, number
 
 EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
 SECTION = re.compile(r"^(##+) (?:TODO )?([0-9]+[a-d]?|B[0-9]): ")

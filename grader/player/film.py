@@ -22,7 +22,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
-from grader.words import digits, printable
+from grader.text import digits, printable
 
 MAX_ANSWER = 160  # characters
 

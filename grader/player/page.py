@@ -11,7 +11,7 @@ import msgspec
 from markupsafe import Markup
 
 from grader.player.film import Replay
-from grader.words import printable
+from grader.text import printable
 
 TEMPLATES = Path(__file__).with_name("templates")
 MAX_WORDS = 1000  # characters of a submission in one line: a page has more room than a terminal

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from grader.player.film import Both, Line, Parting, Replay, Scene, Take, numbers, thinned
 from grader.protocol import BodyLook, BodyRow, Shot
-from grader.words import about
+from grader.text import about
 
 VISIBLE = 0.5  # px, and px/s where nothing has moved yet
 A_SHARE = 0.01  # of the fastest speed, where all are slow, and of a mass

@@ -33,7 +33,7 @@ from grader.protocol import (
     Value,
     Vec,
 )
-from grader.words import printable
+from grader.text import printable
 
 MAX_WIDTH = 96  # of a comment
 FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None

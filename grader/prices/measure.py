@@ -20,7 +20,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
 from grader.judge.workplace import work_folder
 from grader.prices.scenes import AWAY, LOOKS, RATE, Built, G, Scene, Setting
-from grader.words import listed
+from grader.text import listed
 
 MODULE, OPEN = "mini_engine", "open_engine"  # the second goes before, where there is one
 BANS = ["numpy", "pymunk", "cffi", "_cffi_backend", "ctypes", "_ctypes"]  # they work in C

@@ -14,7 +14,7 @@ from grader.prices.others import IN_C, LESSON, STABLE, lesson_in, others
 from grader.prices.page import write_prices
 from grader.prices.scenes import scenes
 from grader.report.files import write_whole
-from grader.words import clean
+from grader.text import clean
 
 SHORT = {LESSON: "lesson", STABLE: "stable"}  # for the columns of a terminal
 

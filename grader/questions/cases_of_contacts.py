@@ -7,7 +7,7 @@ from grader.judge.lab import STEP
 from grader.questions.numbers import Draw, Found, Unsuited, maker
 from grader.questions.program import Program, Unlike
 from grader.questions.scene import BOB, SEEDS, Scene
-from grader.words import digits
+from grader.text import digits
 
 LEDGE, LEDGE_TOP = (200.0, 260.0), 250.0
 FLOOR, FLOOR_TOP = (450.0, 580.0), 560.0

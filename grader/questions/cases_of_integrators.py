@@ -8,7 +8,7 @@ from grader.judge.lab import STEP
 from grader.protocol import Rng
 from grader.questions.numbers import Draw, Found, Unsuited, maker
 from grader.questions.program import Program, Unlike
-from grader.words import digits
+from grader.text import digits
 
 OMEGA, X0 = 2 * math.pi, 100.0
 ORDERS = {"semi_implicit_euler": 1, "velocity_verlet": 2, "rk4": 4}

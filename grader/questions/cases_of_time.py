@@ -10,7 +10,7 @@ from grader.judge.decode import Thing
 from grader.judge.lab import STEP, Lab
 from grader.questions.numbers import Draw, Found, Unsuited, maker
 from grader.questions.program import Program
-from grader.words import digits
+from grader.text import digits
 
 CAP = Fraction(200, 3)  # ms, the most that a frame adds
 STEP_MS = Fraction(25, 3)  # of a step

@@ -9,7 +9,7 @@ from grader.commands import CourseFile, console, course_in, needs_checkout, refu
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
-from grader.words import clean, plural
+from grader.text import clean, plural
 
 TALLY = KIT / "build" / "questions" / "tally.json"
 

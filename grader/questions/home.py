@@ -20,7 +20,7 @@ from grader.questions.question import Sheet
 from grader.questions.sheet import sheet_of
 from grader.report.files import write_whole
 from grader.student import own_options, own_tree
-from grader.words import clean, plural
+from grader.text import clean, plural
 
 app = typer.Typer()
 

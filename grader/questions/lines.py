@@ -21,8 +21,8 @@ from grader.questions.pictures import difference, frame_of, picture
 from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
 from grader.questions.question import Picture, Question
 from grader.questions.scene import SEEDS
+from grader.text import digits
 from grader.todo_regions import RegionError, parsed, regions_in
-from grader.words import digits
 
 MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
 TRIES = 12  # changes of one function

@@ -29,7 +29,7 @@ from grader.questions.question import Sheet
 from grader.questions.sheet import sheet_of
 from grader.questions.tally import read_tally, write_bank
 from grader.report.files import write_whole
-from grader.words import plural, printable
+from grader.text import plural, printable
 
 
 @dataclass(frozen=True)

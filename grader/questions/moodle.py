@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from grader.questions.page import worded
 from grader.questions.question import KINDS, Picture, Question, Sheet
-from grader.words import digits
+from grader.text import digits
 
 NUMBER_ALONE = "3"  # of showunits: the answer is a number without its unit
 

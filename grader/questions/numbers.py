@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from grader.questions.program import Program, Unlike
 from grader.questions.question import Question, Wrong
-from grader.words import digits
+from grader.text import digits
 
 SHARE = 0.02  # of an answer that it may be off: for rounding on paper, and no more
 AGREE = 0.01  # of the tolerance, by which two ways to an answer may differ

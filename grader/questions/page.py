@@ -8,7 +8,7 @@ from markupsafe import Markup, escape
 
 from grader.player.page import filled, one_line
 from grader.questions.question import KINDS, Picture, Sheet
-from grader.words import digits
+from grader.text import digits
 
 TEMPLATES = Path(__file__).with_name("templates")
 PageKind = Literal["sheet", "key", "practice"]

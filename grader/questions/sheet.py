@@ -11,7 +11,7 @@ from grader.questions.lines import line_question, line_questions
 from grader.questions.program import Program, Unlike
 from grader.questions.question import Question, Sheet
 from grader.questions.reasons import reason_question, reasons_for
-from grader.words import clean
+from grader.text import clean
 
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
 Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how it is made

@@ -15,7 +15,7 @@ from grader.questions.marking import Mark
 from grader.questions.page import TEMPLATES, drawn, worded
 from grader.questions.question import KINDS, Question, Sheet
 from grader.report.files import write_whole
-from grader.words import digits
+from grader.text import digits
 
 
 class Count(Struct):

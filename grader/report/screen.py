@@ -21,7 +21,8 @@ from grader.report.terminal import (
     wrapped,
     write,
 )
-from grader.words import NAMES, clean, command, named_reasons, task_of, total
+from grader.text import clean
+from grader.words import NAMES, command, named_reasons, task_of, total
 
 LINES = 16  # before the prompt
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand

@@ -12,14 +12,13 @@ from rich.text import Text
 
 from grader.judge.isolation import unconfined
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
+from grader.text import clean, plural
 from grader.words import (
     MEANINGS,
     NAMES,
-    clean,
     command,
     hidden_points_note,
     place_of,
-    plural,
     reasons,
     task_of,
     total,

@@ -15,7 +15,7 @@ from grader.judge.result import CheckResult, Result, TodoResult, Where
 from grader.report import commands as report
 from grader.report.files import as_json, write_json
 from grader.report.sinks.tables import COLUMNS, csv_table, json_lines
-from grader.words import clean
+from grader.text import clean
 
 
 def result(name: str = "ann", words: str = 'w, "x"; y') -> Result:

@@ -21,7 +21,7 @@ from grader.report.sinks.gradescope import gradescope
 from grader.report.sinks.junit import junit
 from grader.report.sinks.markdown import markdown
 from grader.report.sinks.reporter import reporter
-from grader.words import clean
+from grader.text import clean
 
 RUNNER = {
     "CLASSROOM": "physics",

@@ -22,7 +22,8 @@ from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import gradescope
 from grader.report.terminal import show, show_isolation
-from grader.words import clean, told
+from grader.text import clean
+from grader.words import told
 
 NO_MARK = "This is no mark, and not 0 points."
 AGAIN = "Mend that and hand in again, or ask your instructor to look at it."

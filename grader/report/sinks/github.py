@@ -7,7 +7,8 @@ from contextlib import contextmanager
 
 from grader.judge.result import Result, TodoResult
 from grader.report.sinks.reporter import reporter
-from grader.words import clean, named, reasons
+from grader.text import clean
+from grader.words import named, reasons
 
 SHOWN = 10  # errors, and as many warnings: GitHub shows no more of one step
 

@@ -3,7 +3,8 @@
 from xml.etree import ElementTree as ET
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.words import clean, named, plural, reasons
+from grader.text import clean, plural
+from grader.words import named, reasons
 
 TAGS: dict[State, str] = {
     "not yet": "failure",

@@ -3,7 +3,8 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
-from grader.words import clean, named
+from grader.text import clean
+from grader.words import named
 
 STATUS: dict[State, str] = {"passed": "pass", "error": "error"}  # everything else: fail
 

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from grader.judge.result import Result
-from grader.words import clean, place_of
+from grader.text import clean
+from grader.words import place_of
 
 COLUMNS = (
     "submission",

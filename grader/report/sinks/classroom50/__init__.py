@@ -8,7 +8,8 @@ from pathlib import Path
 import msgspec
 
 from grader.judge.result import Result, TodoResult
-from grader.words import clean, named
+from grader.text import clean
+from grader.words import named
 
 BUNDLE = Path(__file__).parent
 NEEDED = {
