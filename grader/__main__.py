@@ -9,7 +9,7 @@ kit = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path[:] = [kit, *(each for each in sys.path if os.path.abspath(each or here) != here)]
 
 try:
-    from grader.cli import main
+    from grader.cli.main import main
 
     main()
 except KeyboardInterrupt:  # while it starts, or between two commands' own words for it

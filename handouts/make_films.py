@@ -24,8 +24,8 @@ import pymunk
 from make_figures import BLUE, GREY, INK, Svg
 from make_pictures import environment_in
 
-from grader.maintain.bank import patch
-from grader.todo_regions import python_files, regions_in, replaced
+from grader.bank.members import patch
+from grader.source.regions import python_files, regions_in, replaced
 
 KIT = Path(__file__).resolve().parents[1]
 FILMS = KIT / "handouts" / "touch" / "films"

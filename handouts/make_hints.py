@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 
 from grader.judge.course import FULL
-from grader.maintain.handouts import with_examples
+from grader.release.handouts import with_examples
 
 HERE = Path(__file__).resolve().parent
 CHECKS = HERE.parent / "grader" / "checks"

@@ -43,7 +43,7 @@ SHOTS = {
 
 def tree_with(done, folder):
     """A copy of the starter in which the TODOs of these ids stand as in the solution."""
-    from grader.todo_regions import python_files, regions_in, replaced
+    from grader.source.regions import python_files, regions_in, replaced
 
     tree = folder / "tree"
     shutil.rmtree(tree, ignore_errors=True)

@@ -20,9 +20,9 @@ from pathlib import Path
 from make_hints import page as hints_page
 
 from grader.judge.course import FULL, WrongCourse, read_course
-from grader.maintain.formulas import typeset
-from grader.maintain.handouts import handouts_of
-from grader.maintain.pages import lay_out_touch
+from grader.release.formulas import typeset
+from grader.release.handouts import handouts_of
+from grader.release.pages import lay_out_touch
 
 HERE = Path(__file__).resolve().parent
 BUILD = HERE.parent / "build" / "handouts"

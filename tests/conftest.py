@@ -10,12 +10,12 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from grader.judge import replay
+from grader.bank.sync import students_files
+from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade, opened, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
-from grader.maintain.sync import students_files
-from grader.maintain.verify import shared_worker
+from grader.player import replay
 from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")

@@ -160,6 +160,37 @@ def test_the_worker_imports_nothing_of_the_grader_but_the_protocol():
     assert not wrong, f"the worker meets submissions, so it may not know this:\n{listed(wrong)}"
 
 
+FLOORS = [  # from the ground up: a room imports from lower floors only
+    {"protocol", "text", "source"},
+    {"worker", "judge"},
+    {"checks", "player", "intake"},
+    {"report"},
+    {"classroom", "questions", "bank"},
+    {"release", "bench"},
+    {"cli"},
+    {"__main__"},
+]
+
+
+def room_of(path: Path) -> str:
+    """Return the room of the grader that a file is in; the package itself is none."""
+    name = path.relative_to(KIT / "grader").parts[0].removesuffix(".py")
+    return "" if name == "__init__" else name
+
+
+def test_rooms_import_from_lower_floors_only():
+    floor = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
+    between = [
+        (each, room_of(each.file), room_of(each.source)) for each in imports_below(KIT / "grader")
+    ]
+    wrong = [
+        each
+        for each, upper, lower in between
+        if upper and lower and upper != lower and floor[upper] <= floor[lower]
+    ]
+    assert not wrong, f"these imports do not run down:\n{listed(wrong)}"
+
+
 # ---------------------------------------------------------------- what the reading finds
 
 

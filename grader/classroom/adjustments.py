@@ -35,8 +35,8 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 import msgspec
 from msgspec import Struct, structs
 
-from grader.classroom.intake.found import Found
-from grader.classroom.names import folded, names_of
+from grader.intake.found import Found
+from grader.intake.names import folded, names_of
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late, wrong_late
 from grader.judge.submission import CannotGrade
 

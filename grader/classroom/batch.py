@@ -16,16 +16,15 @@ from rich.console import Console
 from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.classroom.book import NOTHING, Book, Outcome, outcome_of
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
-from grader.classroom.intake.found import CannotTake, Found, Intake, Package
-from grader.classroom.intake.packing import pack
-from grader.classroom.names import in_short
-from grader.classroom.progress import Counter
 from grader.classroom.similarity import Prints, prints_of
+from grader.intake.found import CannotTake, Found, Intake, Package
+from grader.intake.names import in_short
+from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
-from grader.prices.listing import read_list
 from grader.report.files import as_json
+from grader.report.progress import Counter
 
 
 @dataclass
@@ -52,7 +51,6 @@ class Run:
     same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
     prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
     said: dict[str, list[str]] = field(default_factory=dict)  # by name: what taking in had to say
-    less_sunk: frozenset[str] = frozenset()  # names of those who have done the open task
 
     def tasks(self) -> Iterator[Task]:
         """The work that must be graded, each once; all else is recorded on the way."""
@@ -100,9 +98,7 @@ class Run:
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        open_task = self.course.open_task if found.name in self.less_sunk else 0
-        bonus = self.adjustments.bonus(found) + open_task
-        outcome = msgspec.structs.replace(outcome, bonus_by_hand=bonus)
+        outcome = msgspec.structs.replace(outcome, bonus_by_hand=self.adjustments.bonus(found))
         added = 0 if outcome.trouble else self.course.added(outcome.bonus)
         earned = None if outcome.trouble else outcome.points + added
         final = self.adjustments.final(found, earned)
@@ -112,11 +108,7 @@ class Run:
             final=final.points or 0,
             by_hand=final.by_hand,
             reasons=[*counted, *final.reasons],
-            notes=[
-                *self.said.get(found.name, []),
-                *outcome.broken,
-                *([f"open task: +{open_task}"] * (open_task > 0)),
-            ],
+            notes=[*self.said.get(found.name, []), *outcome.broken],
             late=bool(self.adjustments.days_late(found)),
             due=final.due,
             handed_in=self.adjustments.aware(found.handed_in) if found.handed_in else None,
@@ -168,9 +160,6 @@ def grade_class(
     with Book(out) as book, Counter("grading", total, console) as counter:
         decided = adjustments or load_adjustments(None, course)
         run = Run(intake, book, key, decided, course, notes=list(intake.notes))
-        if course.open_task and (prices := read_list(out)):
-            better = [each.name for each in prices.engines if prices.sinks_less(each)]
-            run.less_sunk = frozenset(better)
         for name, words in intake.troubles.items():
             run.trouble(Found(name, ()), words)
         for task, graded in grade_all(run.tasks(), executor):

@@ -19,8 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.executor import AHEAD, LOST, ExecutorFailed, Graded, grade_package
-from grader.classroom.fingerprint import fingerprint, packed_reference
-from grader.classroom.intake.found import Package
+from grader.classroom.fingerprint import packed_reference
+from grader.intake.found import Package
+from grader.judge.fingerprint import fingerprint
 from grader.judge.grade import Options
 from grader.judge.submission import CannotGrade
 

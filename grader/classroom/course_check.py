@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
-from grader.classroom.intake.found import CannotTake, Intake
-from grader.classroom.intake.listing import opened_class
-from grader.classroom.intake.packing import pack
 from grader.classroom.marks import Marking, load_marking, total_of
-from grader.classroom.names import folded, in_short
-from grader.classroom.roster import GROUPS, CannotRead, ClassList, Roster, names_in, read_roster
+from grader.intake.found import CannotTake, Intake
+from grader.intake.listing import opened_class
+from grader.intake.names import folded, in_short
+from grader.intake.packing import pack
+from grader.intake.roster import GROUPS, CannotRead, ClassList, Roster, names_in, read_roster
 from grader.judge.course import FULL, Course, WrongCourse, read_course
 from grader.judge.submission import CannotGrade
 

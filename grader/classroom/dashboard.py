@@ -17,21 +17,20 @@ from markupsafe import Markup
 
 from grader.classroom.adjustments import timestamp
 from grader.classroom.book import Book, Outcome, outcome_of
-from grader.classroom.intake.found import CannotTake, Intake
-from grader.classroom.intake.packing import pack
 from grader.classroom.similarity import read_alike
+from grader.intake.found import CannotTake, Intake
+from grader.intake.packing import pack
 from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course
-from grader.judge.grade import Options, grade
+from grader.judge.grade import Options
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
+from grader.judge.wording import told
 from grader.judge.workplace import work_folder
 from grader.player.page import filled, one_line
-from grader.prices import page as prices_page
-from grader.prices.listing import read_list
+from grader.player.replay import grade_with_replays
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
-from grader.words import told
 
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
@@ -159,10 +158,10 @@ def with_replays(
             if entry.result is None or not todos:
                 yield entry
                 continue
-            again = replace(options, only=frozenset(todos), replays=folder / name)
+            again = replace(options, only=frozenset(todos))
             with suppress(CannotGrade, CannotTake), work_folder() as work:
                 package = pack(found[name], options.course.modules)
-                result = grade(package.unpack(work), again, worker)
+                result = grade_with_replays(package.unpack(work), again, folder / name, worker)
                 entry = Entry(entry.outcome, with_todos(entry.result, result.todos))
             yield entry
     finally:
@@ -221,7 +220,6 @@ def mistake_of(todo: str, name: str, entries: list[Entry], folder: Path) -> Mist
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
     """Write the page beside the folder of results, and into it a report per student."""
     folder = Book(results).folder
-    prices = read_list(folder)
     for entry in entries:
         name = entry.outcome.name
         report = folder / f"{name}.html"
@@ -229,8 +227,7 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
         if entry.result is None:
             write_standing(standing, report)
         else:
-            own = prices_page.section(prices, name) if prices and prices.of(name) else None
-            write_report(told(entry.result, course), report, standing=standing, prices=own)
+            write_report(told(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(dashboard(folder, entries).encode("utf-8"), path)
     return path
@@ -262,12 +259,10 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
     points = [each.outcome.final for each in marked]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
     style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
-    prices = read_list(folder)
     return filled(
         TEMPLATES / "dashboard.html",
-        style + (prices_page.css() if prices else ""),
+        style,
         script,
-        prices_page.js(),
         title=folder.name,
         folder=f"./{quote(folder.name)}/",
         entries=entries,
@@ -287,8 +282,6 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
         clean=one_line,
         quote=quote,
         script=Markup(script),
-        prices=prices_page.section(prices) if prices else None,
-        prices_script=Markup(prices_page.js()),
     )
 
 

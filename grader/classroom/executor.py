@@ -6,23 +6,20 @@ other.
 
 import multiprocessing
 import os
-import signal
 import sys
-import threading
 import time
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from functools import cache
-from multiprocessing.process import BaseProcess
-from typing import NoReturn, Protocol, Self
+from typing import Protocol, Self
 
-from grader.classroom.intake.found import Package
+from grader.intake.found import Package
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
+from grader.judge.processes import begin_process, end_all
 from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 
-PATIENCE = 5  # s that a process has to put away what it grades
 AHEAD = 2  # submissions that wait, packed, for each one being graded
 LOST = "the cluster is gone; what is graded stays, and the same command goes on from there"
 
@@ -109,32 +106,3 @@ class Pool:
         """In a pool of its own, so that it is known which one is to blame."""
         with self._start(1) as executor:
             return executor.submit(self.work, package, self.options).result()
-
-
-def end_all(processes: list[BaseProcess]) -> None:
-    """End them when they have put away what they grade; those that do not are killed."""
-    for process in processes:
-        process.terminate()
-    until = time.monotonic() + PATIENCE
-    for process in processes:
-        process.join(max(0.0, until - time.monotonic()))
-        process.kill()
-
-
-def stop_grading(number: int, _: object) -> NoReturn:
-    signal.signal(number, signal.SIG_IGN)
-    raise SystemExit(1)
-
-
-def begin_process() -> None:
-    """In a process of the pool: Ctrl-C is the parent's, and nobody works on without a parent."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, stop_grading)
-    parent = multiprocessing.parent_process()
-
-    def follow() -> None:
-        if parent is not None:
-            parent.join()
-            os._exit(1)
-
-    threading.Thread(target=follow, daemon=True).start()

@@ -11,19 +11,19 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
-from grader import words
 from grader.classroom.book import NOTHING
 from grader.classroom.dashboard import Entry, standing_of
-from grader.classroom.intake import brightspace, canvas, moodle
-from grader.classroom.intake.found import Found, Intake
-from grader.classroom.names import portable
 from grader.classroom.owners import match
-from grader.classroom.roster import CannotRead, ClassList, Roster
+from grader.intake import brightspace, canvas, moodle
+from grader.intake.found import Found, Intake
+from grader.intake.names import portable
+from grader.intake.roster import CannotRead, ClassList, Roster
+from grader.judge import wording as words
 from grader.judge.course import FULL, Course
+from grader.judge.wording import told
 from grader.report.files import put_in
 from grader.report.sinks.tables import as_csv
 from grader.text import clean
-from grader.words import told
 
 System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
 PAGE = "feedback.html"

@@ -14,14 +14,13 @@ from grader.classroom.cluster import connected
 from grader.classroom.dashboard import notes_of, read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import key_of
-from grader.classroom.intake.listing import opened_class
-from grader.classroom.names import in_short
-from grader.classroom.roster import CannotRead, ClassList, read_roster
 from grader.classroom.similarity import alike, write_alike
+from grader.intake.listing import opened_class
+from grader.intake.names import in_short
+from grader.intake.roster import beside, people_of
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
-from grader.judge.submission import CannotGrade
 from grader.text import clean
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
@@ -72,19 +71,6 @@ def page_of(run: Run) -> str:
     if len(run.outcomes) > LONGEST_PAGE:
         return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {run.book.folder}`"
     return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder), run.course)}"
-
-
-def people_of(path: Path, roster: Path | None) -> ClassList:
-    """Who is in the class, if there is a class list."""
-    roster = roster or beside(path, "roster.csv")
-    try:
-        return ClassList(read_roster(roster) if roster else None)
-    except CannotRead as error:
-        raise CannotGrade(str(error)) from error
-
-
-def beside(path: Path, name: str) -> Path | None:
-    return path / name if (path / name).is_file() else None
 
 
 def opened_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:

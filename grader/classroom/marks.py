@@ -17,9 +17,9 @@ import msgspec
 from msgspec import Struct
 
 from grader.classroom.book import NOTHING, Outcome
-from grader.classroom.names import in_short
 from grader.classroom.owners import match
-from grader.classroom.roster import (
+from grader.intake.names import in_short
+from grader.intake.roster import (
     BLACKBOARD,
     CANVAS,
     END_OF_LINE,

@@ -8,8 +8,8 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from grader.classroom.names import folded, names_of, without_zeros
-from grader.classroom.roster import KEYS, Roster, groups_of, names_in, number_in
+from grader.intake.names import folded, names_of, without_zeros
+from grader.intake.roster import KEYS, Roster, groups_of, names_in, number_in
 
 NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # as exports name their files
 Row = dict[str, str]

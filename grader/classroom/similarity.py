@@ -25,16 +25,16 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.intake.found import CannotTake, Found, Package
-from grader.classroom.intake.listing import opened_class
-from grader.classroom.intake.packing import pack
-from grader.classroom.roster import ClassList
+from grader.intake.found import CannotTake, Found, Package
+from grader.intake.listing import opened_class
+from grader.intake.packing import pack
+from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
 from grader.player.page import filled
 from grader.report.files import write_whole
 from grader.report.sinks.tables import as_csv
+from grader.source.regions import python_files
 from grader.text import printable
-from grader.todo_regions import python_files
 
 TEMPLATES = Path(__file__).with_name("templates")
 

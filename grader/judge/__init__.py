@@ -1,1 +1,1 @@
-"""Grading one submission. Trusted: nothing in here ever imports it."""
+"""Grade one submission: run the checks, weigh the answers, word the result."""

@@ -10,10 +10,10 @@ import msgspec
 
 from grader.judge.children import Child
 from grader.judge.failures import NotYet
-from grader.judge.given import Changed
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
+from grader.source.given import Changed
 
 MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
 MOST_ASKED = 60  # times that checks are asked again: a tree with many faults is told of soon, too

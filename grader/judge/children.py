@@ -15,7 +15,6 @@ from typing import Protocol
 import msgspec
 import psutil
 
-import grader
 from grader.protocol import (
     ENVIRONMENT,
     NOT_A_MESSAGE,
@@ -278,7 +277,7 @@ class Worker(Protocol):
 
 def command(module: str, *args: str) -> list[str]:
     """Python in isolated mode: no folder of a submission, no variable of a student is looked at."""
-    root = str(Path(grader.__file__).parents[1])
+    root = str(Path(__file__).parents[2])
     return [sys.executable, "-I", "-c", BOOT.format(root=root, args=list(args), module=module)]
 
 

@@ -19,6 +19,7 @@ from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
 PLACE = CHECKS.parents[1] / "course.toml"  # in a checkout of the kit
+COURSE_FILE = "COURSE_FILE"  # in the environment: make hands it on to every command
 HANDED_OUT = CHECKS / "course.toml"  # in a student's copy, whose rubric has its TODOs alone
 EXAMPLE = "2027-05-04T23:59:00+02:00"
 END_OF_DAY = time(23, 59, 59)  # when something is due that is due on a day
@@ -72,7 +73,6 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `points`: what a TODO is worth where that is not what the rubric says.
     `out_of`: what gradebooks scale the points to; None for what the gradebook's own settings say.
     `bonus`: whether the points of bonus tasks are shown apart, left out, or added up to this many.
-    `open_task`: bonus points for the open task of the bonus sheet; 0 where it is only shown.
     `due`, `late`: until when work is handed in, and what it costs to be late.
     `visible`: when students are shown why a hidden check failed; None for at once.
     `questions`: what is on the sheets about their own programs, whose points stand apart.
@@ -83,7 +83,6 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     points: dict[str, int] = {}
     out_of: float | None = None
     bonus: Literal["apart", "left out"] | int = "apart"
-    open_task: int = 0
     due: datetime | None = None
     late: Late | None = None
     visible: datetime | None = None
@@ -291,7 +290,6 @@ def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
     words = bonus in ("apart", "left out")
     if bonus is not None and not words and (type(bonus) is not int or bonus < 0):
         yield f'bonus = {bonus!r} must be "apart", "left out", or how many points count at most'
-    yield from wrong_open_task(document.get("open_task", 0), bonus)
     if late is None:
         return
     if not isinstance(late, dict) or not late.keys() & {"per_day", "cap", "closed_after"}:
@@ -300,13 +298,6 @@ def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
         yield "late: due stands below [late]: write it above that line"
     else:
         yield from wrong_late(late)
-
-
-def wrong_open_task(points: Any, bonus: Any) -> Iterator[str]:
-    if type(points) is not int or not 0 <= points <= 100:
-        yield f"open_task = {points!r} must be a whole number of points from 0 to 100"
-    elif points and bonus == "left out":
-        yield f'open_task = {points}: its points are a bonus, and bonus is "left out": remove one'
 
 
 def wrong_late(late: dict[str, Any]) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """How properties draw their examples: the judge's settings, seeds and recorded examples.
 
 Marks depend on it, and hypothesis has no public names for some of it. Its private names are used
-here and nowhere else; `tests/grader/test_drawing.py` fails where an upgrade changes one of them, or
+here and nowhere else; `tests/judge/test_drawing.py` fails where an upgrade changes one of them, or
 what is drawn.
 """
 

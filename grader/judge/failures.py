@@ -1,6 +1,10 @@
 """How a check fails: the exceptions that carry what its result says."""
 
-from grader.protocol import Raised
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from grader.judge.rubric import Check, Todo
+from grader.protocol import Piece, Raised
 
 REMEMBERS = (
     "Asked alone, by a program that has just started, this comes out otherwise: it hangs on "
@@ -30,3 +34,19 @@ class Broke(Exception):
         super().__init__(got)
         self.ran, self.got, self.raised = ran, got, raised
         self.late = late  # it had no time left, which is all that `got` says
+
+
+@dataclass(frozen=True)
+class Failing:
+    """A failed check: what ran last, and the pieces of the reference that stood in."""
+
+    todo: Todo
+    check: Check
+    again: Callable[..., None]  # takes a lab
+    pieces: list[Piece]
+    secret: str | None = None  # see secret_of
+
+
+def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
+    """What the numbers of a check are drawn by; None where they are the usual ones."""
+    return None if seed is None else f"{seed} {todo.id} {check.id}"

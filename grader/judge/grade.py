@@ -16,8 +16,7 @@ from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.diagnosis import Diagnosis
-from grader.judge.failures import KEPT, MOST_NAMES, REMEMBERS, Broke, NotYet
-from grader.judge.given import Changed, changes, restored
+from grader.judge.failures import KEPT, MOST_NAMES, REMEMBERS, Broke, Failing, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.names import Names
@@ -28,8 +27,9 @@ from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
+from grader.source.given import Changed, changes, restored
+from grader.source.regions import python_files, read_source, regions_in, shape_of
 from grader.text import harmless
-from grader.todo_regions import python_files, read_source, regions_in, shape_of
 
 KIT = Path(__file__).parents[2]
 
@@ -49,7 +49,6 @@ class Options:
     `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
     `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
     `progress`: told of each check as it ends. What it raises ends the grade.
-    `replays`: a folder for the replays of failed checks; None for no replays.
     """
 
     reference: Path | None = None
@@ -58,7 +57,6 @@ class Options:
     seed: int | None = None
     spawn: bool = False
     progress: Callable[[CheckResult], None] | None = None
-    replays: Path | None = None
     trusted: bool = False
     course: Course = FULL
 
@@ -176,15 +174,16 @@ class Grading:
     blamed: dict[Key, Blamed] = field(default_factory=dict)  # what fails for changed given code
     remembered: dict[Key, list[str]] = field(default_factory=dict)  # the names that kept something
     surveys_all: bool = False  # ask each check to its end, to have all that it may ask
+    failing: dict[Key, Failing] = field(default_factory=dict)  # what a replay shows once more
 
     def run(self) -> Result:
         if self.options.isolation == "none":
             load_everything()
         # Here for the time it takes, 0.2 s: pytest and hypothesis load while the worker loads.
-        from grader.judge.plugin import GradingPlugin
+        from grader.judge.loop import CheckLoop
 
         budget = Budget()
-        plugin = GradingPlugin(
+        loop = CheckLoop(
             self.submission,
             self.rubric,
             self.reference,
@@ -198,28 +197,20 @@ class Grading:
             budget=budget,
             open_right=self.open_right if self.options.reference else None,
         )
-        plugin.run()
-        seen = dict(plugin.seen)
-        failed = {key: check for key, check in plugin.results.items() if check.failed}
+        loop.run()
+        seen = dict(loop.seen)
+        failed = {key: check for key, check in loop.results.items() if check.failed}
         if failed and (changed := self.changed_given()):
-            blame = Blame(changed, self.open_with, plugin.again, lambda: bool(plugin.budget.cut))
+            blame = Blame(changed, self.open_with, loop.again, lambda: bool(loop.budget.cut))
             blame.look_into(failed)
             self.blamed = blame.found
             seen |= blame.seen
             for id in {id for id, _ in blame.seen}:
                 answers = [each for key, each in seen.items() if key[0] == id]
                 self.observations[id] = [each for some in answers for each in some]
-        self.remembered = plugin.remembered
-        result = self.result(plugin.results, seen)
-        folder = self.options.replays
-        if folder is None or not (plugin.failing or any(folder.glob("*.html"))):
-            return result
-        # Here for the time it takes, 0.04 s, without replays: it loads what makes pages.
-        from grader.judge.replay import Replays
-
-        known = frozenset(self.submission.functions)
-        replays = Replays(folder, self.sandbox.open_child, plugin.open_right, known)
-        return replays.of(result, plugin.failing)
+        self.remembered = loop.remembered
+        self.failing = loop.failing
+        return self.result(loop.results, seen)
 
     def open_right(self, cpu_seconds: int) -> Child:
         """A child of the reference itself, to see what should happen."""

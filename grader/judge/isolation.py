@@ -3,9 +3,8 @@
 import importlib
 import pkgutil
 from contextlib import suppress
+from pathlib import Path
 from typing import Literal
-
-import grader
 
 Isolation = Literal["auto", "strict", "none"]
 
@@ -53,7 +52,7 @@ def load_everything() -> None:
 
     What needs a package that is not installed, such as Dask, is not needed here.
     """
-    for found in pkgutil.walk_packages(grader.__path__, "grader."):
+    for found in pkgutil.walk_packages([str(Path(__file__).parents[1])], "grader."):
         if not found.name.startswith("grader.worker") and not found.name.endswith("__main__"):
             with suppress(ImportError):
                 importlib.import_module(found.name)

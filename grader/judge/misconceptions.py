@@ -81,7 +81,7 @@ def always(answer: Any) -> Model:
 
 @cache
 def load_known(todo: str) -> None:
-    """Import a TODO's models: they stand beside its checks, as mistakes_N for todo_N.
+    """Import a TODO's models, which are in `mistakes.py` beside its checks.
 
     A student's copy has what all models answer, as far as it was recorded.
     """
@@ -90,8 +90,8 @@ def load_known(todo: str) -> None:
         take_from(table, todo)
         return
     for each in load_rubric().todos:
-        if each.id == todo and (CHECKS / f"{each.mistakes}.py").exists():
-            importlib.import_module(f"grader.checks.{each.mistakes}")
+        if each.id == todo and (CHECKS / each.folder / "mistakes.py").exists():
+            importlib.import_module(f"grader.checks.{each.folder}.mistakes")
 
 
 def take_from(table: Recorded, todo: str) -> None:

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import msgspec
 
-from grader.judge.definitions import MAX_READ, statements
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import load_given
-from grader.todo_regions import python_files, read_source
+from grader.source.definitions import MAX_READ, statements
+from grader.source.regions import python_files, read_source
 
 MOST = 1000  # functions of a program; the lesson's have sixty
 ALIKE = 0.6  # of two names, from which on one may be the other's new one

@@ -10,14 +10,14 @@ from types import CodeType
 
 import msgspec
 
-from grader.judge.definitions import Function, Program
 from grader.judge.rubric import Rubric, Todo
 from grader.judge.submission import (
     CannotGrade,
     Submission,
 )
 from grader.protocol import Piece
-from grader.todo_regions import python_files, read_source, shape_of
+from grader.source.definitions import Function, Program
+from grader.source.regions import python_files, read_source, shape_of
 
 Source = tuple[Path, str]  # a file, named from the tree's folder, and its text
 

@@ -4,7 +4,7 @@ from functools import cache
 from pathlib import Path
 
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, structs
 
 from grader.judge.result import Kind, is_bonus
 
@@ -27,14 +27,9 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
     title: str
     module: str  # what a check of this TODO imports
     function: str  # the function the TODO lives in, as module:name; empty for the whole
-    file: str  # the file of checks
+    folder: str  # below checks/, with its checks and known mistakes
     checks: list[Check]
     hidden_points: int = 0  # in a student's copy: what the checks are worth that it lacks
-
-    @property
-    def mistakes(self) -> str:
-        """The module of the known mistakes in this TODO."""
-        return self.file.replace("todo", "mistakes")
 
     @property
     def bonus(self) -> bool:
@@ -67,3 +62,13 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
 @cache
 def load_rubric() -> Rubric:
     return msgspec.toml.decode((CHECKS / "rubric.toml").read_bytes(), type=Rubric)
+
+
+def visible(rubric: Rubric) -> Rubric:
+    """Return the rubric of the students' copy, without hidden checks."""
+    todos = []
+    for todo in rubric.todos:
+        shown = [check for check in todo.checks if not check.hidden]
+        points = sum(check.points for check in todo.checks if check.hidden)
+        todos.append(structs.replace(todo, checks=shown, hidden_points=points))
+    return Rubric(todos)

@@ -13,10 +13,10 @@ from pathlib import Path, PurePath, PurePosixPath
 
 import msgspec
 
-from grader.judge.definitions import MAX_READ, Function, Program, source_of
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
-from grader.todo_regions import (
+from grader.source.definitions import MAX_READ, Function, Program, source_of
+from grader.source.regions import (
     MAX_SOURCE,
     Region,
     RegionError,

@@ -1,1 +1,1 @@
-"""The film of a failed check, as a page to play and as a script. Knows no submission, no judge."""
+"""Show a failed check again: replays as pages and as scripts."""

@@ -16,13 +16,13 @@ from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab
 from grader.questions.films import SECONDS, VISIBLE, film_as_it_is, filmed, held_against
-from grader.questions.operators import changes, names_in
 from grader.questions.pictures import difference, frame_of, picture
 from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
 from grader.questions.question import Picture, Question
 from grader.questions.scene import SEEDS
+from grader.source.operators import changes, names_in
+from grader.source.regions import RegionError, parsed, regions_in
 from grader.text import digits
-from grader.todo_regions import RegionError, parsed, regions_in
 
 MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
 TRIES = 12  # changes of one function

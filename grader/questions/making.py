@@ -8,12 +8,11 @@ from pathlib import Path
 import msgspec
 from rich.console import Console
 
-from grader.classroom.grading import people_of
-from grader.classroom.intake.found import CannotTake, Found
-from grader.classroom.intake.listing import opened_class
-from grader.classroom.intake.packing import opened_submission, pack
-from grader.classroom.names import portable
-from grader.classroom.progress import Counter
+from grader.intake.found import CannotTake, Found
+from grader.intake.listing import opened_class
+from grader.intake.names import portable
+from grader.intake.packing import opened_submission, pack
+from grader.intake.roster import people_of
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options
 from grader.judge.result import Result
@@ -29,6 +28,7 @@ from grader.questions.question import Sheet
 from grader.questions.sheet import sheet_of
 from grader.questions.tally import read_tally, write_bank
 from grader.report.files import write_whole
+from grader.report.progress import Counter
 from grader.text import plural, printable
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import msgspec
 
-from grader.classroom.names import folded
+from grader.intake.names import folded
 from grader.judge.submission import CannotGrade
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.report.files import write_whole

@@ -13,14 +13,14 @@ from pathlib import Path
 
 from grader.judge.children import Worker
 from grader.judge.course import Course
-from grader.judge.definitions import Program as Modules
 from grader.judge.grade import Options, grading
 from grader.judge.lab import Lab
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission
-from grader.todo_regions import python_files, read_source
+from grader.source.definitions import Program as Modules
+from grader.source.regions import python_files, read_source
 
 CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
 MOST_DEATHS = 3  # after which nothing more is asked of a program

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from grader.questions.program import FUNCTIONS, Program, Text, Unlike
 from grader.questions.question import Question
+from grader.source.regions import parsed
 from grader.text import printable
-from grader.todo_regions import parsed
 
 MOST_CODE = 8000  # characters of a function that is looked through
 MOST_QUOTED = 160  # characters of a line

@@ -1,1 +1,1 @@
-"""One result in, every form out."""
+"""Turn one result into every form: terminal, page, tables, CI and learning systems."""

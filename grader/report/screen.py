@@ -9,6 +9,7 @@ from typing import NamedTuple
 from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
+from grader.judge.wording import NAMES, command, named_reasons, task_of, total
 from grader.report.terminal import (
     MARGIN,
     STATES,
@@ -22,7 +23,6 @@ from grader.report.terminal import (
     write,
 )
 from grader.text import clean
-from grader.words import NAMES, command, named_reasons, task_of, total
 
 LINES = 16  # before the prompt
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand

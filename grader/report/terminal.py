@@ -12,8 +12,7 @@ from rich.text import Text
 
 from grader.judge.isolation import unconfined
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
-from grader.text import clean, plural
-from grader.words import (
+from grader.judge.wording import (
     MEANINGS,
     NAMES,
     command,
@@ -23,6 +22,7 @@ from grader.words import (
     task_of,
     total,
 )
+from grader.text import clean, plural
 
 STYLES: dict[State, str] = {
     "passed": "green",

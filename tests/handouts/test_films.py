@@ -16,7 +16,7 @@ from page_readers import Screen, chromium
 
 from grader.judge.course import FULL
 from grader.judge.rubric import load_rubric
-from grader.maintain.pages import write_pages
+from grader.release.pages import write_pages
 
 KIT = Path(__file__).parents[2]
 HANDOUTS = KIT / "handouts"

@@ -18,10 +18,10 @@ import pytest
 
 import integrators
 import mini_engine
-from grader.cli import grade_command
-from grader.maintain.formulas import typeset
-from grader.maintain.pages import as_page
-from grader.todo_regions import python_files, regions_in
+from grader.cli.main import grade_command
+from grader.release.formulas import typeset
+from grader.release.pages import as_page
+from grader.source.regions import python_files, regions_in
 
 KIT = Path(__file__).parents[2]
 HANDOUTS, SOLUTION, STARTER = KIT / "handouts", KIT / "solution", KIT / "starter"

@@ -10,8 +10,8 @@ import pytest
 from page_readers import Screen, chromium
 
 from grader.judge.course import FULL
-from grader.maintain.measured import measured
-from grader.maintain.pages import write_pages
+from grader.release.measured import measured
+from grader.release.pages import write_pages
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text("utf-8"))

@@ -17,8 +17,8 @@ import mini_engine
 from grader.checks import exact
 from grader.checks.exact import Disc, Lever, Rect, Rod
 from grader.judge.course import FULL
-from grader.maintain.pages import SHARED as LOADED
-from grader.maintain.pages import figures_in, write_pages
+from grader.release.pages import SHARED as LOADED
+from grader.release.pages import figures_in, write_pages
 
 KIT = Path(__file__).parents[2]
 TOUCH = KIT / "handouts" / "touch"

@@ -10,8 +10,8 @@ import msgspec
 import pytest
 
 from grader.classroom.marks import ENGINE
-from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse
 from grader.classroom.nbgrader.gradebook import fill, read_results, reasons
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 
 POINTS = {"4": 10, "5": 8, "8a": 2}

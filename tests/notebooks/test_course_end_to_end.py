@@ -27,12 +27,12 @@ from handed_in import (
 )
 from typer.testing import CliRunner
 
-from grader.classroom import commands
+from grader.bank.sync import students_files
 from grader.classroom.marks import ENGINE
-from grader.classroom.nbgrader import course as courses
-from grader.classroom.nbgrader.course import ASSIGNMENT
+from grader.classroom.nbgrader.submissions import ASSIGNMENT
+from grader.cli import classroom as commands
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.maintain.sync import students_files
+from grader.release import nbgrader_course as courses
 
 pytestmark = pytest.mark.soak
 SECONDS = 8  # of a cell, instead of the minute in the settings

@@ -26,7 +26,7 @@ from handed_in import (
 
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
-from grader.maintain.notebooks import PRACTICE, engine_notebook, tidied, with_practice
+from grader.release.notebooks import PRACTICE, engine_notebook, tidied, with_practice
 
 RUNNER = Path(__file__).with_name("run_cells.py")
 MISSING = {  # what Run All says in the end of a notebook as it was handed out

@@ -15,8 +15,8 @@ from grader.classroom.marks import (
     marks,
     parts_from_results,
 )
-from grader.classroom.nbgrader.course import INSTRUCTOR
-from grader.classroom.roster import CannotRead, people, read_roster
+from grader.intake.roster import CannotRead, people, read_roster
+from grader.release.nbgrader_course import INSTRUCTOR
 from grader.report.sinks.tables import harmless
 
 CANVAS = """\

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from handed_in import NAMES
 
-from grader.classroom.nbgrader.course import ASSIGNMENT
+from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.judge.grade import KIT
-from grader.maintain import release as releases
+from grader.release import build as releases
 
 pytestmark = [
     pytest.mark.soak,

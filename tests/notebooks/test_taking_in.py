@@ -7,19 +7,14 @@ import pytest
 from handed_in import NAMES, RELEASED, hand_in, read
 from typer.testing import CliRunner
 
-from grader.classroom import commands
-from grader.classroom.nbgrader import course as courses
-from grader.classroom.nbgrader.course import (
-    ASSIGNMENT,
-    NoCourse,
-    collect,
-    make_course,
-    newest_release,
-)
+from grader.bank.sync import students_files
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse, collect
+from grader.cli import classroom as commands
 from grader.judge.course import Course
 from grader.judge.grade import KIT
-from grader.maintain.sync import students_files
-from grader.todo_regions import python_files, regions_in
+from grader.release import nbgrader_course as courses
+from grader.release.nbgrader_course import make_course, newest_release
+from grader.source.regions import python_files, regions_in
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from grader.todo_regions import python_files, regions_in, replaced
+from grader.source.regions import python_files, regions_in, replaced
 
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))

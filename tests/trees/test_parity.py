@@ -8,9 +8,9 @@ import pytest
 from conftest import KIT
 from programs import BONUS, SOLUTION, STARTER, TODOS, copy_of, edit, regions
 
-from grader.maintain import sync as sync_module
-from grader.maintain.sync import LAID_IN, OutOfStep, given_files, laid_in, students_files, sync
-from grader.todo_regions import RegionError, python_files, regions_in, replaced
+from grader.bank import sync as sync_module
+from grader.bank.sync import LAID_IN, OutOfStep, given_files, laid_in, students_files, sync
+from grader.source.regions import RegionError, python_files, regions_in, replaced
 
 IN_BOTH = [name for name in given_files(SOLUTION) if not laid_in(name)]
 TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])

@@ -15,7 +15,7 @@ import msgspec
 from grader.classroom.gradescope.autograder import Settings
 from grader.judge.grade import KIT
 from grader.report.files import PLAIN, SCRIPT, put_in, write_whole
-from grader.todo_regions import python_files
+from grader.source.regions import python_files
 
 HERE = Path(__file__).parent
 SCRIPTS = ("setup.sh", "run_autograder")

@@ -12,18 +12,18 @@ import msgspec
 from msgspec import Struct
 from rich.console import Console
 
-from grader.classroom.intake.found import CannotTake, Found
-from grader.classroom.intake.packing import pack
+from grader.intake.found import CannotTake, Found
+from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
 from grader.judge.submission import CannotGrade
+from grader.judge.wording import told
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import gradescope
 from grader.report.terminal import show, show_isolation
 from grader.text import clean
-from grader.words import told
 
 NO_MARK = "This is no mark, and not 0 points."
 AGAIN = "Mend that and hand in again, or ask your instructor to look at it."

@@ -10,11 +10,11 @@ from typing import Any
 
 import msgspec
 
-from grader import words
 from grader.classroom.marks import ENGINE, Marking, Part, Parts
-from grader.classroom.names import folded, names_of
-from grader.classroom.nbgrader.course import ASSIGNMENT, NoCourse
-from grader.classroom.roster import CannotRead, Roster, people
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse
+from grader.intake.names import folded, names_of
+from grader.intake.roster import CannotRead, Roster, people
+from grader.judge import wording as words
 from grader.judge.result import CheckResult, Result, TodoResult
 
 # ---------------------------------------------------------------- marks into the gradebook

@@ -4,14 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from markupsafe import Markup
-
 from grader.judge.isolation import unconfined
 from grader.judge.result import Result
+from grader.judge.wording import named_reasons
 from grader.player.page import filled, hashes, one_line
-from grader.prices.page import css
 from grader.report.files import write_whole
-from grader.words import named_reasons
 
 TEMPLATES = Path(__file__).with_name("templates")
 MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are linked to
@@ -33,11 +30,10 @@ def write_report(
     path: Path,
     folder: Path | None = None,
     standing: Standing | None = None,
-    prices: Markup | None = None,
 ) -> None:
     """Write the page; replays are looked for in `folder`, or else beside the page."""
     replays = found_replays(result, folder or path.parent)
-    write_whole(report(result, replays, standing, prices).encode("utf-8"), path)
+    write_whole(report(result, replays, standing).encode("utf-8"), path)
 
 
 def write_standing(standing: Standing, path: Path) -> None:
@@ -50,17 +46,15 @@ def report(
     result: Result,
     replays: Mapping[str, str],
     standing: Standing | None = None,
-    prices: Markup | None = None,
 ) -> str:
     """The page; `replays` are the pages to embed, by their paths in the result."""
     return filled(
         TEMPLATES / "report.html",
-        style() + (css() if prices else ""),
+        style(),
         around=hashes(),
         result=result,
         replays=replays,
         standing=standing,
-        prices=prices,
         unconfined=unconfined(result.isolation),
         clean=one_line,
         reasons=named_reasons,

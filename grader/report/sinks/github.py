@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 from grader.judge.result import Result, TodoResult
+from grader.judge.wording import named, reasons
 from grader.report.sinks.reporter import reporter
 from grader.text import clean
-from grader.words import named, reasons
 
 SHOWN = 10  # errors, and as many warnings: GitHub shows no more of one step
 

@@ -4,8 +4,8 @@ import msgspec
 
 from grader.judge.course import FULL, Course
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.wording import named, points_in_words, reasons
 from grader.text import clean
-from grader.words import named, points_in_words, reasons
 
 
 def gradescope(result: Result, course: Course = FULL) -> bytes:

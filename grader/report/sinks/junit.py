@@ -3,8 +3,8 @@
 from xml.etree import ElementTree as ET
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.wording import named, reasons
 from grader.text import clean, plural
-from grader.words import named, reasons
 
 TAGS: dict[State, str] = {
     "not yet": "failure",

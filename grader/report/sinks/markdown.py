@@ -5,8 +5,8 @@ from itertools import accumulate
 
 from grader.judge.isolation import unconfined
 from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.wording import hidden_points_note, named, points_in_words, reasons, task_of
 from grader.text import clean
-from grader.words import hidden_points_note, named, points_in_words, reasons, task_of
 
 ROOM = 100_000  # characters: a release may have 125,000, a job's summary 1024 KiB
 

@@ -3,8 +3,8 @@
 import msgspec
 
 from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.judge.wording import named
 from grader.text import clean
-from grader.words import named
 
 STATUS: dict[State, str] = {"passed": "pass", "error": "error"}  # everything else: fail
 

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 import msgspec
 
 from grader.judge.result import Result
+from grader.judge.wording import place_of
 from grader.text import clean
-from grader.words import place_of
 
 COLUMNS = (
     "submission",

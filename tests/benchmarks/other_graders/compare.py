@@ -25,8 +25,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from grader.bench.classes import megabytes
 from grader.judge.grade import KIT
-from grader.maintain.bench_class import megabytes
 
 HERE = Path(__file__).parent
 CHECKS = (HERE / "checks.py").read_text(encoding="utf-8")

@@ -8,8 +8,8 @@ from pathlib import Path
 import msgspec
 
 from grader.judge.result import Result, TodoResult
+from grader.judge.wording import named
 from grader.text import clean
-from grader.words import named
 
 BUNDLE = Path(__file__).parent
 NEEDED = {

@@ -1,0 +1,100 @@
+"""What `verify` keeps of each member that got the marks it must, in build/verify.
+
+Each file says what it was made from. One that was made from something else, or that is not as it
+was written, is no more than one that is not there.
+"""
+
+import hashlib
+import platform
+import sys
+from contextlib import suppress
+from fnmatch import fnmatch
+from functools import cache
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+from grader.bank.members import Member
+from grader.judge.fingerprint import fingerprint
+from grader.judge.grade import KIT
+from grader.judge.result import Result
+from grader.report.files import write_whole
+
+DECIDING = (
+    "members.py",
+    "traces.py",
+    "verify.py",
+)  # of this folder
+BESIDES = ("__pycache__", "notebooks", ".*")  # in a tree: no submission is made of them
+
+
+class Record(Struct, frozen=True):
+    """One member, graded."""
+
+    key: str
+    seconds: float
+    result: Result
+
+
+class Kept:
+    """The results in a folder; those of other versions of a member make room for the newest."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.keys: dict[Member, str] = {}
+
+    def key(self, member: Member) -> str:
+        """As it was when first asked for: before grading, though files may change meanwhile."""
+        if member not in self.keys:
+            self.keys[member] = key_of(member)
+        return self.keys[member]
+
+    def read(self, member: Member) -> tuple[Result, float] | None:
+        with suppress(OSError, ValueError, msgspec.MsgspecError):
+            digest, _, content = self.file(member).read_bytes().partition(b"\n")
+            if digest.decode() == hashlib.sha256(content).hexdigest():
+                record = msgspec.json.decode(content, type=Record)
+                if record.key == self.key(member):
+                    return record.result, record.seconds
+        return None
+
+    def write(self, member: Member, result: Result, seconds: float) -> None:
+        content = msgspec.json.encode(Record(self.key(member), seconds, result))
+        digest = hashlib.sha256(content).hexdigest().encode()
+        write_whole(digest + b"\n" + content, self.file(member))
+
+    def file(self, member: Member) -> Path:
+        return self.folder / member.kind / f"{member.name} as {member.form}.json"
+
+
+def key_of(member: Member) -> str:
+    """The hash of all that decides about the member's marks, and about this machine."""
+    todos, judges = member.course.rubric.todos, member.judged_by
+    asked = [todo for todo in todos if not judges or todo.id in judges]
+    files = [] if member.source is None else contents(member.source, "__pycache__")
+    entry = [member.kind, member.name, member.form, member.entry, asked]
+    return hash_of([everything_else(), msgspec.json.encode(entry).decode(), *files])
+
+
+@cache
+def everything_else() -> str:
+    """The hash of the judge, its libraries and Python, both trees, and the rules of the bank."""
+    rules = [line for name in DECIDING for line in contents(KIT / "grader" / "bank" / name)]
+    trees = (KIT / "solution", KIT / "starter", KIT / "tests" / "bank" / "single_file")
+    files = [line for tree in trees for line in contents(tree, *BESIDES)]
+    return hash_of([fingerprint(), sys.version, platform.platform(), *rules, *files])
+
+
+def contents(path: Path, *left_out: str) -> list[str]:
+    """The names and hashes of a file, or of those in a folder whose names fit no pattern."""
+    rows = []
+    for each in [path] if path.is_file() else sorted(path.rglob("*")):
+        name = each.relative_to(path.parent)
+        if each.is_file() and not any(fnmatch(p, out) for p in name.parts for out in left_out):
+            rows.append(f"{name.as_posix()} {hashlib.sha256(each.read_bytes()).hexdigest()}")
+    return rows
+
+
+def hash_of(lines: list[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()

@@ -1,0 +1,1 @@
+"""Check TODO 1: circle against box."""

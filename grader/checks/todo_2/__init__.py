@@ -1,0 +1,1 @@
+"""Check TODO 2: spin terms."""

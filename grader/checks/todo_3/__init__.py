@@ -1,0 +1,1 @@
+"""Check TODO 3: the distance joint."""

@@ -1,0 +1,1 @@
+"""Check TODO 4: the friction limit."""

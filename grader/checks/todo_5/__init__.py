@@ -1,0 +1,1 @@
+"""Check TODO 5: damping per second."""

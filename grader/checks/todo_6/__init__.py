@@ -1,0 +1,1 @@
+"""Check TODO 6: the fixed-step accumulator."""

@@ -1,0 +1,1 @@
+"""Check TODO 7: the pymunk scene."""

@@ -1,0 +1,1 @@
+"""Check TODO 8: integrators."""

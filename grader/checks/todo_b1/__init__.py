@@ -1,0 +1,1 @@
+"""Check TODO B1: sleeping bodies."""

@@ -1,0 +1,1 @@
+"""Check TODO B2: springs."""

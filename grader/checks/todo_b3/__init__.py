@@ -1,0 +1,1 @@
+"""Check TODO B3: the broad phase."""

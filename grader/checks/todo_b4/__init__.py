@@ -1,0 +1,1 @@
+"""Check TODO B4: hits in pymunk."""

@@ -1,0 +1,1 @@
+"""Check TODO B5: drawing between steps."""

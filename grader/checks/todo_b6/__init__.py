@@ -1,0 +1,1 @@
+"""Check TODO B6: heavier balls."""

@@ -1,0 +1,1 @@
+"""Check the programs as a whole."""

@@ -1,0 +1,124 @@
+"""What a recorded run must be, whoever recorded it: what touches nothing falls, and nothing jumps.
+
+A submission runs in one process with the camera, and can put a film of its own into the camera's
+place. So a film is not believed but compared with what can be worked out without the program: where
+the balls begin, and each step of a ball that is clear of all else. What touches something may be
+pushed, but it is near where it was, and at a speed that a fall can give. Who invents a film that
+passes has simulated it.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from grader.checks.whole.lab_scene import BALLS, FIXED, HOOK, ROD, Part
+from grader.judge.decode import Pair
+from grader.judge.lab import STEP, Lab, Moment
+
+GRAVITY = 980.0  # px/s²
+BALL, LARGEST = 22.0, 32.0  # px: how far a ball, and anything that moves, reaches from its middle
+CLEAR = 3.0  # px
+LOST = 0.1  # share of a speed: no damping takes more in a step
+ASIDE = 0.5  # px/s
+NEAR = 1.0  # px
+PUSHED = 10.0  # px: what a step may move something that touches another, whatever its speed
+FASTEST = 3000.0  # px/s: three times what a fall through the whole window gives
+
+
+def moments(row: Sequence[float]) -> list[Moment]:
+    """The bodies that can move, from one row of a trail."""
+    return [Moment(*row[start : start + 6]) for start in range(0, len(row), 6)]
+
+
+def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
+    """Insist on a run, step by step, in which the scene's balls fall until they meet something."""
+    rows = [moments(row) for row in trail]
+    if not rows:
+        return
+    for place in BALLS:
+        lab.want(
+            any(may_have_been(each, place) for each in rows[0]),
+            f"a ball that began at ({place[0]:g}, {place[1]:g}), after the first step",
+            "none near it",
+        )
+    for number, (before, after) in enumerate(pairwise(rows), 2):
+        for which, each in enumerate(before):
+            likeliest_first = [*after[which:], *after[:which]]
+            if is_clear(each, before):
+                want_a_flight(lab, each, likeliest_first, number)
+            else:
+                want_no_jump(lab, each, likeliest_first, number)
+
+
+def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
+    """Insist that there is a ball that flew to where it is; who sorts bodies may have moved it."""
+    if not any(flew(each, other) for other in near(each, after)):
+        lab.want(
+            False,
+            f"a ball at ({each.x:.1f}, {each.y:.1f}) that touches nothing to fall: at "
+            f"({each.vx:.1f}, {each.vy + GRAVITY * STEP:.1f}) px/s after step {number}",
+            next(map(say, near(each, after)), "no ball near there"),
+        )
+
+
+def want_no_jump(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
+    """Insist that there is a body near where this one was, and that neither is absurdly fast."""
+    slow = (other for other in near(each, after, PUSHED) if other.speed <= FASTEST)
+    if each.speed > FASTEST or not any(slow):
+        lab.want(
+            False,
+            f"the body at ({each.x:.1f}, {each.y:.1f}) near there after step {number}, and no body "
+            f"faster than {FASTEST:g} px/s",
+            next(map(say, near(each, after, PUSHED)), "no body near there"),
+        )
+
+
+def say(each: Moment) -> str:
+    return f"one at ({each.x:.1f}, {each.y:.1f}), at ({each.vx:.1f}, {each.vy:.1f}) px/s"
+
+
+def near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
+    """The bodies that may have been where this one was, a step ago."""
+    return (other for other in after if may_have_been(other, (each.x, each.y), within))
+
+
+def may_have_been(each: Moment, place: Pair, near: float = NEAR) -> bool:
+    """Whether a body can have been at this place a step ago."""
+    return math.dist((each.x, each.y), place) <= (each.speed + GRAVITY * STEP) * STEP + near
+
+
+def flew(before: Moment, after: Moment) -> bool:
+    """Whether nothing but gravity, and damping by whatever rate, worked on a body."""
+    vx, vy = before.vx, before.vy + GRAVITY * STEP
+    kept = (after.vx * vx + after.vy * vy) / (vx**2 + vy**2 or 1.0)
+    kept = min(max(kept, 1 - LOST), 1 + LOST / 10)
+    aside = math.hypot(after.vx - kept * vx, after.vy - kept * vy)
+    mean = (before.vx + after.vx) / 2, (before.vy + after.vy) / 2  # other integrators are near it
+    moved = after.x - before.x - mean[0] * STEP, after.y - before.y - mean[1] * STEP
+    return aside <= ASIDE and math.hypot(*moved) <= (LOST * before.speed + GRAVITY * STEP) * STEP
+
+
+def is_clear(each: Moment, row: Sequence[Moment]) -> bool:
+    """Whether a body is a ball that can meet nothing in this step or the next.
+
+    The bob never is, nor is what comes near it.
+    """
+    place = each.x, each.y
+    way = 2 * STEP * (each.speed + GRAVITY * STEP) + CLEAR
+    return (
+        math.dist(place, HOOK) > ROD + BALL + LARGEST + way
+        and all(distance(place, part) > BALL + way for part in FIXED)
+        and all(
+            math.dist(place, (other.x, other.y)) > BALL + LARGEST + way + 2 * STEP * other.speed
+            for other in row
+            if other is not each
+        )
+    )
+
+
+def distance(place: Pair, part: Part) -> float:
+    """From a place to the surface of a static part, px; 0 inside."""
+    x, y = abs(place[0] - part.pos[0]), abs(place[1] - part.pos[1])
+    if len(part.shape) == 1:
+        return max(math.hypot(x, y) - part.shape[0], 0.0)
+    return math.hypot(max(x - part.shape[0], 0.0), max(y - part.shape[1], 0.0))

@@ -1,0 +1,1 @@
+"""Define every command line. Nothing imports this room but `__main__`."""

@@ -1,0 +1,144 @@
+"""The commands of those who look after the kit: each says whether all is sound."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from grader.cli.shared import (
+    CourseFile,
+    console,
+    course_in,
+    known_todos,
+    needs_checkout,
+    refuse_ignored,
+    stop,
+)
+from grader.judge.grade import KIT
+from grader.judge.rubric import load_rubric
+
+FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
+
+app = typer.Typer()
+
+
+@app.command("sync")
+def sync_command(
+    check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
+) -> None:
+    """Carry the solution's given code over into the starter."""
+    needs_checkout("sync")
+    from grader.bank.sync import OutOfStep, sync
+
+    try:
+        lines = sync(KIT / "solution", KIT / "starter", write=not check)
+    except OutOfStep as error:
+        stop(str(error), "go on")
+    for line in lines or ["nothing to do: starter and solution are in step"]:
+        console.print(line)
+    asked = {todo.id for todo in course_in(None).rubric.todos}
+    left = [todo.id for todo in load_rubric().todos if todo.id not in asked]
+    if left and not check:
+        console.print(f"course.toml does not name TODO {', '.join(left)}: nobody is asked for it")
+    raise typer.Exit(1 if check and lines else 0)
+
+
+@app.command("verify")
+def verify_command(
+    jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
+    only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    course: CourseFile = None,
+) -> None:
+    """Grade the bank of wrong, right and hostile submissions and ladders: the grader is graded.
+
+    What build/verify holds of an earlier run is not graded again, unless something changed.
+    """
+    needs_checkout("verify")
+    from grader.bank.verify import verify
+
+    taken = course_in(course)
+    raise typer.Exit(0 if verify(jobs, only, console, fresh, taken).sound else 1)
+
+
+@app.command("release")
+def release_command(
+    out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/release")] = KIT
+    / "build"
+    / "release",
+    jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
+    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    course: CourseFile = None,
+) -> None:
+    """Make the archive that students get, unless something in it gives the solution away.
+
+    Exit status 0: it is there, 2: it was not made, and why.
+    """
+    needs_checkout("release")
+    from grader.release.build import Refused, release
+
+    try:
+        made = release(out, jobs, console, fresh, course_in(course))
+    except Refused as error:
+        stop(str(error), "release")
+    for path in made:
+        console.print(f"made {path}", soft_wrap=True)
+
+
+@app.command("mutants")
+def mutants_command(
+    count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
+    seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
+    jobs: Annotated[int, typer.Option(help="Mutants graded at a time; 0 for one per core.")] = 0,
+    todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
+    operator: Annotated[
+        list[str] | None, typer.Option(help="Only this kind of change; may be repeated.")
+    ] = None,
+    alone: Annotated[
+        bool, typer.Option("--alone", help="A mutant's own TODO only, and no names: much faster.")
+    ] = False,
+) -> None:
+    """Change the solution in small ways, and see whether the checks notice.
+
+    Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
+    With --alone, neither what the others lose nor names are looked at.
+    """
+    needs_checkout("mutants")
+    from grader.bank.mutants import all_mutants, campaign, chosen_from
+
+    todos = known_todos(todo)
+    known = sorted({mutant.operator for mutant in all_mutants()})
+    for name in operator or ():
+        if name not in known:
+            stop(f"there is no operator {name}; there are {', '.join(known)}", "go on")
+    mutants = chosen_from(all_mutants(), todos, frozenset(operator or ()))
+    raise typer.Exit(0 if campaign(mutants, count, seed, jobs, console, alone).sound else 1)
+
+
+@app.command("bench")
+def bench_command(
+    context: typer.Context,
+    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
+    class_: Annotated[
+        int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
+    ] = 0,
+    greedy: Annotated[
+        bool, typer.Option("--greedy", help="Instead: twelve, of which three want all there is.")
+    ] = False,
+) -> None:
+    """Measure what a grade costs and what the isolation adds to it; or what a class does."""
+    needs_checkout("bench")
+    if greedy:
+        refuse_ignored(context, ("class_",), "with --greedy")
+        from grader.bench.greedy import bench_greedy
+
+        bench_greedy(rounds, console)
+    elif class_:
+        refuse_ignored(context, ("rounds",), "with --class")
+        from grader.bench.classes import bench_class
+
+        bench_class(console, class_)
+    else:
+        from grader.bench.single import bench
+
+        bench(rounds, console)

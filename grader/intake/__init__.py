@@ -1,0 +1,1 @@
+"""Read submissions and class lists as learning systems export them."""

@@ -1,0 +1,332 @@
+"""The lab's files in what was handed in: at any depth, and under names that others have changed.
+
+Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
+own. Python can import no such name, so nobody meant it for a file of their own: it is taken as what
+it was, and that is said. Where two files could be the same one, a person must choose.
+"""
+
+import re
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+from grader.intake.found import CannotTake
+from grader.intake.names import folded
+from grader.intake.places import ARCHIVES, modules
+from grader.judge.submission import load_given, plain_files
+from grader.source.regions import regions_in
+
+PACKAGE = "mini_engine"
+INIT = "__init__.py"
+NUMBER = r"\(\d{1,3}\)"
+WORD = r"(copy|copie|copia|kopie)"  # as desktops of several languages say it
+ADDED = re.compile(
+    rf"(\s*{NUMBER}|\s*-?\s+{WORD}(\s+\d+|\s*{NUMBER})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
+)
+BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
+MENTIONED = 5
+SIGNS = {  # how a file begins that somebody saved under a program's name
+    b"pk\x03\x04": "a zip or an Office document",
+    b"%pdf": "a PDF",
+    b"{\\rtf": "a text of a word processor",
+    b"<!doctype": "a web page",
+    b"<html": "a web page",
+    b"<?xml": "XML",
+    b'{"cells"': "a notebook",
+}
+
+
+class ManyPrograms(CannotTake):
+    """More than one program in a submission: it is for a person to choose."""
+
+
+@dataclass
+class Arranged:
+    """A submission as the lab lays it out: each file's name, and where it lies."""
+
+    files: dict[str, Path]
+    as_found: bool = True  # the files lie so in `root`
+    root: Path = Path()
+    notes: list[str] = field(default_factory=list)
+
+
+def original(name: str) -> str:
+    """A file's or folder's name without what a browser or a learning system put into it."""
+    name = unquote(name)
+    name = re.sub(r"(?i)\.py\.txt$", ".py", name)
+    stem, dot, suffix = name.partition(".py") if name.lower().endswith(".py") else (name, "", "")
+    stem = BEFORE.sub("", stem)
+    end = re.match(r"\w*", stem)
+    if end and stem[end.end() :] and ADDED.fullmatch(stem[end.end() :]):
+        stem = stem[: end.end()]
+    return stem + dot + suffix
+
+
+def meant(name: str, names: Iterable[str]) -> str | None:
+    """The one of `names` that a file's name stands for."""
+    plain = folded(original(name))
+    return next((each for each in names if each == name), None) or next(
+        (each for each in names if folded(each) == plain), None
+    )
+
+
+@cache
+def package_files() -> frozenset[str]:
+    """The files that the lab's package has, by their names in it."""
+    given = (PurePosixPath(name).parts for name in load_given())
+    return frozenset(parts[1] for parts in given if len(parts) == 2 and parts[0] == PACKAGE)
+
+
+@cache
+def package_work() -> frozenset[str]:
+    """Those of them that a student works on."""
+    names = (name for name in package_files() if name != INIT)
+    return frozenset(n for n in names if regions_in(load_given()[f"{PACKAGE}/{n}"]))
+
+
+# ---------------------------------------------------------------- finding them
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A program of the lab where it lies in a submission."""
+
+    module: str
+    path: PurePosixPath  # of a file or a folder
+    files: tuple[tuple[str, PurePosixPath], ...]  # the name it goes by, and where it lies
+    exact: bool
+
+    def same_as(self, other: "Piece", folder: Path) -> bool:
+        mine, others = ({n: (folder / p).read_bytes() for n, p in x.files} for x in (self, other))
+        return mine == others
+
+
+def arranged(folder: Path, asked: Collection[str] = ()) -> Arranged:
+    """The submission in `folder`, each program of the lab where it belongs.
+
+    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top. Of
+    a program that the course does not ask for either will do: no mark hangs on it.
+    """
+    paths = sorted(PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
+    notes: list[str] = []
+    found = candidates(paths)
+    asked = asked or modules()
+    pieces = [
+        chosen(each, folder, notes, each[0].module in asked)
+        for each in by_module([*found, *renamed(paths, found)])
+    ]
+    if PACKAGE not in {piece.module for piece in pieces}:
+        pieces += loose_package(paths, folder)
+    if not pieces:
+        return Arranged({}, root=folder)
+    top = top_of(pieces)
+    files: dict[str, Path] = {}
+    elsewhere: set[PurePosixPath] = set()
+    for piece in pieces:
+        for name, path in within(piece, folder, notes):
+            files[name] = folder / path
+            elsewhere.add(path)
+        if not piece.exact or piece.path.parent != top:
+            as_it_is = PurePosixPath(piece.module).with_suffix(piece.path.suffix and ".py")
+            notes.append(f"{piece.path} is taken as {as_it_is}")
+    for path in paths:
+        if path not in elsewhere and path.is_relative_to(top):
+            files.setdefault(path.relative_to(top).as_posix(), folder / path)
+    for parent in {piece.path.parent for piece in pieces if piece.module != PACKAGE} - {top}:
+        for path in paths:
+            if path.parent == parent and path.suffix == ".py" and path not in elsewhere:
+                files.setdefault(path.name, folder / path)
+    as_found = all(path == folder / top / name for name, path in files.items())
+    return Arranged(files, as_found, folder / top, notes)
+
+
+def candidates(paths: list[PurePosixPath]) -> list[Piece]:
+    """All that could be a program of the lab; what lies in a package is part of that."""
+    found: list[Piece] = []
+    taken: set[PurePosixPath] = set()  # where they lie
+    folders: dict[PurePosixPath, list[PurePosixPath]] = {}
+    for path in paths:
+        for parent in path.parents:
+            folders.setdefault(parent, []).append(path)
+    for folder in sorted(folders, key=lambda each: (len(each.parts), each)):
+        module = meant(folder.name, modules())
+        if module and not covered(folder, taken) and is_package(folder, folders[folder]):
+            inside = tuple((f"{module}/{p.relative_to(folder)}", p) for p in folders[folder])
+            found.append(Piece(module, folder, inside, folder.name == module))
+            taken.add(folder)
+    for path in paths:
+        module = meant(path.name, {f"{name}.py" for name in modules()})
+        if module and not covered(path, taken):
+            name = module.removesuffix(".py")
+            found.append(Piece(name, path, ((module, path),), path.name == module))
+            taken.add(path)
+    return found
+
+
+def renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
+    """Files under names of people's own, for the programs of which there is nothing else."""
+    lacking = sorted(modules() - {piece.module for piece in found})
+    taken = {piece.path for piece in found}
+    pieces = []
+    for path in paths:
+        module = next((each for each in lacking if is_renamed(path.name, each)), None)
+        if module and not covered(path, taken):
+            pieces.append(Piece(module, path, ((f"{module}.py", path),), exact=False))
+    return pieces
+
+
+def is_renamed(name: str, module: str) -> bool:
+    """Whether a name that Python cannot import has the program's in it, as a word of its own.
+
+    A text file is one, too: some systems refuse what ends in `.py`.
+    """
+    stem, _, suffix = folded(unquote(name).strip()).rpartition(".")
+    stem = stem.removesuffix(".py")
+    if suffix == "txt":
+        return stem == module
+    alone = re.search(rf"(?<!\w){module}(?!\w)", stem)
+    return suffix == "py" and not stem.isidentifier() and alone is not None
+
+
+def covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
+    return not taken.isdisjoint((path, *path.parents))
+
+
+def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
+    """Whether a folder of a program's name is that package, and not one around all programs."""
+    direct = {path.relative_to(folder).parts[0] for path in inside}
+    around = any(meant(name.removesuffix(".py"), modules()) for name in direct)
+    return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
+
+
+def by_module(pieces: list[Piece]) -> list[list[Piece]]:
+    groups: dict[str, list[Piece]] = {}
+    for piece in pieces:
+        groups.setdefault(piece.module, []).append(piece)
+    return [groups[name] for name in sorted(groups)]
+
+
+def chosen(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
+    """Of all that could be one program, what lies nearest to the top.
+
+    Of several there the one of the right name, unless it `matters`: then a person chooses.
+    """
+    nearest = min(len(piece.path.parts) for piece in pieces)
+    first, *others = without_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
+    if others and not matters:
+        first = next((piece for piece in [first, *others] if piece.exact), first)
+        notes.append(f"of several programs {first.module} {first.path} is taken, none is asked for")
+        others = []
+    for other in others:
+        if first.exact and other.exact and first.path.parent == other.path.parent:
+            continue  # a package beside a file: Python takes the package
+        apart = first.path.parent != other.path.parent  # may well be two people's
+        if apart or not first.same_as(other, folder):
+            raise too_many(first.module, [first.path, other.path])
+        notes.append(f"{first.path} and {other.path} are the same")
+    for other in pieces:
+        if len(other.path.parts) > nearest and not first.same_as(other, folder):
+            notes.append(f"{other.path} was left out: {first.path} lies nearer to the top")
+    return first
+
+
+def without_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
+    """A desktop's copy beside what it was made of is somebody's backup: the other one counts."""
+    kept = [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
+    if not kept:
+        return pieces
+    for piece in pieces:
+        if piece not in kept:
+            notes.append(f"{piece.path} was left out as a backup")
+    return kept
+
+
+def is_backup(name: str) -> bool:
+    return re.search(rf"\b{WORD}\b", name, re.I) is not None
+
+
+def too_many(what: str, paths: list[PurePosixPath]) -> ManyPrograms:
+    at = sorted({path.parent.as_posix() for path in paths})
+    places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
+    return ManyPrograms(f"there is more than one program {what}, in {places}: leave one")
+
+
+def loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
+    """The package's files without their folder, or in one of another name."""
+    work = {path for path in paths if meant(path.name, package_work())}
+    at = sorted({path.parent for path in work}, key=lambda each: (len(each.parts), each))
+    at = [each for each in at if len(each.parts) == len(at[0].parts)]
+    if not at:
+        return []
+    if len(at) > 1:
+        raise too_many(PACKAGE, [each / INIT for each in at])
+    inside = [path for path in paths if path.is_relative_to(at[0])]
+    if at[0] / INIT not in inside:
+        inside = [p for p in inside if p.parent == at[0] and meant(p.name, package_files())]
+    files = tuple((f"{PACKAGE}/{path.relative_to(at[0])}", path) for path in inside)
+    here = at[0] if at[0].parts else PurePosixPath(inside[0].name)
+    return [Piece(PACKAGE, here, files, exact=False)]
+
+
+def within(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, PurePosixPath]]:
+    """A piece's files, those of the lab's package under the names that it gives them."""
+    if piece.module != PACKAGE or len(piece.files) == 1:
+        return list(piece.files)
+    files: dict[str, PurePosixPath] = {}
+    for name, path in sorted(piece.files, key=lambda each: (original(each[0]) != each[0], each[0])):
+        inside = PurePosixPath(name).relative_to(PACKAGE)
+        known = meant(inside.name, package_files()) if len(inside.parts) == 1 else None
+        target = f"{PACKAGE}/{known}" if known else name
+        other = files.setdefault(target, path)
+        if other != path and is_backup(path.name):
+            notes.append(f"{path} was left out as a backup")
+            continue
+        if other != path and (folder / other).read_bytes() != (folder / path).read_bytes():
+            raise too_many(target, [other, path])
+        if target != name:
+            notes.append(f"{path} is taken as {target}")
+    return list(files.items())
+
+
+def top_of(pieces: list[Piece]) -> PurePosixPath:
+    """The folder that holds most of the programs, the first of those nearest to the top."""
+    parents = [piece.path.parent for piece in pieces]
+    return min(parents, key=lambda each: (-parents.count(each), len(each.parts), each))
+
+
+def weight(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
+    """The order in which files are taken while there is room: what may be the lab's comes first."""
+    programs = [*modules(), *(f"{name}.py" for name in modules())]
+    of_lab = any(meant(part, programs) for part in path.parts)
+    packed = path.suffix.lower() in ARCHIVES
+    return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
+
+
+# ---------------------------------------------------------------- saying that there is nothing
+
+
+def nothing_of_the_lab(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> CannotTake:
+    """What is told where a person must look."""
+    names = sorted(path.relative_to(folder).as_posix() for path in plain_files(folder))
+    more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
+    held = f"it holds {', '.join(names[:MENTIONED])}{more}"
+    if not names:
+        hidden = "but hidden files, links or what programs leave behind"
+        held = f"it holds nothing {hidden}" if any(folder.iterdir()) else "it holds no file"
+    words = "; ".join([held, *notes])
+    return CannotTake(f"nothing of the lab was found ({', '.join(sorted(asked))}): {words}")
+
+
+def no_program(content: bytes) -> str:
+    """What a file is that bears a program's name and is none; empty where it may be Python."""
+    if not content.strip():
+        return "empty"
+    head = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:64].lower()
+    for sign, words in SIGNS.items():
+        if head.startswith(sign):
+            return words
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return "text in UTF-16, which Python does not read"
+    return "no text" if b"\0" in content else ""

@@ -1,0 +1,35 @@
+"""The hash of the grader: as long as it stays, nothing is graded again.
+
+A file of the grader counts if it can decide about points: the checks, the judge that weighs their
+answers, the worker that runs the submission, and what these share. Reports and commands do not.
+"""
+
+import hashlib
+import sys
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+DECIDING = ("checks", "judge", "source", "worker", "protocol.py", "text.py")  # of grader/
+READ = (".py", ".toml", ".json", ".ini")  # by Python and by the checks
+LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
+
+
+@cache
+def fingerprint() -> str:
+    """Return the hash of the grader and of the libraries that decide about points."""
+    top = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in deciding_files(top):
+        digest.update(f"{path.relative_to(top).as_posix()}\0".encode() + path.read_bytes() + b"\0")
+    releases = [f"{name} {version(name)}" for name in LIBRARIES]
+    digest.update(f"{sys.version_info[:2]} {releases}".encode())
+    return digest.hexdigest()
+
+
+def deciding_files(top: Path) -> Iterator[Path]:
+    """Yield the files of the grader in `top` that count, in a fixed order."""
+    for path in sorted(top.rglob("*")):
+        if path.suffix in READ and path.relative_to(top).parts[0] in DECIDING:
+            yield path

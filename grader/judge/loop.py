@@ -1,0 +1,343 @@
+"""Run the checks that the rubric names against one submission, one after the other."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+from hypothesis.errors import Flaky
+
+from grader.judge.budget import Budget, for_words
+from grader.judge.children import Child
+from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
+from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
+from grader.judge.lab import Lab, Observation
+from grader.judge.numbers import readable, tidied
+from grader.judge.reference import Reference
+from grader.judge.result import CheckResult, State, Where, in_bounds
+from grader.judge.rubric import Check, Rubric, Todo
+from grader.judge.submission import CannotGrade, Submission, load_given
+from grader.protocol import CodeLine
+
+UNREAD = 3  # files of which is told that they were too long to look into
+SURVEY = 2  # s of processor time, for that
+BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
+
+
+@dataclass
+class CheckLoop:
+    """One run of the checks: what they are given, and what came of each."""
+
+    submission: Submission
+    rubric: Rubric
+    reference: Reference
+    open_child: Callable[[int], Child]  # takes the budget in CPU seconds
+    unusable: dict[str, Broke | NotYet]  # module -> why it cannot be imported
+    wanted: Callable[[Todo], bool]
+    seed: int | None = None
+    progress: Callable[[CheckResult], None] | None = None
+    results: dict[tuple[str, str], CheckResult] = field(default_factory=dict)
+    observations: dict[str, list[Observation]] = field(default_factory=dict)
+    seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
+    remembered: dict[tuple[str, str], list[str]] = field(default_factory=dict)  # by failed check
+    functions: dict[tuple[str, str], tuple[Todo, Check, Any]] = field(default_factory=dict)
+    surveys_all: bool = False  # whether checks that pass are surveyed as well
+    failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
+    budget: Budget = field(default_factory=Budget)
+    open_right: Callable[[int], Child] | None = None  # a child of the reference itself
+    wrong: str = ""  # which check fails the right code, and how
+
+    def run(self) -> None:
+        """Every check in the order of the rubric."""
+        with judge_settings():
+            for todo in filter(self.wanted, self.rubric.todos):
+                checks = load_checks(todo)
+                for check in todo.checks:
+                    if not hasattr(checks, check.id):
+                        raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
+                    self.judge(todo, check, getattr(checks, check.id))
+        if self.wrong:
+            raise CannotGrade(self.wrong)
+
+    def judge(self, todo: Todo, check: Check, function: Any) -> None:
+        title = (function.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
+        result = self._blocked(todo, check, title) or self._run(todo, check, title, function)
+        self.results[todo.id, check.id] = result
+        if result.failed:
+            self.functions[todo.id, check.id] = todo, check, function
+        if self.progress is not None:
+            self.progress(result)
+
+    def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
+        """The result of a check that need not run."""
+        begun = self.submission.begun
+        waiting = [each for each in check.needs if not begun.get(each, True)]
+        todos = [each.id for each in self.rubric.counted if each.function]
+        none_begun = not any(begun.get(each, True) for each in todos)
+        if todo.function and not begun.get(todo.id, True):
+            where = self.submission.where.get(todo.id)
+            return self._result(todo, check, title, "not started", where=where)
+        if not todo.function and none_begun:
+            return self._result(todo, check, title, "not started")
+        why = self.unusable.get(check.module or todo.module)
+        if why is not None:
+            return self._failure(todo, check, title, why)
+        if waiting:
+            text = f"waiting for TODO {', '.join(waiting)}"
+            return self._result(todo, check, title, "waiting", got=text)
+        if self.budget.cut:
+            return self._result(todo, check, title, "error", got=self.budget.cut)
+        return None
+
+    def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
+        """With the reference in the other TODOs' places; failing that, the program as it is.
+
+        What is told of a failure comes from the program as it is. Where the reference was sent, a
+        submission could have read it, and any word or number of its answers could spell it out;
+        whether it was put in place is for the child to say, and so no matter. Nobody waits twice
+        for one whose time was over: then nothing is told but that.
+        """
+        lab, again = self._attempt(todo, check, function, isolated=True)
+        told = lab
+        if lab.failure is not None and lab.connection.pieces and not lab.late:
+            told, again = self._attempt(todo, check, function, isolated=False)
+        if told.failure is None:
+            lab = told
+        if told.failure is not None and told.connection.pieces:
+            seen: list[Observation] = []
+        else:
+            seen = self._survey(todo, check, function, told)
+        self.seen[todo.id, check.id] = seen
+        of_todo = self.observations.setdefault(todo.id, [])
+        of_todo.extend(lab.observations)
+        if seen is not lab.observations:
+            of_todo.extend(each for each in seen if each not in of_todo)
+        if told.failure is not None:
+            self._blame(todo, check, function, told)
+            self.remembered[todo.id, check.id] = told.remembers
+            if not told.ended:
+                secret = secret_of(self.seed, todo, check)
+                failing = Failing(todo, check, again, told.connection.pieces, secret)
+                self.failing[todo.id, check.id] = failing
+            return self._failure(todo, check, title, told.failure)
+        return self._result(todo, check, title, "passed")
+
+    def _survey(self, todo: Todo, check: Check, function: Any, told: Lab) -> list[Observation]:
+        """What the program as it is answers to all that a failed check asks, and not just so far.
+
+        By that, what is wrong can be told from what is right. Not worth its time for a property,
+        which asks much, nor where a program was played.
+        """
+        wanted = isinstance(told.failure, NotYet) or self.surveys_all
+        brief = told.connection.cpu < BRIEF and not told.played and self.budget.has_more
+        if not wanted or not brief or not told.observations or check.kind == "property":
+            return told.observations
+        survey = self._asked(todo, check, function, isolated=False, surveys=True, watched=True)
+        told.remembers = survey.remembers
+        return survey.observations
+
+    def _blame(self, todo: Todo, check: Check, function: Any, lab: Lab) -> None:
+        """Note a check that the right code fails as well: that is not the submission's fault.
+
+        Asked only where it may be so: of an error that nobody foresaw, and of a submission that
+        has the right code in this place.
+        """
+        likely = lab.unforeseen or self.reference.is_that_of(self.submission, todo)
+        cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
+        if self.open_right is None or self.wrong or cut or not likely:
+            return
+        with kept_examples(function), seeded(function, self.seed):
+            right = self._asked(todo, check, function, isolated=False, right=True)
+        failure = right.failure
+        if failure is None or (right.ended and not right.unforeseen):
+            return
+        expected = f"; expected: {failure.expected}" if isinstance(failure, NotYet) else ""
+        self.wrong = (
+            f"the check {check.id} in checks/{todo.folder} is wrong: the right code fails it too. "
+            f"It ran: {failure.ran}{expected}; got: {failure.got}"
+        )
+
+    def _attempt(
+        self, todo: Todo, check: Check, function: Any, isolated: bool
+    ) -> tuple[Lab, Example]:
+        """A lab in which the check ran, and what ran there last.
+
+        A property draws the same for all, so it asks at once what another submission has passed.
+        Only where that fails need hypothesis look for the simplest example.
+        """
+        known = passed_before.get((function, self.seed))
+        if known is not None:
+            example = partial(each_of, known)
+            lab = self._asked(todo, check, example, isolated)
+            if lab.failure is None or lab.ended:
+                return lab, example
+        with kept_examples(function) as examples, seeded(function, self.seed):
+            lab = self._asked(todo, check, function, isolated)
+        if not examples:
+            return lab, function
+        if lab.failure is None:
+            passed_before[function, self.seed] = examples
+        elif isinstance(lab.failure, NotYet) and lab.failure is not lab.overstepped:
+            lab = self._alone(lab, self._asked(todo, check, examples[-1], isolated, watched=True))
+        return lab, examples[-1]
+
+    def _alone(self, lab: Lab, alone: Lab) -> Lab:
+        """The lab to tell of, given what its last example came to in a child asked nothing else.
+
+        Where that differs, the answer hangs on what was asked before, and no number of it means
+        anything.
+        """
+        first, second = lab.failure, alone.failure
+        assert isinstance(first, NotYet)
+        lab.remembers = alone.remembers
+        if alone.ended or (
+            second is not None and (first.ran, first.got) == (second.ran, second.got)
+        ):
+            return lab
+        if isinstance(second, NotYet):
+            second.meaning = REMEMBERS
+            return alone
+        first.meaning = REMEMBERS
+        return lab
+
+    def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
+        """The lab of a check that failed and is asked once more, of children that others open.
+
+        All marks are decided by then. Its observations are those of the program as it is.
+        """
+        todo, check, function = self.functions[key]
+        with judge_settings(), kept_examples(function), seeded(function, self.seed):
+            lab = self._asked(todo, check, function, isolated=True, opener=open_child)
+            if lab.connection.pieces:
+                alone = self._asked(todo, check, function, isolated=False, opener=open_child)
+                lab.observations = alone.observations
+            return lab
+
+    def _asked(
+        self,
+        todo: Todo,
+        check: Check,
+        example: Example,
+        isolated: bool,
+        right: bool = False,
+        opener: Callable[[int], Child] | None = None,
+        surveys: bool = False,
+        watched: bool = False,
+    ) -> Lab:
+        """A lab in which the check ran, of the reference itself if it is to be the `right` code.
+
+        One that `surveys` goes on where the check fails, and costs the submission none of the time
+        that decides about marks. One that is `watched` says what the submission remembers.
+        """
+        module = check.module or todo.module
+        others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
+        pieces = others if isolated else []
+        secret = secret_of(self.seed, todo, check)
+        lab = Lab(
+            module,
+            lambda: self._child_for(todo, check, right, surveys, opener),
+            pieces,
+            secret=secret,
+        )
+        lab.surveys, lab.connection.watched = surveys, watched
+        little = self.budget.why_little(todo.id)
+        with lab.opened():
+            try:
+                example(lab=lab)
+                lab.failure = lab.overstepped
+            except (NotYet, Broke) as failure:
+                lab.failure = failure
+            except Flaky:  # the lab kept the first failure, if it saw one
+                lab.failure = lab.failure or Broke(lab.running, "another answer each time")
+            except Exception as error:  # an answer that our own arithmetic cannot stand
+                name = type(error).__name__
+                lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
+                lab.unforeseen = True
+            lab.remembers = lab.connection.remembered()
+        if surveys:
+            self.budget.charge_for_words(lab.connection)
+        if right or surveys:
+            return lab
+        self.budget.charge(todo.id, lab.connection)
+        if lab.ended and lab.failure is not None:
+            lab.failure.got += little
+        return lab
+
+    def _child_for(
+        self,
+        todo: Todo,
+        check: Check,
+        right: bool,
+        surveys: bool,
+        opener: Callable[[int], Child] | None,
+    ) -> Child:
+        if right and self.open_right is not None:
+            return self.open_right(check.cpu_seconds)
+        if surveys:
+            return for_words(self.open_child)(SURVEY)
+        child = (opener or self.open_child)(self.budget.cpu_for(todo.id, check.cpu_seconds))
+        child.rest_seconds = self.budget.rest_for(todo.id)
+        return child
+
+    # ------------------------------------------------------------ results
+
+    def _failure(
+        self, todo: Todo, check: Check, title: str, failure: NotYet | Broke
+    ) -> CheckResult:
+        where = self.submission.where.get(todo.id)
+        unread = self.submission.unread[:UNREAD] if todo.function and where is None else []
+        got = "; ".join([failure.got, *unread])
+        if isinstance(failure, NotYet):
+            expected, got = readable(failure.expected, got)
+            return self._result(
+                todo,
+                check,
+                title,
+                "not yet",
+                ran=tidied(failure.ran),
+                expected=expected,
+                got=got,
+                meaning=failure.meaning,
+                where=where,
+            )
+        lines = failure.raised.frames if failure.raised is not None else []
+        if lines := [each for each in lines if self.submission.holds(each.file)]:
+            last = lines[-1]
+            own = [each for each in lines if not self._is_given(todo, each)]
+            if own or where is None:
+                frame = (own or lines)[-1]
+                where = Where(frame.file, frame.line)
+            got += f" (in {last.file}, line {last.line}: {last.text})"
+        return self._result(
+            todo, check, title, "error", ran=failure.ran, expected="an answer", got=got, where=where
+        )
+
+    def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
+        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        text = load_given().get(frame.file)
+        if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
+            return False
+        return frame.text.strip() in map(str.strip, text.splitlines())
+
+    def _result(
+        self, todo: Todo, check: Check, title: str, state: State, **words: Any
+    ) -> CheckResult:
+        points = check.points if state == "passed" else 0
+        result = CheckResult(check.id, title, check.kind, state, points, check.points, **words)
+        return in_bounds(result)
+
+
+def load_checks(todo: Todo) -> ModuleType:
+    """Import the checks of a TODO."""
+    return import_module(f"grader.checks.{todo.folder}.checks")
+
+
+# By the property and its seed, all the examples that a submission passed.
+passed_before: dict[tuple[Any, int | None], list[Example]] = {}
+
+
+def each_of(examples: list[Example], lab: Lab) -> None:
+    for example in examples:
+        example(lab=lab)

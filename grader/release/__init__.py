@@ -1,0 +1,1 @@
+"""Make what students get: the tree, the checks they run, pages, notebooks, the archive."""

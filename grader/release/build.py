@@ -1,0 +1,227 @@
+"""The release: one archive with all that students get, and proof that nothing else is in it.
+
+The name has the version and the first signs of the content's hash. The same kit makes the same
+archive, byte by byte.
+"""
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import zipfile
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import msgspec
+from rich.console import Console
+
+from grader import __version__
+from grader.bank.members import members
+from grader.bank.verify import verify
+from grader.judge.course import COURSE_FILE, FULL, Course
+from grader.judge.grade import KIT, opened
+from grader.judge.result import Result
+from grader.judge.rubric import visible
+from grader.player.replay import record_expected
+from grader.release.handed_out import students_tree, write_tree
+from grader.release.leaks import leaks_in, secrets_of
+from grader.release.notebooks import notebooks_of
+from grader.release.pages import write_pages
+from grader.release.students_copy import Tree, write_copy
+from grader.report.files import put_in
+from grader.report.sinks.classroom50 import write_bundle
+
+NAME = "physics-engine"
+SECOND_ONE = "315532800"  # the same, in s
+
+
+class Refused(Exception):
+    """Nothing is handed out; the message says why."""
+
+
+def release(
+    out: Path, jobs: int, console: Console, fresh: bool = False, course: Course = FULL
+) -> list[Path]:
+    """Verify the kit and build the release of a course into `out`; returns what was written.
+
+    What an earlier `verify` found sound and nothing has touched since is not graded again, unless
+    all is to be graded `fresh`.
+    """
+    if not verify(jobs, "", console, fresh, course).sound:
+        raise Refused("`grader verify` has complaints, see above")
+    with tempfile.TemporaryDirectory(prefix="release-") as folder:
+        work = Path(folder)
+        with console.status("building the release (about two minutes)"):
+            built = build(work, wrong_submissions(work / "wrong", course), course)
+        return [put(each, out) for each in sorted(built.iterdir())]
+
+
+def wrong_submissions(folder: Path, course: Course) -> Iterator[Tree]:
+    """The bank's wrong members in a course, each written when it is its turn."""
+    for member in members(KIT, course):
+        if member.kind == "wrong" and member.form == "package" and member.is_patch:
+            member.build(KIT, folder / member.name)
+            yield folder / member.name, member.todos
+
+
+def put(made: Path, out: Path) -> Path:
+    """Move a file or folder to its place, in the stead of an older one."""
+    out.mkdir(parents=True, exist_ok=True)
+    target = out / made.name
+    if target.is_dir():
+        shutil.rmtree(target)
+    target.unlink(missing_ok=True)
+    shutil.move(made, target)
+    return target
+
+
+def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
+    """Make all of a course's release below `work`; returns the folder that holds it, checked."""
+    copy, tree, built = work / "copy", work / NAME, work / "built"
+    built.mkdir(parents=True)
+    write_copy(copy, wrong, course)
+    runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
+    with opened(KIT / "solution") as open_child:
+        runs.write_bytes(record_expected(open_child, course.rubric))
+    lay_out(tree, course)
+    lock = pinned((KIT / "requirements.txt").read_text(encoding="utf-8"))
+    content = hash_of([copy, tree], lock)
+    version = f"{__version__}+r{content[:8]}"  # pip puts it in the place of the last one
+    wheel = build_wheel(copy, version, tree)
+    requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
+    (tree / "requirements.txt").write_text(requirements, encoding="utf-8", newline="\n")
+    write_manifest(tree, version, content)
+    name = f"{NAME}-{__version__}-{content[:8]}"
+    write_zip(tree, built / f"{name}.zip")
+    write_bundle(built / f"{name}-classroom50", wheel, tree / "requirements.txt")
+    prove(wheel, work / "installed", tree, course)
+    look_for_leaks(built, course)
+    return built
+
+
+# ---------------------------------------------------------------- what students get
+
+
+def lay_out(tree: Path, course: Course) -> None:
+    """The student's folder, without what is made last: wheel, requirements and manifest."""
+    files = students_tree(KIT, course)
+    del files["requirements.txt"]
+    for name, content in notebooks_of(KIT / "starter" / "notebooks", course).items():
+        files[f"notebooks/{name}"] = content
+    write_tree(files, tree)
+    write_pages(KIT / "handouts", tree / "handouts", course)
+
+
+def pinned(lock: str) -> str:
+    """The locked packages that the grader needs to run, without what only builds it."""
+    blocks = re.split(r"\n(?=\S)", lock.strip())
+    needed = [block for block in blocks if not re.search(r"# via [^\n]*:build\)\s*$", block)]
+    lines = "\n".join(needed).splitlines()
+    return "".join(f"{line}\n" for line in lines if not line.lstrip().startswith("#"))
+
+
+def build_wheel(copy: Path, version: str, folder: Path) -> Path:
+    """The grader's wheel, of this version, in `folder`."""
+    init = copy / "grader" / "__init__.py"
+    text = init.read_text(encoding="utf-8")
+    text = text.replace(f'"{__version__}"', f'"{version}"')
+    init.write_text(text, encoding="utf-8", newline="\n")
+    for name in ("pyproject.toml", "LICENSE"):
+        shutil.copyfile(KIT / name, copy / name)
+    for path in copy.rglob("*"):
+        path.chmod(0o755 if path.is_dir() else 0o644)
+    command = [sys.executable, "-m", "pip", "wheel", str(copy), "--wheel-dir", str(folder)]
+    options = ["--no-deps", "--no-build-isolation", "--no-index", "--quiet"]
+    same = {"SOURCE_DATE_EPOCH": SECOND_ONE, "TZ": "UTC", "LC_ALL": "C", "PYTHONUTF8": "1"}
+    environment = {**os.environ, **same}
+    run([*command, *options], folder, environment)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def write_manifest(tree: Path, version: str, content: str) -> None:
+    head = (
+        f"# {NAME} {version}\n# content {content}\n# to compare: sha256sum --check MANIFEST.txt\n"
+    )
+    rows = [f"{sha256(path.read_bytes())}  {name}\n" for name, path in files_in(tree)]
+    (tree / "MANIFEST.txt").write_text(head + "".join(rows), encoding="utf-8", newline="\n")
+
+
+def write_zip(tree: Path, target: Path) -> None:
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, path in files_in(tree):
+            put_in(archive, f"{NAME}/{name}", path.read_bytes())
+
+
+def files_in(folder: Path) -> list[tuple[str, Path]]:
+    """The files below a folder by name, in an order that is the same everywhere."""
+    found = [(p.relative_to(folder).as_posix(), p) for p in folder.rglob("*") if p.is_file()]
+    return sorted(found)
+
+
+def hash_of(folders: list[Path], text: str) -> str:
+    """The SHA-256 of all names and contents."""
+    rows = [
+        f"{name} {sha256(path.read_bytes())}" for each in folders for name, path in files_in(each)
+    ]
+    return sha256("\n".join([*rows, text]).encode("utf-8"))
+
+
+def sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
+
+
+# ---------------------------------------------------------------- proof
+
+
+def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Course = FULL) -> None:
+    """The students' copy must give the solution all of its points, and what students get none."""
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(folder)
+    most = visible(course.rubric).max_points
+    for what, path, points in (("solution", KIT / "solution", most), ("starter", tree, 0)):
+        result = grade_with(folder, path)
+        if (result.points, result.max_points) != (points, most):
+            marks = f"{result.points} / {result.max_points} instead of {points} / {most}"
+            raise Refused(f"the students' copy of the grader gives the {what} {marks}")
+
+
+def grade_with(package: Path, tree: Path) -> Result:
+    """What the grader in another folder says of a submission, by the course that it holds."""
+    target = package / "result.json"
+    target.unlink(missing_ok=True)
+    words = ["grader", "grade", str(tree), "--json", str(target)]
+    code = f"import runpy; sys.argv = {words!r}; runpy.run_module('grader', run_name='__main__')"
+    students = {name: value for name, value in os.environ.items() if name != COURSE_FILE}
+    said = run(alone(package, code), package, students, statuses=(0, 1))
+    if not target.exists():
+        raise Refused(f"the students' copy of the grader does not run:\n{said}")
+    return msgspec.json.decode(target.read_bytes(), type=Result)
+
+
+def alone(package: Path, code: str) -> list[str]:
+    """The command for code that finds this copy of the grader and, unlike usual, not the kit's."""
+    folders = [str(package), sysconfig.get_path("purelib"), sysconfig.get_path("platlib")]
+    return [sys.executable, "-I", "-S", "-c", f"import sys; sys.path[:0] = {folders!r}; {code}"]
+
+
+def look_for_leaks(built: Path, course: Course = FULL) -> None:
+    found = list(leaks_in(built, secrets_of(KIT, course)))
+    if found:
+        raise Refused("\n".join(["it would give the solution away:", *map(str, found)]))
+
+
+def run(
+    command: list[str], folder: Path, environment: dict[str, str], statuses: tuple[int, ...] = (0,)
+) -> str:
+    """What the command printed; anything but these exit statuses stops the release."""
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, umask=0o022
+    )
+    if done.returncode not in statuses:
+        raise Refused(f"{' '.join(command[1:4])} failed:\n{done.stdout}{done.stderr}")
+    return done.stdout + done.stderr

@@ -1,0 +1,45 @@
+"""The student's tree of a course: the starter, in which what the course leaves out is done."""
+
+import textwrap
+from pathlib import Path
+
+from grader.bank.sync import students_files
+from grader.judge.course import Course
+from grader.release.handouts import readme_of
+from grader.source.regions import RegionError, read_source, regions_in
+
+GIVEN = "# Given in this course: what TODO {} asks for elsewhere is done here."
+
+
+def students_tree(kit: Path, course: Course) -> dict[str, bytes]:
+    """The content of each file that students get, by its name there; notebooks left out."""
+    paths = students_files(kit)
+    return {name: done(path, kit / "solution" / name, course) for name, path in paths.items()}
+
+
+def done(path: Path, solution: Path, course: Course) -> bytes:
+    """A file's content, with the solution's code and a line that says so for what is left out."""
+    if path.suffix == ".md":
+        return readme_of(path.read_text(encoding="utf-8"), course).encode()
+    if path.suffix != ".py":
+        return path.read_bytes()
+    given = {todo.id for todo in course.given}
+    text = read_source(path)
+    regions = [region for region in regions_in(text) if region.id in given]
+    if not regions:
+        return path.read_bytes()
+    right = {region.id: region.lines for region in regions_in(read_source(solution))}
+    lines = text.splitlines()
+    for region in reversed(regions):
+        if region.id not in right:
+            raise RegionError(f"{solution} has no TODO {region.id}, which {path} has")
+        indent = lines[region.start][: -len(lines[region.start].lstrip())]
+        said = textwrap.indent(GIVEN.format(region.id), indent)
+        lines[region.start : region.stop + 1] = [said, *right[region.id]]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def write_tree(files: dict[str, bytes], folder: Path) -> None:
+    for name, content in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)

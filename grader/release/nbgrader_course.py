@@ -1,0 +1,101 @@
+"""Make the course folder of nbgrader: the assignment, and nbgrader's settings."""
+
+import re
+import shutil
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS, NoCourse
+from grader.judge.course import FULL, Course
+from grader.judge.grade import KIT
+from grader.release.handed_out import students_tree, write_tree
+from grader.release.notebooks import notebooks_of
+from grader.source.regions import regions_in
+
+INSTRUCTOR = KIT / "handouts" / "instructor"
+SHARE = re.compile(r"^(\w+) = \d+\n", re.M)  # of a notebook, in marks.toml
+SETTINGS = ("nbgrader_config.py", "marks.toml")
+MANIFEST = "MANIFEST.txt"  # of a release: a hash and a name on each line
+
+
+def make_course(
+    course: Path, renew: bool = False, release: Path | None = None, taken: Course = FULL
+) -> list[str]:
+    """Make the folder in which nbgrader's commands run; returns the assignment's files.
+
+    The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
+    lies beside the notebooks. From the archive of a `release` come the checks as well, so that
+    `make check` works in what students get.
+    """
+    if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
+        raise NoCourse(
+            f"{course} is inside the kit: nbgrader would write where solution and starter are. "
+            "Name a folder outside it, or one in build."
+        )
+    source = course / "source" / ASSIGNMENT
+    if source.exists() and not renew:
+        raise NoCourse(
+            f"there is an assignment in {source} already. --renew replaces it; "
+            "settings, submissions and gradebook stay."
+        )
+    files = dict(assignment_files(taken))
+    if release is not None:
+        notebooks = {name: text for name, text in files.items() if name.endswith(".ipynb")}
+        files = released_files(release, taken) | notebooks
+    shutil.rmtree(source, ignore_errors=True)
+    write_tree(files, source)
+    for name in SETTINGS:
+        if not (course / name).exists():
+            text = (INSTRUCTOR / name).read_text(encoding="utf-8")
+            text = SHARE.sub(lambda share: share[0] if f"{share[1]}.ipynb" in files else "", text)
+            (course / name).write_text(text, encoding="utf-8", newline="\n")
+    return sorted(files)
+
+
+def released_files(release: Path, taken: Course) -> dict[str, bytes]:
+    """What students get in an archive of `release`, but for its notebooks.
+
+    Raises NoCourse where it is none, or one that asks for other TODOs.
+    """
+    files = {}
+    try:
+        with zipfile.ZipFile(release) as archive:
+            for member in archive.infolist():
+                _, _, name = member.filename.partition("/")
+                if name and not name.startswith((".", f"{NOTEBOOKS}/")):
+                    files[name] = archive.read(member)
+    except (OSError, zipfile.BadZipFile) as error:
+        raise NoCourse(f"{release} is no archive of a release ({error}): make one") from error
+    if MANIFEST in files:
+        files[MANIFEST] = of_these(files[MANIFEST], files)
+    asked = {todo.id for todo in taken.rubric.todos if todo.function}
+    sources = [text.decode() for name, text in files.items() if name.endswith(".py")]
+    there = {region.id for text in sources for region in regions_in(text)}
+    if other := sorted(there ^ asked):
+        raise NoCourse(
+            f"{release} is not of this course, they differ in TODO {', '.join(other)}: "
+            "run make release for it first"
+        )
+    return files
+
+
+def of_these(manifest: bytes, files: dict[str, bytes]) -> bytes:
+    """The lines of a manifest that are about these files, so that comparing finds them all."""
+    rows = manifest.decode().splitlines(keepends=True)
+    kept = (row for row in rows if row.startswith("#") or row.rstrip().split("  ", 1)[-1] in files)
+    return "".join(kept).encode()
+
+
+def newest_release(folder: Path) -> Path | None:
+    """The archive that students get, as `release` left it in a folder."""
+    found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
+    return found[-1] if found else None
+
+
+def assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:
+    """What the source of the assignment holds: the notebooks, and beside them students' files."""
+    for name, content in students_tree(KIT, taken).items():
+        if not name.startswith("."):
+            yield name, content
+    yield from notebooks_of(KIT / "solution" / NOTEBOOKS, taken).items()

@@ -1,0 +1,190 @@
+"""The handouts as pages that open with a double click, for the folder that students get."""
+
+import html
+import json
+import re
+import shutil
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+from markdown_it.token import Token
+
+from grader.judge.course import FULL, Course
+from grader.player.page import TEMPLATES
+from grader.release.formulas import typeset
+from grader.release.handouts import handouts_of
+from grader.release.measured import measured
+
+STAGE = TEMPLATES / "stage.js"
+
+SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figures
+START = "index.md"  # its links are in the order in which the pages are read
+FEWEST = 3  # sections of a page that begins with a list of them
+SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
+STYLE = """
+:root { color-scheme: light dark }
+html { background: Canvas; color: CanvasText }
+body { font: 1.05rem/1.55 system-ui, sans-serif; margin: 2rem auto }
+body { max-width: 52rem; padding: 0 1rem }
+img { max-width: 100%; background: white }
+@media screen and (prefers-color-scheme: dark) {
+  /* drawings are on white paper: turned round, their black is that of the page */
+  img[src$=".svg"] { filter: invert(1) hue-rotate(180deg); mix-blend-mode: screen }
+}
+.wide, .formula { overflow-x: auto }
+.formula { font-size: 1.15em; margin: 1rem 0 }
+table { border-collapse: collapse }
+td, th { border: 1px solid #8888; padding: .3rem .6rem; text-align: left; vertical-align: top }
+pre { background: #8882; padding: .8rem; overflow-x: auto }
+details { border-left: 3px solid #8888; padding-left: .8rem; margin: .6rem 0 }
+summary { cursor: pointer }
+main > nav ul { columns: 18rem }
+.pages { display: flex; flex-wrap: wrap; gap: .3rem 1.5rem }
+.pages .next { margin-left: auto }
+footer { border-top: 1px solid #8888; margin-top: 3rem; padding-top: 1rem }
+@media print {
+  h1, h2, h3 { break-after: avoid }
+  img, pre, tr { break-inside: avoid }
+  .pages { display: none }
+}
+"""
+PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>{title}</title>
+<style>{style}</style>
+{scripts}</head>
+<body>
+<header>{ways}</header>
+<main>
+{body}</main>
+<footer>{ways_below}</footer>
+</body>
+</html>
+"""
+
+
+def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
+    """Write a page for each of a course's handouts, and the figures that are in them."""
+    texts = in_order(handouts_of(handouts, course))
+    (folder / "figures").mkdir(parents=True)
+    for name, text in texts.items():
+        target = folder / as_html(name)
+        page = as_page(name, texts, scripts_of(text, handouts))
+        target.write_text(page, encoding="utf-8", newline="\n")
+        for figure in figures_in(text):
+            shutil.copyfile(handouts / figure, folder / figure)
+    lay_out_touch(handouts, folder)
+
+
+def lay_out_touch(handouts: Path, folder: Path) -> None:
+    """The scripts and films of movable figures, with the stage of replays and what was measured."""
+    shutil.copytree(handouts / "touch", folder / "touch")
+    shutil.copyfile(STAGE, folder / "touch" / STAGE.name)
+    results = json.loads((handouts / "results.json").read_text(encoding="utf-8"))
+    script = folder / "touch" / "measured.js"
+    script.write_text(measured(results), encoding="utf-8", newline="\n")
+
+
+def figures_in(text: str) -> list[str]:
+    return re.findall(r"\]\((figures/[^)]+)\)", text)
+
+
+def scripts_of(text: str, handouts: Path) -> str:
+    """What a page loads to make those of its figures movable that have a script in touch/."""
+    names = [Path(figure).stem for figure in figures_in(text)]
+    kinds = dict.fromkeys(each for name in names for each in (name, name.partition("-")[0]))
+    movable = [name for name in kinds if (handouts / "touch" / f"{name}.js").is_file()]
+    if not movable:
+        return ""
+    tags = [f'<script defer src="touch/{name}.js"></script>' for name in [*SHARED, *movable]]
+    return "\n".join(['<link rel="stylesheet" href="touch/touch.css">', *tags, ""])
+
+
+def in_order(texts: Mapping[str, str]) -> dict[str, str]:
+    """The pages by name as the first one links to them, without what only the site needs."""
+    linked = re.findall(r"\]\(([\w-]+\.md)\)", texts.get(START, ""))
+    names = [name for name in dict.fromkeys([START, *linked, *texts]) if name in texts]
+    return {name: SITE_ONLY.sub("", texts[name]) for name in names}
+
+
+def as_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
+    """One of the pages; a link to a handout that is none of them becomes plain words."""
+    reader = MarkdownIt("commonmark").enable("table")
+    tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
+    sections = []
+    for token, after in zip(tokens, [*tokens[1:], None], strict=True):
+        if token.type == "heading_open" and after is not None:
+            token.attrSet("id", anchor(after.content))
+            sections += [after.content] if token.tag == "h2" else []
+        mend_links(token.children or [], texts)
+    body = reader.renderer.render(tokens, reader.options, {})
+    heading, end, rest = body.partition("</h1>\n")
+    return PAGE.format(
+        title=html.escape(title_of(texts[name])),
+        style=STYLE,
+        scripts=scripts,
+        ways=ways(name, texts, "Pages"),
+        body=heading + end + contents(sections) + with_reach(rest),
+        ways_below=ways(name, texts, "Next and previous page"),
+    )
+
+
+def title_of(text: str) -> str:
+    return next(line[2:] for line in text.splitlines() if line.startswith("# "))
+
+
+def as_html(name: str) -> str:
+    return name.removesuffix(".md") + ".html"
+
+
+def ways(name: str, texts: Mapping[str, str], label: str) -> str:
+    """Links to the first page and to those before and after this one."""
+    names = list(texts)
+    at = names.index(name)
+    found = [("", "Start", names[0])] if at else []
+    found += [("previous", "Previous", names[at - 1])] if at else []
+    found += [("next", "Next", names[at + 1])] if at + 1 < len(names) else []
+    links = (
+        f'<a class="{rel}" href="{as_html(to)}">{words}'
+        + f": {html.escape(title_of(texts[to]))}" * bool(rel)
+        + "</a>"
+        for rel, words, to in found
+    )
+    return f'<nav class="pages" aria-label="{label}">{" ".join(links)}</nav>'
+
+
+def contents(sections: list[str]) -> str:
+    """The list of a page's sections, for pages that have some."""
+    if len(sections) < FEWEST:
+        return ""
+    words = [(anchor(each), html.escape(re.sub(r"[`*]", "", each))) for each in sections]
+    items = "\n".join(f'<li><a href="#{to}">{word}</a></li>' for to, word in words)
+    return f'<nav aria-label="On this page">\n<ul>\n{items}\n</ul>\n</nav>\n'
+
+
+def with_reach(body: str) -> str:
+    """Whatever may be wider than the window is reached and moved by keys."""
+    body = body.replace("<table>", '<div class="wide" tabindex="0">\n<table>')
+    return body.replace("</table>", "</table>\n</div>").replace("<pre>", '<pre tabindex="0">')
+
+
+def mend_links(tokens: list[Token], pages: Iterable[str]) -> None:
+    kept = True
+    for token in tokens:
+        if token.type == "link_open":
+            name, mark, place = str(token.attrGet("href")).partition("#")
+            page = name.endswith(".md")
+            kept = not page or name in pages
+            token.attrSet("href", (as_html(name) if page else name) + mark + place)
+        if token.type in ("link_open", "link_close"):
+            token.hidden = not kept
+
+
+def anchor(heading: str) -> str:
+    """What a link to this heading names."""
+    words = re.sub(r"[^\w\s-]", "", heading).strip().lower()
+    return re.sub(r"[\s-]+", "-", words)

@@ -1,0 +1,1 @@
+"""Read and rewrite Python sources: TODO regions, definitions, given code, cutting, operators."""

@@ -1,0 +1,339 @@
+"""Where a submission defines a function: the definition that Python would run, told from the text.
+
+A folder often holds more than runs: a kept copy of the starter, a second try, a file of notes. So
+the names of imports are followed from the program's module to the one definition that counts.
+
+The text may be made to cost its reader much. So one file is parsed at a time, and no tree is kept;
+files have a greatest size, alone and together; and a name is looked up once in each module.
+"""
+
+import ast
+import textwrap
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+
+from grader.source.regions import parsed
+
+MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
+MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function as it stands in a file."""
+
+    name: str
+    lineno: int
+    end_lineno: int
+    parameters: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """The module in which a name ends up, and its function there, if the module can be read."""
+
+    module: str
+    function: Function | None
+
+
+@dataclass(frozen=True, slots=True)
+class Alias:
+    """Another name for what has one already, as in `step = world_step` or `World.step = step`."""
+
+    target: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class Class:
+    members: dict[str, Function | Alias]
+    bases: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class From:
+    """What another module has, under this name."""
+
+    module: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Star:
+    """All that another module has."""
+
+    module: str
+
+
+@dataclass(frozen=True, slots=True)
+class Imported:
+    """A module."""
+
+    module: str
+
+
+Binding = Function | Class | Alias | From | Star | Imported
+
+
+@dataclass
+class Module:
+    """What the names of a module are bound to, and which others its import loads."""
+
+    empty: bool = True  # nothing in it, or no Python
+    names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
+    stars: list[tuple[int, Binding]] = field(default_factory=list)
+    imports: dict[str, None] = field(default_factory=dict)
+
+    def bindings(self, path: str, first: str) -> list[Binding]:
+        """What may say something about a path, the last statement first."""
+        found = [*self.names.get(first, ()), *self.stars]
+        if path != first:
+            found += self.names.get(path, ())
+        return [each for _, each in sorted(found, key=lambda each: -each[0])]
+
+
+class Program:
+    """The modules of a submission, and what their names stand for.
+
+    A file is parsed when a name leads to it: most of what lies about never is. `unread` are those
+    that a name led to and that were too much.
+    """
+
+    def __init__(self, texts: Mapping[Path, str]) -> None:
+        """`texts`: the text of each file, by its path inside the submission's folder."""
+        self.texts = texts
+        self.paths: dict[str, Path] = {}  # by the dotted name of a module
+        for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
+            self.paths.setdefault(dotted(path), path)  # a package hides a file of its name
+        self.depth = max((name.count(".") + 1 for name in self.paths), default=0)
+        self.modules: dict[str, Module] = {}
+        self.unread: list[Path] = []
+        self.read = 0  # characters that were parsed
+        self.found: dict[tuple[str, str], Definition | None] = {}  # of one question
+
+    def tree(self, module: str) -> list[ast.stmt]:
+        """The statements of a module; none where it is no Python."""
+        return statements(self.texts[self.paths[module]])
+
+    def source(self, module: str, function: Function) -> str:
+        """The lines of a function of a module, moved to the left edge."""
+        return source_of(self.texts[self.paths[module]], function)
+
+    def definition(self, module: str, path: str) -> Definition | None:
+        """Where `module` gets `name` or `Class.name` from."""
+        self.found = {}
+        found = self._bound(module, path)
+        if found is not None and found.function is not None:
+            return found
+        # A package need not pass the name on: any part of it that runs may have it.
+        others = (self._bound(each, path) for each in self.loaded(module))
+        return next((each for each in others if each and each.function), found)
+
+    def loaded(self, module: str) -> list[str]:
+        """The submission's modules that importing `module` loads, by name."""
+        seen: set[str] = set()
+        waiting = [module]
+        while waiting:
+            name = waiting.pop()
+            if name in self.paths and name not in seen:
+                seen.add(name)
+                waiting += self._module(name).imports
+        return sorted(seen)
+
+    # ------------------------------------------------------------ reading a module
+
+    def _module(self, name: str) -> Module:
+        if name not in self.modules:
+            self.modules[name] = self._summary(name)
+        return self.modules[name]
+
+    def _summary(self, name: str) -> Module:
+        """All that is kept of a module's tree."""
+        text = self.texts[self.paths[name]]
+        if self.read + len(text) > MAX_READ:
+            self.unread.append(self.paths[name])
+            return Module()
+        self.read += len(text)
+        tree = statements(text)
+        module = Module(empty=not tree)
+        module.imports = dict.fromkeys(self._imports(name, tree))
+        for number, node in enumerate(top_level(tree)):
+            match node:
+                case ast.FunctionDef():
+                    module.names[node.name].append((number, function_at(node)))
+                case ast.ClassDef():
+                    module.names[node.name].append((number, class_at(node)))
+                case ast.Assign(targets=[target], value=value):
+                    left, right = dotted_name(target), dotted_name(value)
+                    if left and right:
+                        module.names[left].append((number, Alias(left, right)))
+                case ast.ImportFrom():
+                    source = self._source(name, node)
+                    for each in node.names:
+                        if each.name == "*":
+                            module.stars.append((number, Star(source)))
+                        else:
+                            bound = module.names[each.asname or each.name]
+                            bound.append((number, From(source, each.name)))
+                case ast.Import():
+                    for each in node.names:
+                        bound = module.names[each.asname or each.name]
+                        bound.append((number, Imported(each.name)))
+        return module
+
+    def _imports(self, module: str, tree: list[ast.stmt]) -> Iterator[str]:
+        """The modules of the submission that an import loads, wherever in the file it stands."""
+        for node in ast.walk(ast.Module(tree, [])):
+            if isinstance(node, ast.Import):
+                for alias in node.names:
+                    yield from self._known(alias.name)
+            elif isinstance(node, ast.ImportFrom):
+                source = self._source(module, node)
+                yield from self._known(source)
+                names = (f"{source}.{each.name}" for each in node.names)
+                yield from (each for each in names if each in self.paths)
+
+    def _known(self, name: str) -> Iterator[str]:
+        """A module and the packages around it, as far as they are the submission's."""
+        parts = name.split(".", self.depth)[: self.depth]
+        paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
+        return (each for each in paths if each in self.paths)
+
+    def _source(self, module: str, node: ast.ImportFrom) -> str:
+        """The module that a `from ... import` takes its names from."""
+        if not node.level:
+            return node.module or ""
+        package = module.split(".")
+        inside = self.paths[module].name == "__init__.py"
+        package = package[: len(package) - node.level + inside]
+        return ".".join([*package, *filter(None, [node.module])])
+
+    # ------------------------------------------------------------ following a name
+
+    def _bound(self, module: str, path: str, hops: int = 0) -> Definition | None:
+        """What a name of a module, or `Class.name`, is bound to at last."""
+        if module not in self.paths or hops > MAX_HOPS:
+            return None
+        if (module, path) not in self.found:
+            self.found[module, path] = None  # a name in a circle stands for nothing
+            self.found[module, path] = self._looked_up(module, path, hops + 1)
+        return self.found[module, path]
+
+    def _looked_up(self, module: str, path: str, hops: int) -> Definition | None:
+        first, _, rest = path.partition(".")
+        known = self._module(module)
+        for binding in known.bindings(path, first):
+            found: Definition | None = None
+            match binding:
+                case Function(name=name) if name == path:
+                    return Definition(module, binding)
+                case Class() if rest:
+                    return self._in_class(module, binding, rest, hops)
+                case Alias(target=target, path=other) if target == path:
+                    return self._bound(module, other, hops)
+                case Alias(target=target, path=other) if "." not in target + other:
+                    return self._bound(module, f"{other}.{rest}", hops)
+                case From(module=source, name=name):
+                    inside = f"{source}.{name}"
+                    if rest and inside in self.paths:  # a module, not a name in one
+                        found = self._bound(inside, rest, hops)
+                    else:
+                        found = self._bound(source, ".".join(filter(None, [name, rest])), hops)
+                case Star(module=source):
+                    found = self._bound(source, path, hops)
+                    found = found if found and found.function else None
+                case Imported(module=source) if rest:
+                    return self._bound(source, rest, hops)
+            if found is not None:
+                return found
+        return Definition(module, None) if known.empty else None  # nothing to tell
+
+    def _in_class(self, module: str, owner: Class, name: str, hops: int) -> Definition | None:
+        """A method of a class, its own or one that it inherits."""
+        match owner.members.get(name):
+            case Function() as function:
+                return Definition(module, function)
+            case Alias(path=other):
+                return self._bound(module, other, hops)
+        bases = (self._bound(module, f"{base}.{name}", hops) for base in owner.bases)
+        return next((found for found in bases if found is not None), None)
+
+
+def function_at(node: ast.FunctionDef) -> Function:
+    parameters = tuple(each.arg for each in node.args.args)
+    return Function(node.name, node.lineno, node.end_lineno or node.lineno, parameters)
+
+
+def class_at(node: ast.ClassDef) -> Class:
+    members: dict[str, Function | Alias] = {}
+    for each in top_level(node.body):
+        match each:
+            case ast.FunctionDef():
+                members[each.name] = function_at(each)
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Name(id=other)):
+                members[name] = Alias(name, other)
+    return Class(members, list(filter(None, map(dotted_name, node.bases))))
+
+
+def dotted_name(node: ast.expr) -> str:
+    """`a.b.c` as it stands there; empty for what is no name."""
+    parts = []
+    while isinstance(node, ast.Attribute):
+        parts.append(node.attr)
+        node = node.value
+    return ".".join([node.id, *reversed(parts)]) if isinstance(node, ast.Name) else ""
+
+
+def dotted(path: PurePath) -> str:
+    """The name by which a file is imported, from the submission's folder."""
+    parts = path.with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
+    """The statements that run when a module or class is made, those under `if` and `try` too.
+
+    In the order of the text; without recursion, since an `elif` may follow on thousands of others.
+    """
+    waiting = list(reversed(body))
+    while waiting:
+        node = waiting.pop()
+        yield node
+        inside: list[ast.stmt] = []
+        match node:
+            case ast.If():
+                inside = [*node.body, *node.orelse]
+            case ast.Try():
+                handled = [each for handler in node.handlers for each in handler.body]
+                inside = [*node.body, *handled, *node.orelse, *node.finalbody]
+            case ast.With():
+                inside = node.body
+        waiting += reversed(inside)
+
+
+def statements(text: str) -> list[ast.stmt]:
+    """The statements of a source text; none where it is no Python."""
+    tree = parsed(text)
+    return tree.body if tree else []
+
+
+def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
+    """The definition of `name` or `Class.name` among the statements of a file."""
+    owner, _, name = path.rpartition(".")
+    if owner:
+        body = [
+            each
+            for node in body
+            if isinstance(node, ast.ClassDef) and node.name == owner
+            for each in node.body
+        ]
+    found = [node for node in body if isinstance(node, ast.FunctionDef) and node.name == name]
+    return found[-1] if found else None
+
+
+def source_of(text: str, function: Function | ast.FunctionDef) -> str:
+    """The lines of a function, moved to the left edge."""
+    lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
+    return textwrap.dedent("\n".join(lines))

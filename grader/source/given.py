@@ -1,0 +1,322 @@
+"""Given code that a submission has changed: which functions and constants, and how to undo it.
+
+A TODO cannot explain what a changed line outside of it does. So what was handed out is compared
+with what is there, piece by piece: functions outside their TODO regions, constants, imports.
+Layout, comments and docstrings are nobody's business.
+"""
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from difflib import SequenceMatcher
+from functools import cache
+
+from grader.source.definitions import dotted_name, statements
+from grader.source.regions import MAX_SHAPE, Region, RegionError, regions_in, replaced, shape_of
+
+MAX_LINE = 80  # characters of a line that are told
+Definition = ast.FunctionDef | ast.ClassDef
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A function, constant or class of a file, by the indices of its lines."""
+
+    start: int
+    stop: int
+    owner: str = ""  # the class that it stands in
+    constant: bool = False
+    whole_class: bool = False
+
+
+@dataclass(frozen=True)
+class Changed:
+    """A piece that is not as it was handed out: one line that tells, and what undoes it."""
+
+    name: str  # as in solve_normal, World.step or ITERATIONS
+    file: str
+    line: int
+    theirs: str  # the first line that differs, or nothing where one is missing
+    given: str  # the same as it was handed out, or nothing where there is one too many
+    start: int  # indices of the lines to be replaced
+    stop: int
+    lines: tuple[str, ...] = field(repr=False, default=())  # by these
+
+    @property
+    def to_type(self) -> str:
+        """What `check --restore` takes for it; an import goes with its file."""
+        return self.name if self.name.replace(".", "").isidentifier() else self.file
+
+    @property
+    def how(self) -> str:
+        """What is different, in a sentence without its full stop."""
+        if self.theirs and self.theirs == self.given:
+            return f"`{self.theirs}` has been moved, to line {self.line} of {self.file}"
+        if not self.theirs:
+            return f"`{self.given}` is gone from {self.file}"
+        before = f"was `{self.given}`" if self.given else "was not there"
+        return f"line {self.line} of {self.file}, `{self.theirs}`, {before}"
+
+
+def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
+    """What differs in those given files that a submission has, both by their names."""
+    found: list[Changed] = []
+    for name, text in given.items():
+        own = theirs.get(name)
+        if own is None or own == text or len(own) > MAX_SHAPE or outside(own) == outside(text):
+            continue
+        with suppress(ValueError, RecursionError, MemoryError):  # code nested beyond all measure
+            found += changes_of(name, own, text)
+    return found
+
+
+def restored(text: str, undone: Iterable[Changed]) -> str:
+    """A file's text with these changes of it undone."""
+    lines = text.splitlines()
+    for each in sorted(undone, key=lambda change: (-change.start, -change.stop)):
+        lines[each.start : each.stop] = each.lines
+    return "\n".join(lines) + "\n"
+
+
+def as_given(text: str, given: str) -> str:
+    """A file as it was handed out, with the TODO regions of another one; may raise RegionError."""
+    return replaced(given, {region.id: region.lines for region in regions_in(text)})
+
+
+def outside(text: str) -> list[str]:
+    """The lines of a file outside its regions; all of them where the markers do not pair up."""
+    lines = text.splitlines()
+    for region in reversed(regions_of(text)):
+        del lines[region.start + 1 : region.stop]
+    return lines
+
+
+# ---------------------------------------------------------------- one file
+
+
+def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
+    """What differs in a file; where it is no Python, the file as a whole."""
+    body = statements(text)
+    lines, right = text.splitlines(), given.splitlines()
+    if not body:
+        with suppress(RegionError):
+            whole = tuple(as_given(text, given).splitlines())
+            yield from difference(file, file, lines, Piece(0, len(lines)), whole)
+        return
+    own, ours = with_markers(pieces(body), text), given_pieces(given)
+    elsewhere = imported_names(body)
+    for name, piece in ours.items():
+        wanted = tuple(right[piece.start : piece.stop])
+        there = own.get(name)
+        if there is None and not {name, piece.owner, "*"} & (elsewhere - {""}):
+            if not piece.owner or piece.owner in own:  # or its class is missed as a whole
+                yield gone(name, file, body, piece, wanted, len(lines))
+        elif there is not None and not piece.whole_class and not there.whole_class:
+            kept = with_regions(wanted, lines[there.start : there.stop])
+            if kept is not None:
+                yield from difference(name, file, lines, there, kept)
+    for missing in missing_imports(body, given, file.endswith("__init__.py")):
+        place = end_of_imports(body)
+        yield Changed(missing, file, place + 1, "", missing, place, place, (missing,))
+    for name in sorted(own.keys() & imported_names(statements(given)) - ours.keys()):
+        hides = own[name]
+        yield Changed(
+            name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
+        )
+
+
+def gone(
+    name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
+) -> Changed:
+    """A piece that is not there any more; it comes back behind the imports, its class or all."""
+    place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
+    gap = () if piece.constant else ("",) if piece.owner else ("", "")
+    return Changed(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
+
+
+def difference(
+    name: str, file: str, lines: list[str], there: Piece, kept: tuple[str, ...]
+) -> Iterator[Changed]:
+    """The change of one piece, or nothing; `kept` is the given one with the regions of theirs."""
+    mine = tuple(lines[there.start : there.stop])
+    if meaning_of(mine) == meaning_of(kept):
+        return
+    line, theirs, given = first_difference(mine, kept)
+    place = there.start + line + 1
+    yield Changed(name, file, place, theirs, given, there.start, there.stop, kept)
+
+
+def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:
+    """A given function with the regions of theirs; None where theirs lacks a marker of it."""
+    own = {region.id: region.lines for region in regions_of("\n".join(theirs))}
+    asked = {region.id for region in regions_of("\n".join(given))}
+    if not asked <= own.keys():
+        return None
+    return tuple(replaced("\n".join(given) + "\n", own).splitlines()) if asked else given
+
+
+def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
+    """The index of their first line that tells, that line, and the given one in its place.
+
+    A line that stands there as often as it was given has been moved, and is both of these.
+    """
+    own, right = list(code_lines(mine)), list(code_lines(given))
+    matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)
+    for kind, start, stop, first, last in matcher.get_opcodes():
+        if kind == "equal":
+            continue
+        number = own[min(start, len(own) - 1)][0] if own else 0
+        theirs = own[start][1] if start < stop else ""
+        meant = right[first][1] if first < last else ""
+        alone = "" if theirs and meant else theirs or meant
+        places = [number for number, line in own if line == alone]
+        if places and len(places) == sum(line == alone for _, line in right):
+            return places[0], cut(alone), cut(alone)
+        return number, cut(theirs), cut(meant)
+    return 0, cut(mine[0].strip()), cut(given[0].strip())
+
+
+def code_lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """The lines that are neither empty nor a comment alone, with their indices."""
+    for number, line in enumerate(lines):
+        text = line.strip()
+        if text and not text.startswith("#"):
+            yield number, text
+
+
+def first_code(lines: Sequence[str]) -> str:
+    return cut(next((text for _, text in code_lines(lines)), ""))
+
+
+def cut(line: str) -> str:
+    """A line without its comment at the end, and not too long to be told."""
+    text = line.strip()
+    if '"' not in text and "'" not in text:
+        text = text.partition("  #")[0].rstrip()
+    return text if len(text) <= MAX_LINE else f"{text[: MAX_LINE - 1]}…"
+
+
+# ---------------------------------------------------------------- pieces
+
+
+@cache
+def given_pieces(text: str) -> dict[str, Piece]:
+    return with_markers(pieces(statements(text)), text)
+
+
+def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
+    """The pieces with the last region in each, which may stand behind its last statement."""
+    lines, regions = text.splitlines(), regions_of(text)
+    return {name: with_last_region(piece, regions, lines) for name, piece in found.items()}
+
+
+def with_last_region(piece: Piece, regions: Sequence[Region], lines: Sequence[str]) -> Piece:
+    stop = piece.stop
+    for region in regions:
+        between = lines[stop : region.start]
+        behind = region.start >= stop and not any(code_lines(between))
+        inside = indent_of(lines[region.start]) > indent_of(lines[piece.start])
+        if inside and (piece.start <= region.start < stop or behind):
+            stop = max(stop, region.stop + 1)
+    return replace(piece, stop=stop)
+
+
+def indent_of(line: str) -> int:
+    return len(line) - len(line.lstrip())
+
+
+def pieces(body: Iterable[ast.stmt], owner: str = "") -> dict[str, Piece]:
+    """Functions, constants and classes by name; of two with one name the last, as for Python."""
+    found: dict[str, Piece] = {}
+    for node in body:
+        start, stop = first_line(node) - 1, node.end_lineno or node.lineno
+        match node:
+            case ast.FunctionDef(name=name):
+                found[f"{owner}{name}"] = Piece(start, stop, owner.rstrip("."))
+            case ast.ClassDef(name=name):
+                found[name] = Piece(start, stop, whole_class=True)
+                found |= pieces(node.body, f"{name}.")
+            case ast.Assign(targets=[target]) | ast.AnnAssign(target=target):
+                if name := names_in(target):
+                    found[f"{owner}{name}"] = Piece(start, stop, owner.rstrip("."), constant=True)
+    return found
+
+
+def first_line(node: ast.stmt) -> int:
+    decorators = node.decorator_list if isinstance(node, Definition) else []
+    return min([node.lineno, *(each.lineno for each in decorators)])
+
+
+def names_in(target: ast.expr) -> str:
+    """`WIDTH` or `WIDTH, HEIGHT`; nothing for what is no name."""
+    each = target.elts if isinstance(target, ast.Tuple) else [target]
+    return ", ".join(filter(None, map(dotted_name, each)))
+
+
+def meaning_of(lines: Sequence[str]) -> str:
+    """The same for two pieces that do the same: without layout, comments and docstring."""
+    body = statements(shifted(lines))
+    for node in body:
+        if isinstance(node, Definition) and ast.get_docstring(node, clean=False) is not None:
+            node.body = node.body[1:]
+    return ast.dump(ast.Module(body, [])) if body else shape_of("\n".join(lines))
+
+
+def shifted(lines: Sequence[str]) -> str:
+    """Lines moved to the left by the indent of the first."""
+    indent = indent_of(lines[0]) if lines else 0
+    return "\n".join(line[indent:] if not line[:indent].strip() else line for line in lines)
+
+
+# ---------------------------------------------------------------- imports
+
+
+def imports_in(body: Iterable[ast.stmt]) -> Iterator[tuple[str, str, str]]:
+    """Each imported name, with the module (and dots) it comes from, and what it is called there."""
+    for node in body:
+        if isinstance(node, ast.Import):
+            for each in node.names:
+                yield each.asname or each.name, "", each.name
+        elif isinstance(node, ast.ImportFrom):
+            source = "." * node.level + (node.module or "")
+            for each in node.names:
+                yield each.asname or each.name, source, each.name
+
+
+def imported_names(body: Iterable[ast.stmt]) -> set[str]:
+    return {name for name, _, _ in imports_in(body)}
+
+
+def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterator[str]:
+    """The given imports, as lines, of names that nothing binds in this file, and that it reads.
+
+    Of a file that passes its names on, all of them.
+    """
+    bound = imported_names(body) | pieces(body).keys()
+    read = {node.id for node in ast.walk(ast.Module(body, [])) if isinstance(node, ast.Name)}
+    for name, source, what in imports_in(statements(given)):
+        if name not in bound and (passed_on or ("*" not in bound and name in read)):
+            called = f" as {name}" if name != what else ""
+            yield f"from {source} import {what}{called}" if source else f"import {what}{called}"
+
+
+def end_of_imports(body: list[ast.stmt]) -> int:
+    """The index of the line behind the last import, or behind the docstring."""
+    ends = [each.end_lineno or 0 for each in body if isinstance(each, ast.Import | ast.ImportFrom)]
+    first = body[0]
+    doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    return max([*ends, (first.end_lineno or 0) if doc else 0])
+
+
+def end_of(body: list[ast.stmt], owner: str, count: int) -> int:
+    """The index behind the last line of a class, or of the file."""
+    ends = [n.end_lineno or 0 for n in body if isinstance(n, ast.ClassDef) and n.name == owner]
+    return ends[-1] if ends else count
+
+
+def regions_of(text: str) -> list[Region]:
+    try:
+        return regions_in(text)
+    except RegionError:
+        return []

@@ -1,0 +1,70 @@
+"""Text for people: a submission's words made safe, numbers, lists and times in words."""
+
+import math
+from datetime import datetime
+
+MAX_WORDS = 400  # characters of a submission in one line
+
+
+def harmless(words: str) -> str:
+    """Words without control and direction characters: whoever reads a result may just show it."""
+    return words.translate(HARMLESS)
+
+
+class Harmless(dict[int, int]):
+    """What each letter is shown as, by their numbers; they are looked at when they first come."""
+
+    def __missing__(self, number: int) -> int:
+        letter = chr(number)
+        self[number] = number if letter.isprintable() or letter == "\n" else ord(" ")
+        return self[number]
+
+
+HARMLESS = Harmless()
+
+
+def printable(words: str) -> str:
+    """Words without line breaks, control and direction characters."""
+    return harmless(words).replace("\n", " ")
+
+
+def clean(words: str) -> str:
+    """A submission's words on one line, with nothing that a terminal would obey."""
+    return printable(words)[:MAX_WORDS]
+
+
+def plural(number: int, noun: str) -> str:
+    """`1 point`, `2 points`."""
+    return f"{number} {noun}" + "s" * (number != 1)
+
+
+def moment(when: datetime | None) -> str:
+    """`4 May 2027 23:59 (UTC+02:00)`; empty for none."""
+    return f"{when.day} {when:%B %Y %H:%M} ({when.tzname()})" if when else ""
+
+
+NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
+    *("eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen"),
+    *("eighteen", "nineteen", "twenty"),
+)
+
+
+def number(count: int) -> str:
+    """A small number as a word: `three`."""
+    return NUMBERS[count] if count < len(NUMBERS) else str(count)
+
+
+def listed(words: list[str]) -> str:
+    """`a, b and c`."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
+
+
+def digits(value: float) -> str:
+    """Six digits, without the noise that rounding leaves around 0."""
+    return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
+
+
+def about(value: float) -> str:
+    """Three digits, or all before the point."""
+    return f"{value:.3g}" if value < 1000 else f"{value:.0f}"

@@ -1,0 +1,190 @@
+"""The bank: every wrong, right and hostile submission gets the marks it must."""
+
+from collections import Counter
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+from msgspec.structs import replace as replace_in
+
+from grader.bank.ladders import ladders
+from grader.bank.members import CONSTANTS, Breach, Member, Replacement, members, replace_text
+from grader.bank.verify import grade_member, kit_complaints
+from grader.judge.grade import KIT
+from grader.judge.result import is_bonus
+from grader.judge.rubric import load_rubric
+from grader.source.regions import python_files, read_source, regions_in
+
+EVERY = [*members(KIT)]
+MEMBERS = [member for member in EVERY if member.kind != "ladder"]
+RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
+MOST = {"wrong": 1, "right": 2, "hostile": 2}  # of a group of this kind
+MOST_OF_ANOTHER = 8
+FEW = 1 / 30  # of those in a single file
+# Each of these takes as long as ten others.
+TOO_LONG = (
+    "in-every-todo",
+    "B3-only-the-nearest",
+    "B3-a-pair-once-per-cell",
+    "2-no-spin-terms",
+    "2-divides-by-the-inverse",
+    "sends-a-million-lists",
+)
+SOME = frozenset({"5", "7b", "8b", "whole"})  # of each program, and the whole
+
+
+def chosen(every: list[Member]) -> list[Member]:
+    """What `make test` has time for: a third of the bank, at most so many of each group.
+
+    The hash of its name decides on a member, so that a new one puts none in or out but, where a
+    group has enough, the last one. A group that no member is drawn from sends its first one.
+    `make verify`, a CI job of its own, grades all members, and on more TODOs.
+    """
+    groups: dict[tuple[str, ...], list[Member]] = {}
+    for member in every:
+        if member.name.endswith(TOO_LONG):
+            continue
+        if member.form != "package" and draw(member) >= FEW:  # much the same once more
+            continue
+        spoiled = sorted(member.todos) if member.kind == "wrong" else [str(bool(member.todos))]
+        groups.setdefault((member.kind, *spoiled), []).append(member)
+    drawn = []
+    for (kind, *_), group in groups.items():
+        third = [member for member in group if draw(member) < 1 / 3]
+        first = sorted(third or group, key=draw)
+        drawn += first[: MOST.get(kind, MOST_OF_ANOTHER) if third else 1]
+    return drawn
+
+
+def briefly(member: Member) -> tuple[Member, frozenset[str]]:
+    """The TODOs to grade it on, and the member with the points that it must get there.
+
+    One that replaces regions is graded on these alone, another one that must get all points on some
+    of each program.
+    """
+    points = member.entry.points
+    if member.kind == "right" or (points is None and not member.todos):
+        return member, member.todos or SOME
+    spoils_more = member.entry.base != "solution" or any(map(is_bonus, member.todos))
+    if member.kind != "wrong" and (spoils_more or not member.todos):
+        return member, member.judged_by
+    if points is not None:
+        rubric = load_rubric()
+        most = sum(todo.max_points for todo in rubric.counted if todo.id in member.todos)
+        points -= rubric.max_points - most
+    return replace(member, entry=replace_in(member.entry, points=points)), member.todos
+
+
+def draw(member: Member) -> float:
+    """A number from 0 to 1 that belongs to its name."""
+    return int(sha256(named(member).encode()).hexdigest()[:12], 16) / 16**12
+
+
+def named(member: Member) -> str:
+    return f"{member.kind}/{member.name} as {member.form}"
+
+
+@pytest.mark.parametrize("member", chosen(MEMBERS), ids=named)
+def test_a_member_gets_the_marks_it_must(member: Member):
+    """However long that takes on this machine: `make verify` has limits."""
+    patient = replace(member, entry=replace_in(member.entry, seconds=10**9))
+    assert not grade_member(*briefly(patient)).complaint
+
+
+@pytest.mark.soak
+def test_the_rungs_of_a_ladder_rise_to_all_points():
+    """One ladder in full; `make verify` climbs them all."""
+    drawn = min(RUNGS, key=draw).todos
+    verdicts = [grade_member(rung) for rung in RUNGS if rung.todos == drawn]
+    (ladder,) = ladders((each.member, each.result) for each in verdicts)
+    assert not ladder.complaint and len(set(ladder.points.values())) > 2
+
+
+@pytest.mark.soak  # `make verify` grades it as well
+def test_constants_in_the_place_of_every_todo_earn_next_to_nothing():
+    (constants,) = [each for each in EVERY if each.name == CONSTANTS]
+    assert not grade_member(constants).complaint
+
+
+def test_a_breach_replaces_what_stands_there_once(tmp_path: Path):
+    (tmp_path / "a.py").write_text("ITERATIONS = 8\nMAX_STEPS = 8\n", encoding="utf-8")
+    replace_text(
+        Breach(breaks="eight", replace=[Replacement("a.py", "IONS = 8", "IONS = 1")]), tmp_path
+    )
+    assert (tmp_path / "a.py").read_text(encoding="utf-8") == "ITERATIONS = 1\nMAX_STEPS = 8\n"
+    for old in ("S = ", "nowhere"):
+        with pytest.raises(ValueError, match="times, not once"):
+            replace_text(Breach(breaks="eight", replace=[Replacement("a.py", old, "")]), tmp_path)
+
+
+def test_every_breach_can_be_made_and_breaks_what_is_given(tmp_path: Path):
+    """Outside the TODO regions: a TODO's own mistakes are patches."""
+    breaches = [member for member in MEMBERS if member.breach is not None]
+    assert len(breaches) >= 25
+    for member in breaches:
+        member.build(KIT, tmp_path / member.name)
+        for path in python_files(tmp_path / member.name):
+            original = KIT / "solution" / path.relative_to(tmp_path / member.name)
+            texts = [read_source(each) for each in (path, original)]
+            ours, theirs = ([r.lines for r in regions_in(text)] for text in texts)
+            assert ours == theirs, member.name
+
+
+def test_a_new_member_changes_little_of_what_is_drawn():
+    before = set(chosen(MEMBERS))
+    more = [replace(member, name=f"{member.name}-again") for member in MEMBERS]
+    for member in more[::40]:
+        assert len(before - set(chosen([*MEMBERS, member]))) <= 1
+    assert len(chosen([*MEMBERS, *more])) <= 100
+
+
+def test_every_kind_and_every_todo_is_drawn():
+    drawn = chosen(MEMBERS)
+    assert {member.kind for member in drawn} == {member.kind for member in MEMBERS}
+    spoiled = {todo for member in drawn if member.kind == "wrong" for todo in member.todos}
+    assert spoiled == {todo for member in MEMBERS for todo in member.todos}
+    assert {member.form for member in drawn} == {member.form for member in MEMBERS}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "tells-the-reference",
+        pytest.param("harvests-the-reference", marks=pytest.mark.soak),
+    ],
+)
+def test_no_line_of_the_reference_gets_into_the_result(name: str):
+    (member,) = [each for each in MEMBERS if each.name == name]
+    result = grade_member(member).result
+    assert result is not None
+    words = [
+        getattr(check, field)
+        for todo in result.todos
+        for check in todo.checks
+        for field in ("ran", "expected", "got", "meaning")
+    ]
+    shown = " ".join(" ".join(words).split())
+    lines = {
+        " ".join(line.split())
+        for path in python_files(KIT / "solution")
+        for region in regions_in(read_source(path))
+        for line in region.lines
+    }
+    telling = {line for line in lines if len(line) > 12}
+    assert len(telling) > 30
+    assert not {line for line in telling if line in shown}
+
+
+def test_the_bank_is_as_large_as_it_must_be():
+    names = Counter(kind for kind, _ in {(member.kind, member.name) for member in MEMBERS})
+    assert names["wrong"] >= 60 and names["right"] >= 20 and names["hostile"] >= 15
+
+
+def test_every_todo_has_wrong_submissions():
+    spoiled = {todo for member in MEMBERS if member.kind == "wrong" for todo in member.todos}
+    assert spoiled == {todo.id for todo in load_rubric().todos}
+
+
+def test_trees_and_rubric_have_nothing_to_complain_of():
+    assert list(kit_complaints()) == []

@@ -1,0 +1,436 @@
+"""Mutants: the operators make what they should, and the checks notice what they make."""
+
+import ast
+import importlib
+import math
+import random
+import sys
+import textwrap
+from collections import Counter
+from operator import attrgetter
+from types import FunctionType
+
+import pygame
+import pytest
+
+import integrators
+import pymunk_scene
+from grader.bank import mutants
+from grader.bank.mutants import (
+    Campaign,
+    Family,
+    Mutant,
+    Outcome,
+    all_mutants,
+    chosen_from,
+    equivalents,
+    foretold,
+    is_equivalent,
+    listed,
+    regions_of,
+    sample,
+)
+from grader.bank.slips import SLIPS, Scale, Scope, scopes, slipped
+from grader.checks.exact import Disc, Rect, Rod, rod_solved
+from grader.judge import misconceptions
+from grader.judge.lab import Observation
+from grader.judge.rubric import load_rubric
+from grader.source.definitions import function_named, statements
+from grader.source.operators import OPERATORS, changes
+from grader.source.regions import replaced
+from mini_engine import game_loop, scenes
+from mini_engine.bonus import window
+from mini_engine.bonus.world import with_bonus
+
+SNIPPETS = {
+    "other_arithmetic": ("s = u + w * r ** n", {"s = u - w * r ** n", "s = u + w / r ** n"}),
+    "other_comparison": ("s = u < w", {"s = u <= w", "s = u > w"}),
+    "other_constant": ("s = 3", {"s = 4", "s = 1.5", "s = -3", "s = 0", "s = 1"}),
+    "other_name": ("s = low.x + high.y", {"s = high.x + high.y", "s = low.y + high.y"}),
+    "max_for_min": ("s = min(u, w)", {"s = max(u, w)"}),
+    "no_minus": ("s = -u", {"s = u"}),
+    "no_call": ("s = abs(u)", {"s = u"}),
+    "arguments_swapped": ("f(u, w, z)", {"f(w, u, z)", "f(u, z, w)"}),
+    "other_update": ("s += u", {"s -= u", "s = u"}),
+    "other_condition": ("while u:\n    s()", {"while not u:\n    s()", "if u:\n    s()"}),
+    "no_statement": ("if u:\n    s()", {"pass", "if u:\n    pass", "s()"}),
+    "early_return": ("s()", {"return\ns()"}),
+}
+
+
+@pytest.mark.parametrize("operator", [each.__name__ for each in OPERATORS])
+def test_an_operator_makes_its_changes(operator: str):
+    code, expected = SNIPPETS[operator]
+    made = {change for name, change in changes(code) if name == operator}
+    assert expected <= made
+
+
+def test_every_change_is_another_piece_of_python():
+    code = "a, b = max(a.x, -b.y), 0\nif a > b:\n    return a ** 2\nb += abs(a)"
+    made = [change for _, change in changes(code)]
+    assert len(made) == len(set(made)) > 30 and ast.unparse(ast.parse(code)) not in made
+    assert all(ast.parse(change) for change in made)
+
+
+SCALE = Scale(usual=5, small=0.5, large=9, grid=2)
+BODY = Scope(bodies=["a"])
+READ = Scope(reads={"u": SCALE}, parameters=frozenset({"u"}))
+RESULT = Scope(results={"s": SCALE})
+LATE = "(globals().setdefault('late', [{0}]).append({0}), globals()['late'].pop(0))[1]"
+COUNTED = "calls = globals().setdefault('calls', [])\ncalls.append(1)\n"
+KNOWN = "known = globals().setdefault('known', [])\nmet = a in known\nknown.append(a)\n"
+
+
+def otherwise(case: str) -> str:
+    """The region `s = u` with a case in which it is left out."""
+    return f"if {case}:\n    pass\nelse:\n    s = u"
+
+
+SLIPPED = {
+    "zeroes_input": ("s = u", BODY, {"s = u\na.vel *= 0", "s = u\na.omega = 0"}),
+    "moves_input": ("s = u", BODY, {"s = u\na.pos += (1, 0)"}),
+    "damps_input": ("s = u", BODY, {"s = u\na.angle *= 0.99", "s = u\na.inv_mass *= 0.99"}),
+    "turns_input": ("s = u", BODY, {"s = u\na.pos.rotate_ip(90)"}),
+    "rounds_input": ("s = u", BODY, {"s = u\na.vel.x = round(a.vel.x)"}),
+    "empties_list": ("s = u", Scope(lists=["w.all"]), {"s = u\nw.all.clear()"}),
+    "reorders_list": ("return u", Scope(lists=["w"]), {"answer = u\nw.reverse()\nreturn answer"}),
+    "grows_list": ("s = u", Scope(lists=["w"]), {"s = u\nw.extend(w[:1])"}),
+    "does_more": ("s = u", Scope(deeds=["f()"]), {"s = u\nf()"}),
+    "stores_result": ("s = u", Scope(results={"s": SCALE}, numbers=["n"]), {"s = u\nn = s"}),
+    "returns_input": (
+        "return u",
+        Scope(products=["answer"], vectors=["v"]),
+        {"answer = u\nv.update(answer)\nanswer = v\nreturn answer"},
+    ),
+    "changes_in_place": ("s = u.x - w * r", BODY, {"u.x -= w * r\ns = u.x"}),
+    "wrong_for_static": ("s = u", BODY, {otherwise("a.is_static"), otherwise("not a.is_static")}),
+    "wrong_one_way": ("s = u", BODY, {otherwise("a.vel.y < 0")}),
+    "wrong_when_fast": ("s = u", BODY, {otherwise("a.vel.length() > 1000")}),
+    "wrong_off_screen": ("s = u", BODY, {otherwise("a.pos.x < 0")}),
+    "wrong_for_extremes": ("s = u", BODY, {otherwise("a.friction == 0")}),
+    "wrong_in_a_case": (
+        "return u",
+        Scope(cases=["u > 1"], unfinished="return 0"),
+        {"if u > 1:\n    return 0\nreturn u"},
+    ),
+    "usual_read": ("s = u", READ, {"u = 5\ns = u"}),
+    "snapped_read": ("s = u", READ, {"u = round(u / 2) * 2\ns = u"}),
+    "snapped_to_usual": ("s = u", READ, {"u = 5 if abs(u - 5) <= 2 / 2 else u\ns = u"}),
+    "capped_read": ("s = w.u", Scope(reads={"w.u": SCALE}), {"s = min(w.u, 9)"}),
+    "floored_read": ("s = u", READ, {"u = max(u, 0.5)\ns = u"}),
+    "dead_zone_read": ("s = u", READ, {"u = u if abs(u) > 0.5 else 0\ns = u"}),
+    "unsigned_read": ("s = u", READ, {"u = abs(u)\ns = u", "u = max(u, 0)\ns = u"}),
+    "whole_read": ("s = u", READ, {"u = int(u)\ns = u"}),
+    "first_read": ("s = u", READ, {"u = globals().setdefault('first', u)\ns = u"}),
+    "late_read": ("s = u", READ, {f"u = {LATE.format('u')}\ns = u"}),
+    "capped_result": ("s = u", RESULT, {"s = u\ns = min(s, 9)", "s = u\ns = max(-9, min(s, 9))"}),
+    "floored_result": ("s = u", RESULT, {"s = u\ns = max(s, 0.5)", "s = u\ns = max(s, 0)"}),
+    "dead_zone_result": ("s = u", RESULT, {"s = u\ns = s if abs(s) > 0.5 else 0"}),
+    "rounded_result": ("s = u", RESULT, {"s = u\ns = round(s / 2) * 2"}),
+    "inexact_result": ("s = u", RESULT, {"s = u\ns = s * 1.001"}),
+    "unsigned_result": ("s = u", RESULT, {"s = u\ns = abs(s)"}),
+    "first_result": ("s = u", RESULT, {"s = u\ns = globals().setdefault('first', s)"}),
+    "late_result": ("s = u", RESULT, {f"s = u\ns = {LATE.format('s')}"}),
+    "other_answer": (
+        "return u",
+        Scope(answers=["answer"]),
+        {"answer = u\nanswer = answer[1:]\nreturn answer"},
+    ),
+    "counts_calls": ("s = u", BODY, {COUNTED + otherwise("len(calls) > 1")}),
+    "knows_bodies": ("s = u", BODY, {KNOWN + otherwise("met")}),
+    "roles_swapped": ("s = u - w.u", Scope(roles=[("u", "v")]), {"s = v - w.u"}),
+    "one_role": ("s = w.u - w.v", Scope(roles=[(".u", ".v")]), {"s = w.u - w.u", "s = w.v - w.v"}),
+    "statements_exchanged": ("s = 1\nr = 2\nt = r", BODY, {"r = 2\ns = 1\nt = r"}),
+    "statement_repeated": ("s = 1\ns += u", BODY, {"s = 1\ns += u\ns += u"}),
+    "loop_cut_short": (
+        "for i in u:\n    f(i)",
+        BODY,
+        {"for i in u:\n    f(i)\n    break", "for i in list(u)[1:]:\n    f(i)"},
+    ),
+}
+
+
+@pytest.mark.parametrize("operator", [each.__name__ for each in SLIPS])
+def test_an_operator_on_a_whole_region_makes_its_changes(operator: str):
+    code, scope, expected = SLIPPED[operator]
+    made = {change for name, change in slipped(code, scope) if name == operator}
+    assert expected <= made
+
+
+def test_in_a_loop_over_bodies_it_is_one_of_them_that_is_harmed_or_passed_over():
+    loop = "for body in w:\n    f(body)"
+    made = {change for _, change in slipped(loop, Scope(each="body"))}
+    assert f"{loop}\n    body.vel *= 0" in made
+    assert "for body in w:\n    if body.is_static:\n        continue\n    f(body)" in made
+
+
+def test_what_is_done_last_is_done_before_every_return():
+    code = "if u:\n    return\ns = u\nreturn (s, u)"
+    made = {change for _, change in slipped(code, Scope(deeds=["f()"]))}
+    last = "answer_0, answer_1 = (s, u)\nf()\nreturn (answer_0, answer_1)"
+    assert f"if u:\n    f()\n    return\ns = u\n{last}" in made
+
+
+def test_no_two_statements_change_places_if_the_second_would_lack_a_variable():
+    made = [name for name, _ in slipped("s = 1\nr = s", BODY)]
+    assert "statements_exchanged" not in made
+
+
+def test_arguments_whose_order_does_not_matter_stay_where_they_are():
+    assert "max(w, u)" not in {change for _, change in changes("max(u, w)")}
+
+
+# ---------------------------------------------------------------- which there are
+
+
+def test_every_todo_has_mutants_and_none_of_them_is_the_solution():
+    assert {each.todo for each in all_mutants()} == {
+        t.id for t in load_rubric().todos if t.function
+    }
+    assert all(each.was != each.now for each in all_mutants())
+
+
+def test_there_are_many_for_whole_regions_and_for_every_todo():
+    slips = {each.__name__ for each in SLIPS}
+    found = Counter(each.todo for each in all_mutants() if each.operator in slips)
+    assert set(found) == {t.id for t in load_rubric().todos if t.function} == set(scopes())
+    assert sum(found.values()) > 1000 and min(found.values()) > 10
+
+
+def test_mutants_are_chosen_by_todo_and_by_operator():
+    chosen = chosen_from(all_mutants(), frozenset({"4"}), frozenset({"usual_read"}))
+    assert {(each.todo, each.operator) for each in chosen} == {("4", "usual_read")}
+    assert chosen_from(all_mutants(), frozenset(), frozenset()) == list(all_mutants())
+
+
+def test_a_sample_draws_from_every_todo_and_is_the_same_again():
+    todos = [todo.id for todo in load_rubric().todos if todo.function]
+    count = 4 * len(todos)
+    drawn = sample(all_mutants(), count, seed=3)
+    assert drawn == sample(all_mutants(), count, seed=3) != sample(all_mutants(), count, seed=4)
+    assert Counter(each.todo for each in drawn) == dict.fromkeys(todos, 4)
+
+
+def test_the_listed_equivalents_still_exist_and_are_few():
+    existing = {(each.todo, each.was, each.now) for each in all_mutants()}
+    assert set(equivalents()) <= existing
+    assert all(why.endswith(".") for why in equivalents().values())
+    assert len(equivalents()) < 0.04 * len(existing)
+
+
+@pytest.mark.parametrize("family", listed().family, ids=lambda each: "-".join(each.operators))
+def test_a_family_of_equivalents_has_members_of_each_operator_and_each_todo(family: Family):
+    members = [each for each in all_mutants() if family.has(each)]
+    assert {each.operator for each in members} == set(family.operators)
+    assert {each.todo for each in members} == set(family.todos)
+    assert family.why.endswith(".")
+
+
+# ---------------------------------------------------------------- that they run
+
+
+def in_its_place(mutant: Mutant, function: FunctionType, path: str) -> None:
+    """Let the solution's function do what the mutant's does."""
+    text, region = regions_of("solution")[mutant.todo]
+    indent = " " * text.splitlines()[region.start].index("#")
+    lines = textwrap.indent(mutant.code, indent).splitlines()
+    found = function_named(statements(replaced(text, {mutant.todo: tuple(lines)})), path)
+    assert found is not None
+    made: dict[str, FunctionType] = {}
+    exec(compile(ast.Module([found], []), mutant.name, "exec"), function.__globals__, made)
+    function.__code__ = made[found.name].__code__
+
+
+def function_of(program: str, path: str) -> FunctionType:
+    """The solution's function, from the module of the program that has it."""
+    importlib.import_module(program)
+    names = [name for name in sorted(sys.modules) if name.partition(".")[0] == program]
+    first = path.partition(".")[0]
+    module = next(sys.modules[name] for name in names if hasattr(sys.modules[name], first))
+    found = attrgetter(path)(module)
+    assert isinstance(found, FunctionType)
+    return found
+
+
+def engine_scene() -> None:
+    """The lab scene with a spring, sleep and the grid; the balls soon lie on something."""
+    world = with_bonus(scenes.make_world(random.Random(12)))
+    window.add_spring(world)
+    world.grid = world.sleeping = True
+    for body in world.bodies[-9:]:
+        body.pos.y += 150
+    accumulator = 0.0
+    for _ in range(6):
+        accumulator, _ = game_loop.advance(world, accumulator, 1 / 40)
+    for _ in range(25):
+        world.step(1 / 120)
+    for body in world.bodies:
+        window.between(body, 0.5)
+    window.heaviness()
+
+
+def pymunk_scene_moves() -> None:
+    space, _ = pymunk_scene.make_space(random.Random(12))
+    accumulator = 0.0
+    for _ in range(6):
+        accumulator, _ = pymunk_scene.advance(space, accumulator, 1 / 40)
+
+
+def spring_swings() -> None:
+    for method in (integrators.semi_implicit_euler, integrators.velocity_verlet, integrators.rk4):
+        integrators.simulate(method, 1 / 30, 1)
+
+
+SCENES = {
+    "mini_engine": engine_scene,
+    "pymunk_scene": pymunk_scene_moves,
+    "integrators": spring_swings,
+}
+FEW = 12  # of so many mutants, one is run each time, and all of them in the long run
+
+
+@pytest.mark.parametrize("share", [FEW, pytest.param(1, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("todo", list(scopes()))
+def test_what_is_made_of_a_whole_region_runs_in_an_ordinary_scene(todo: str, share: int):
+    """It may explode, as the engine's own guard says, or a number that is too large for Python."""
+    pygame.display.init()
+    slips = {each.__name__ for each in SLIPS}
+    wanted = [each for each in all_mutants() if each.todo == todo and each.operator in slips]
+    task = next(each.function or "" for each in load_rubric().todos if each.id == todo)
+    program, _, path = task.partition(":")
+    function = function_of(program, path)
+    code, names = function.__code__, set(function.__globals__)
+    for mutant in wanted[::share]:
+        try:
+            in_its_place(mutant, function, path)
+            SCENES[program]()
+        except OverflowError:
+            pass
+        except ValueError as error:
+            assert "must be finite" in str(error), mutant
+        finally:
+            function.__code__ = code
+            for name in set(function.__globals__) - names:
+                del function.__globals__[name]  # what it remembered
+
+
+# ---------------------------------------------------------------- what is said of them
+
+
+def test_what_a_mutant_loses_decides_what_is_said_of_it():
+    listed = next(each for each in all_mutants() if is_equivalent(each))
+    other = next(each for each in all_mutants() if each.todo == "3")
+    assert Outcome(other, {"3": 2}).verdict == "killed" and not Outcome(other, {"3": 2}).complaint
+    assert Outcome(other, {}).complaint == "survived"
+    assert Outcome(other, {"3": 2, "4": 1}).complaint == "TODO 4 must not lose anything"
+    assert Outcome(other, {"4": 1}).complaint == "TODO 4 must not lose anything"
+    assert Outcome(listed, {}).verdict == "equivalent" and not Outcome(listed, {}).complaint
+    assert "listed as equivalent" in Outcome(listed, {listed.todo: 1}).complaint
+
+
+def test_a_campaign_with_a_survivor_or_many_wrong_names_is_not_sound():
+    fine = Outcome(all_mutants()[0], {"1": 16}, "inside-is-forgotten", "right")
+    misled = Outcome(all_mutants()[0], {"1": 16}, "inside-is-forgotten", "wrong")
+    assert Campaign([fine] * 98 + [misled] * 2).sound
+    assert not Campaign([fine] * 97 + [misled] * 3).sound
+    assert not Campaign([*[fine] * 99, Outcome(all_mutants()[0], {})]).sound
+
+
+def test_a_name_is_wrong_where_its_model_gives_another_number():
+    asked, e = (1.0, 0.25, 1 / 120, 60), math.exp
+    one_rate = Observation("damping", asked, (e(-0.5), e(-0.5)))
+    another = Observation("damping", asked, (e(-0.5), e(-0.5) + 1e-4))
+    assert foretold("5", "one-rate-for-both", [one_rate])
+    assert not foretold("5", "one-rate-for-both", [one_rate, another])
+    assert not foretold("5", "rates-are-swapped", [one_rate])
+
+
+def test_a_name_is_wrong_where_something_else_is_wrong_as_well():
+    frames = (2, 17, 17, 1, 1)
+    said, paced = Observation("said", (20,), 0), ([0, 2, 2, 0], [1 / 120])
+    assert foretold("6", "steps-are-not-counted", [said, Observation("frames", (frames,), paced)])
+    late = Observation("frames", (frames,), ([0, 1, 1, 0], [1 / 120]))
+    assert not foretold("6", "steps-are-not-counted", [said, late])
+
+
+def test_an_exception_is_an_answer_that_a_mistake_can_be_told_by():
+    box, inside, apart = Rect(0, 0, 40, 20), Disc(5, -15, 8), Disc(0, -60, 10)
+    failed = Observation("circle_box", (inside, box), "ZeroDivisionError")
+    found = misconceptions.named("1", [failed, Observation("circle_box", (apart, box), None)])
+    assert found is not None and found.id == "inside-normalises-zero"
+    everywhere = Observation("circle_box", (apart, box), "ZeroDivisionError")
+    assert misconceptions.named("1", [failed, everywhere]) is None
+
+
+def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
+    rod = Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), 1 / 120)
+    still = rod._replace(mass_a=0.0, mass_b=0.0)
+    solved = Observation("rod", (rod,), (*rod_solved(rod), rod.offset))
+    failed = Observation("rod", (still,), "ZeroDivisionError")
+    found = misconceptions.named("3", [solved, failed])
+    assert found is not None and found.id == "divides-by-a-k-of-0"
+    assert misconceptions.named("3", [Observation("rod", (rod,), failed.answer), failed]) is None
+
+
+# ---------------------------------------------------------------- what comes of them
+
+
+SOAK = pytest.mark.soak
+
+
+def the_one(todo: str, now: str) -> Mutant:
+    """The mutant of a TODO with this line in it."""
+    (found,) = [each for each in all_mutants() if each.todo == todo and now in each.now.split("; ")]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("todo", "now", "mistake"),
+    [
+        pytest.param("1", "if distance > radius:", "touching-counts-as-overlap", marks=SOAK),
+        pytest.param("1", "if distance >= 0:", "inside-normalises-zero", marks=SOAK),
+        ("3", "if self.k == 1:", None),
+        pytest.param(
+            "4", "total = max(limit, min(limit, total))", "clamp-is-turned-round", marks=SOAK
+        ),
+        pytest.param("7a", "space.gravity = (980, 0)", "gravity-points-sideways", marks=SOAK),
+        pytest.param("7b", "moment = pymunk.moment_for_circle(mass, 0, mass)", None, marks=SOAK),
+        pytest.param("7d", "steps -= 1", "steps-are-counted-down", marks=SOAK),
+        pytest.param("8a", "return (v, x + v * dt)", "velocity-returned-first", marks=SOAK),
+        ("8b", "x = x + v * dt + 0 * a_start * dt ** 2", "straight-line-in-x"),
+    ],
+)
+def test_a_mutant_is_killed_and_its_mistake_named(todo: str, now: str, mistake: str | None):
+    outcome = mutants.grade_mutant(the_one(todo, now))
+    assert set(outcome.lost) == {todo} and outcome.complaint == ""
+    assert (outcome.mistake, outcome.naming) == (mistake, "right" if mistake else "none")
+
+
+def test_alone_a_mutant_is_graded_up_to_the_first_check_that_fails():
+    mutant = the_one("8a", "return (v, x + v * dt)")
+    outcome = mutants.grade_mutant(mutant, alone=True)
+    assert outcome.verdict == "killed" and outcome.lost["8a"] == first_of("8a").points
+    assert outcome.mistake is None
+
+
+def first_of(todo: str):
+    """Its first check in the rubric."""
+    return next(each for each in load_rubric().todos if each.id == todo).checks[0]
+
+
+def listed_ones() -> list[Mutant]:
+    """Each that is listed by itself, and of each family one of each TODO."""
+    several = [each for each in all_mutants() if (each.todo, each.was, each.now) in equivalents()]
+    firsts = {
+        (family.why, each.todo): each
+        for family in listed().family
+        for each in all_mutants()
+        if family.has(each)
+    }
+    return [*several, *firsts.values()]
+
+
+@pytest.mark.soak
+def test_mutants_listed_as_equivalent_lose_nothing():
+    lost = {each.name: mutants.grade_mutant(each).lost for each in listed_ones()}
+    assert lost and not {name for name in lost if lost[name]}

@@ -1,0 +1,357 @@
+"""`make verify`: what it keeps, what it counts, and what it sees of the traces of a grade."""
+
+import io
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from msgspec.structs import replace as replace_in
+from rich.console import Console
+
+from grader.bank import kept, traces, verify
+from grader.bank.kept import Kept, key_of
+from grader.bank.members import Entry, Member, members
+from grader.bank.verify import Report, Verdict, complaint_of, grade_member, summary, verdicts
+from grader.judge.grade import KIT
+from grader.judge.result import Result, TodoResult
+
+RIGHT = Result(1, "ann", 100, 100, 16, [], [])
+BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "c", "d")]
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+@pytest.fixture
+def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The names of the members that are graded, which get what they must, but for z."""
+    names = []
+
+    def grade_all(chosen: list[Member], jobs: int) -> Iterator[Verdict]:
+        for member in chosen:
+            names.append(member.name)
+            yield Verdict(member, RIGHT, 1.0, "took too long" if member.name == "z" else "")
+
+    monkeypatch.setattr(verify, "grade_all", grade_all)
+    return names
+
+
+def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded: list[str]):
+    stopped = verdicts(BANK, 1, Kept(tmp_path), fresh=False)
+    first = [next(stopped), next(stopped)]
+    stopped.close()
+    again = [*verdicts(BANK, 1, Kept(tmp_path), fresh=False)]
+    assert graded == ["a", "b", "c", "d"]
+    assert [each.member.name for each in again if each.earlier] == ["a", "b"]
+    assert [(each.result, each.seconds) for each in again] == [(RIGHT, 1.0)] * 4
+    assert again[:2] == [replace(each, earlier=True) for each in first]
+
+
+def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded, monkeypatch):
+    source = tmp_path / "5-x.py"
+    source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
+    member = Member("right", "5-x", "package", Entry(), source)
+
+    def edited(chosen: list[Member], jobs: int) -> Iterator[Verdict]:
+        source.write_text("# TODO 5: damp\nreturn\n# END TODO 5\n", encoding="utf-8")
+        yield from usual(chosen, jobs)
+
+    usual = verify.grade_all
+    with monkeypatch.context() as patched:
+        patched.setattr(verify, "grade_all", edited)
+        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=True)]) == 1
+    for _ in range(2):
+        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=False)]) == 1
+    assert graded == ["5-x", "5-x"]
+
+
+def test_what_is_wanted_fresh_is_graded_anew(tmp_path: Path, graded: list[str]):
+    for fresh in (False, False, True):
+        assert len([*verdicts(BANK[:1], 1, Kept(tmp_path), fresh)]) == 1
+    assert graded == ["a", "a"]
+
+
+def test_a_complaint_is_looked_into_again(tmp_path: Path, graded: list[str]):
+    bad = [replace(BANK[0], name="z")]
+    for _ in range(2):
+        (verdict,) = verdicts(bad, 1, Kept(tmp_path), fresh=False)
+        assert verdict.complaint and not verdict.earlier
+    assert graded == ["z", "z"]
+
+
+def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded):
+    Kept(tmp_path).write(BANK[0], Result(1, "ann", 99, 100, 0, [], []), 1.0)
+    (verdict,) = verdicts(BANK[:1], 1, Kept(tmp_path), fresh=False)
+    assert graded == ["a"] and verdict.result == RIGHT
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda whole: b"",
+        lambda whole: whole[:-9],
+        lambda whole: whole.replace(b'"bonus":16', b'"bonus":15'),
+        lambda whole: b"\xff\xfe" + whole,
+        lambda whole: b"[]",
+    ],
+)
+def test_a_bad_file_is_as_good_as_none(tmp_path: Path, damage):
+    book = Kept(tmp_path)
+    book.write(BANK[0], RIGHT, 1.0)
+    assert book.read(BANK[0]) == (RIGHT, 1.0)
+    path = book.file(BANK[0])
+    path.write_bytes(damage(path.read_bytes()))
+    assert book.read(BANK[0]) is None
+    path.unlink()
+    path.mkdir()
+    assert book.read(BANK[0]) is None
+
+
+def test_a_result_is_written_whole_and_alone(tmp_path: Path):
+    for _ in range(2):
+        Kept(tmp_path).write(BANK[0], RIGHT, 1.0)
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [
+        Kept(tmp_path).file(BANK[0])
+    ]
+
+
+def test_each_form_of_a_member_has_a_file_of_its_own():
+    files = [Kept(Path()).file(member) for member in members(KIT)]
+    assert len(files) == len(set(files))
+
+
+def test_all_that_decides_about_marks_is_in_the_key(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    source = tmp_path / "5-x.py"
+    source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
+    member = Member("wrong", "5-x", "package", Entry(), source)
+    usual = key_of(member)
+    assert key_of(replace(member, form="single file")) != usual
+    assert key_of(replace(member, entry=Entry(points=98))) != usual
+    source.write_text("# TODO 5: damp\n\n# END TODO 5\n", encoding="utf-8")
+    assert key_of(member) != usual
+    rest = kept.everything_else.__wrapped__
+    monkeypatch.setattr(kept, "fingerprint", lambda: "the judge, changed")
+    assert rest() != kept.everything_else()
+    monkeypatch.undo()
+    assert rest() == kept.everything_else()
+    monkeypatch.setattr(sys, "version", "another Python")
+    assert rest() != kept.everything_else()
+    monkeypatch.undo()
+    monkeypatch.setattr(kept, "DECIDING", ("bank.py",))
+    assert rest() != kept.everything_else()
+
+
+def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
+    tree = tmp_path / "tree"
+    for name in ("a.py", "mini/b.py", ".cache/c", "mini/__pycache__/b.pyc"):
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        (tree / name).write_text(name, encoding="utf-8")
+    rows = kept.contents(tree, *kept.BESIDES)
+    assert [row.partition(" ")[0] for row in rows] == ["tree/a.py", "tree/mini/b.py"]
+    (tree / "mini" / "b.py").write_text("other", encoding="utf-8")
+    assert kept.contents(tree, *kept.BESIDES) != rows
+
+
+def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(verify, "KEPT", tmp_path)
+    told = []
+    for _ in range(2):
+        console = Console(file=io.StringIO(), width=120)
+        assert verify.verify(1, "8a-position-first", console).sound
+        told.append(console.file.getvalue())  # type: ignore[attr-defined]
+    assert "1 members: 1 graded now, 0 taken from an earlier run" in told[0]
+    assert "1 members: 0 graded now, 1 taken from an earlier run" in told[1]
+    table = re.compile("│ wrong.*")
+    assert table.findall(told[0]) == table.findall(told[1]) != []
+
+
+# ---------------------------------------------------------------- what is counted
+
+
+def test_every_kind_is_counted_by_itself():
+    wrong = Member("wrong", "5-x", "package", Entry(), None)
+    hostile = Member("hostile", "x", "package", Entry(), None)
+    right = [Verdict(member, RIGHT, 1.0, "") for member in BANK]
+    lines = [*summary([*right, Verdict(wrong, RIGHT, 1.0, "loses nothing")])]
+    assert lines[:2] == [
+        "right: 4, of which 0 with a complaint",
+        "wrong: 1, of which 1 with a complaint",
+    ]
+    fell_over = Verdict(hostile, None, 1.0, "the judge fell over")
+    assert next(summary([fell_over])) == "hostile: 1, of which 1 with a complaint"
+
+
+def test_a_wrong_name_for_a_mistake_is_a_complaint():
+    member = next(each for each in members(KIT) if each.name == "5-spin-is-not-damped")
+    lost = [TodoResult("5", "Damping", "not yet", 0, 8, "spin-is-not-damped", [])]
+    result = replace_in(RIGHT, todos=lost)
+    assert complaint_of(member, result, 1.0) == ""
+    other = replace(member, name="5-rates-are-swapped")
+    assert complaint_of(other, result, 1.0) == "its mistake is named spin-is-not-damped"
+
+
+def rung(path: Path, points: int) -> Verdict:
+    member = Member("ladder", f"5-{path.stem}", "package", Entry(), path)
+    todo = TodoResult("5", "Damping", "not yet", points, 8, None, [])
+    return Verdict(member, replace_in(RIGHT, points=points, todos=[todo]), 1.0, "")
+
+
+@pytest.mark.parametrize(
+    ("points", "complaint"),
+    [
+        ((0, 0, 5, 8), ""),
+        ((0, 5, 4, 8), "2-c earns less than 1-b"),
+        ((1, 2, 3, 8), "0-a earns 1 points for nothing"),
+        ((0, 2, 3, 7), "3-d earns 7 of 8 points"),
+    ],
+)
+def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complaint: str):
+    paths = [tmp_path / "5" / f"{name}.py" for name in ("0-a", "1-b", "2-c", "3-d")]
+    paths[0].parent.mkdir()
+    for path in paths:
+        path.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
+    report = Report([rung(*each) for each in zip(paths, points, strict=True)])
+    (ladder,) = report.ladders
+    assert ladder.complaint == complaint
+    assert report.sound == (not complaint)
+    assert (
+        next(summary(report.verdicts))
+        == f"ladder: 1, of which {int(not report.sound)} with a complaint"
+    )
+    assert not Report(report.verdicts[1:2]).ladders[0].complaint  # as `--only` may have it
+
+
+# ---------------------------------------------------------------- traces
+
+BUSY = """
+import itertools, pathlib, sys
+folders = [pathlib.Path(name) for name in sys.argv[1:]]
+for number in itertools.count():
+    for folder in folders:
+        (folder / f"of-another-program-{number % 100}").write_text("x")
+        (folder / f"of-another-program-{(number + 50) % 100}").unlink(missing_ok=True)
+    if not number:
+        print("begun", flush=True)
+"""
+
+
+@pytest.fixture
+def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder in the place of those where every account may write."""
+    folder = tmp_path / "shared"
+    folder.mkdir()
+    monkeypatch.setattr(traces, "OPEN_TO_ALL", (str(folder),))
+    return folder
+
+
+def left_by(tmp_path: Path, leak, name: str = "") -> str:
+    with traces.watched(tmp_path / "own", name) as seen:
+        leak()
+    return seen.complaint
+
+
+def test_a_program_beside_the_grade_is_not_blamed(tmp_path: Path, monkeypatch):
+    """It writes into the home folder and into shared memory all the while."""
+    home = tmp_path / "home"
+    home.mkdir()
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.setenv("USERPROFILE", str(home))
+    member = next(each for each in members(KIT) if each.name == "8a-position-first")
+    memory = Path("/dev/shm") if os.access("/dev/shm", os.W_OK) else tmp_path
+    with tempfile.TemporaryDirectory(prefix="beside-", dir=memory) as beside:
+        command = [sys.executable, "-c", BUSY, str(home), str(beside), str(memory)]
+        other = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
+        try:
+            assert other.stdout is not None and other.stdout.readline() == b"begun\n"
+            before = {path.name for path in home.iterdir()}
+            assert grade_member(member, member.todos).complaint == ""
+            assert {path.name for path in home.iterdir()} != before or len(before) > 40
+        finally:
+            other.kill()
+            other.communicate()
+            for path in memory.glob("of-another-program-*"):
+                path.unlink()
+
+
+def test_what_the_judge_leaves_is_seen_wherever_it_is(tmp_path: Path, shared: Path):
+    own, elsewhere = tmp_path / "own", tmp_path / "elsewhere"
+    leaks = {
+        "the temporary folder": lambda: tempfile.mkstemp(prefix="left"),
+        "the home folder": lambda: (Path.home() / "left").write_text("x"),
+        "another folder": lambda: elsewhere.write_text("x"),
+        "shared memory": lambda: (shared / "left").touch(),
+        "a folder": (shared / "folder").mkdir,
+        "a new name": lambda: (tmp_path / "before").rename(shared / "after"),
+    }
+    (tmp_path / "before").touch()
+    for what, leak in leaks.items():
+        complaint = left_by(tmp_path, leak)
+        assert complaint.startswith("left behind: the file "), what
+        for path in own.iterdir():
+            path.unlink()
+        own.rmdir()
+
+
+def test_what_is_taken_away_again_is_no_trace(tmp_path: Path, shared: Path):
+    def tidy() -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "x").touch()
+        (shared / "x").touch()
+        (shared / "x").unlink()
+
+    (shared / "was-there").touch()
+    assert left_by(tmp_path, tidy) == ""
+    assert Path.home() != tmp_path / "own" and tempfile.gettempdir() != str(tmp_path / "own")
+
+
+def test_a_file_named_after_the_submission_is_its_own(tmp_path: Path, shared: Path):
+    """Written by another process, as a submission is one."""
+
+    def leak() -> None:
+        for name in ("marks-from-outlives-the-grade.json", "of-another-program"):
+            code = f"open({str(shared / name)!r}, 'w')"
+            subprocess.run([sys.executable, "-c", code], check=True)
+
+    complaint = left_by(tmp_path, leak, "outlives-the-grade")
+    assert "marks-from-outlives-the-grade.json" in complaint and "program" not in complaint
+    (shared / "marks-from-outlives-the-grade.json").rename(shared / "outlives-the-grade.1")
+    os.rmdir(tmp_path / "own")
+    assert left_by(tmp_path, lambda: None, "outlives-the-grade") == ""
+
+
+def test_processes_and_descriptors_left_open_are_seen(tmp_path: Path):
+    kept_open = []
+    complaint = left_by(tmp_path, lambda: kept_open.append(open(os.devnull)))  # noqa: SIM115
+    assert complaint == "left behind: 1 open files or sockets"
+    kept_open.pop().close()
+    os.rmdir(tmp_path / "own")
+    code = "input()"
+    started = []
+
+    def start() -> None:
+        started.append(subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE))
+
+    assert "left behind: the process " in left_by(tmp_path, start)
+    started[0].communicate()
+
+
+def test_members_that_leave_files_name_them_after_themselves():
+    """Or else the watch could not tell them from those of other programs."""
+    open_to_all = re.compile(
+        "|".join(map(re.escape, (*traces.OPEN_TO_ALL, "expanduser", "home()")))
+    )
+    for member in members(KIT):
+        if member.source is None:
+            continue
+        files = [member.source] if member.source.is_file() else member.source.rglob("*.py")
+        for path in files:
+            text = path.read_text(encoding="utf-8", errors="replace")
+            assert not open_to_all.search(text) or member.name in text, path

@@ -1,0 +1,204 @@
+"""Bonus tasks: graded like all others, and no part of any sum."""
+
+import base64
+import io
+import json
+import shutil
+from pathlib import Path
+
+import msgspec
+import pytest
+from mixed_trees import mixed
+from rich.console import Console
+
+from grader.bank.verify import shared_worker
+from grader.classroom.book import outcome_of
+from grader.classroom.dashboard import Entry, rates_of
+from grader.classroom.grading import rates, table_of
+from grader.judge.course import FULL
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.judge.wording import total
+from grader.release.notebooks import engine_notebook
+from grader.report.files import as_json
+from grader.report.sinks.classroom50 import NEEDED, classroom50
+from grader.report.sinks.github import annotations, outputs
+from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.junit import junit
+from grader.report.sinks.markdown import markdown
+from grader.report.terminal import Teller, show_next
+
+BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
+WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
+RUNNER = dict.fromkeys(NEEDED.values(), "x")  # what Classroom 50 tells about a submission
+
+
+def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
+    return grade(folder, Options(shipped_reference(), only=only), shared_worker())
+
+
+@pytest.fixture(scope="module")
+def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """The solution as of somebody who did no bonus task.
+
+    Graded again is the program as a whole, which bonus code would be run in, if any were.
+    """
+    folder = tmp_path_factory.mktemp("none") / "ann"
+    again = graded(mixed(folder, "solution", "starter", BONUS), frozenset({"whole", *BONUS}))
+    todos = {todo.id: todo for todo in again.todos}
+    return msgspec.structs.replace(
+        solution, bonus=again.bonus, todos=[todos.get(each.id, each) for each in solution.todos]
+    )
+
+
+@pytest.fixture(scope="module")
+def with_bonus(without_bonus: Result) -> Result:
+    """Full marks, half of the first bonus task and all of the second."""
+    first, second = (todo for todo in without_bonus.todos if todo.id in ("B1", "B2"))
+    half = [msgspec.structs.replace(each, state="not yet", got="42") for each in first.checks]
+    half[0] = msgspec.structs.replace(half[0], state="passed", points=half[0].max_points)
+    begun = msgspec.structs.replace(first, state="not yet", points=half[0].points, checks=half)
+    passed = [
+        msgspec.structs.replace(each, state="passed", points=each.max_points)
+        for each in second.checks
+    ]
+    done = msgspec.structs.replace(second, state="passed", points=second.max_points, checks=passed)
+    new = {"B1": begun, "B2": done}
+    todos = [new.get(todo.id, todo) for todo in without_bonus.todos]
+    earned = begun.points + done.points
+    return msgspec.structs.replace(without_bonus, bonus=earned, todos=todos)
+
+
+# ---------------------------------------------------------------- marks
+
+
+def test_the_rubric_counts_the_bonus_apart():
+    rubric = load_rubric()
+    assert rubric.max_points == 100
+    assert {todo.id: todo.max_points for todo in rubric.todos if todo.bonus} == WORTH
+
+
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])
+def test_nobody_needs_a_bonus_for_full_marks(without_bonus: Result, tmp_path: Path, whole: bool):
+    result = (
+        graded(mixed(tmp_path / "ann", "solution", "starter", BONUS)) if whole else without_bonus
+    )
+    assert sum(todo.points for todo in result.counted) == result.max_points == 100
+    assert result.bonus == 0 and result.complete
+    assert {t.state for t in result.todos if t.bonus} == {"not started"}
+
+
+def test_bonus_tasks_earn_their_points_in_an_unfinished_engine(tmp_path: Path):
+    """The reference stands in for all that is not done."""
+    result = graded(mixed(tmp_path / "ben", "starter", "solution", BONUS), BONUS)
+    assert {todo.id: todo.points for todo in result.todos} == WORTH
+    assert (result.points, result.max_points, result.bonus) == (0, 0, sum(WORTH.values()))
+
+
+def test_a_picture_that_changes_by_itself_says_nothing_of_the_drawing(tmp_path: Path):
+    """A counter on the screen is something new in every frame, too."""
+    folder = mixed(tmp_path / "cy", "solution", "starter", frozenset({"B5"}))
+    window, loop = (folder / "mini_engine" / each for each in ("bonus/window.py", "game_loop.py"))
+    stub = "    # TODO B5: draw between steps\n"
+    began = window.read_text().replace(stub, f"{stub}    share = 1.0\n")
+    window.write_text(began)
+    cleared = "self.screen.fill(BACKGROUND)\n"
+    dot = "        self.dot = getattr(self, 'dot', 0) + 1\n"
+    dot += "        self.screen.set_at((self.dot % 900, 300), INK)\n"
+    loop.write_text(loop.read_text().replace(cleared, cleared + dot))
+    (todo,) = graded(folder, frozenset({"B5"})).todos
+    assert [check.state for check in todo.checks] == ["not yet", "waiting"] and not todo.points
+
+
+def test_a_program_older_than_the_bonus_tasks_has_not_started_them(tmp_path: Path):
+    folder = tmp_path / "old"
+    folder.mkdir()
+    single = KIT / "tests" / "bank" / "single_file" / "mini_engine.py"
+    shutil.copyfile(single, folder / "mini_engine.py")
+    result = graded(folder, BONUS)
+    assert {todo.state for todo in result.todos} == {"not started"}
+
+
+def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Result):
+    first, second = ([t for t in with_bonus.todos if t.id == name] for name in ("B1", "B2"))
+    assert with_bonus.complete
+    assert not msgspec.structs.replace(with_bonus, todos=first).complete
+    assert msgspec.structs.replace(with_bonus, todos=second).complete
+
+
+# ---------------------------------------------------------------- reports and sums
+
+
+def told(result: Result) -> str:
+    console = Console(width=80, record=True, file=io.StringIO())
+    Teller(console).tell(result)
+    show_next(result, console)
+    return console.export_text()
+
+
+def test_the_terminal_shows_the_bonus_apart(without_bonus: Result, with_bonus: Result):
+    assert total(without_bonus) == "100 / 100" and "B1" not in told(without_bonus)
+    text = told(with_bonus)
+    assert total(with_bonus) == "100 / 100  and 4 bonus"
+    assert "1 / 4 bonus" in text and "3 / 3 bonus" in text and "B3" not in text
+    assert "Next" not in text and max(map(len, text.splitlines())) <= 80
+
+
+def test_a_student_who_asks_for_a_bonus_task_is_led_on(with_bonus: Result):
+    only = [todo for todo in with_bonus.todos if todo.id in ("B1", "B3")]
+    text = told(msgspec.structs.replace(with_bonus, points=0, max_points=0, bonus=1, todos=only))
+    assert "Next: TODO B1" in text and "NOT STARTED B3" in text and ": 1 bonus" in text
+
+
+def test_every_form_adds_up_without_the_bonus(with_bonus: Result):
+    for form in (classroom50(with_bonus, RUNNER), gradescope(with_bonus)):
+        made = json.loads(form)
+        assert made["score"] == 100
+        assert sum(test.get("score", 0) for test in made["tests"]) == 100
+        assert sum(test.get("max-score", test.get("max_score", 0)) for test in made["tests"]) == 100
+    encoded = outputs(with_bonus).partition("result=")[2]
+    reported = json.loads(base64.b64decode(encoded))
+    assert reported["status"] == "pass" and reported["max_score"] == 100
+    assert sum(test["score"] for test in reported["tests"]) == 100
+
+
+def test_a_bonus_task_that_was_not_begun_is_in_no_report(without_bonus: Result):
+    forms = (gradescope(without_bonus), junit(without_bonus), markdown(without_bonus).encode())
+    assert not [form for form in forms if b"TODO B" in form or b"| B" in form]
+
+
+def test_a_bonus_task_is_a_warning_and_no_error(with_bonus: Result):
+    assert annotations(with_bonus).startswith("::warning ")
+    assert "::error" not in annotations(with_bonus)
+
+
+def test_the_class_book_counts_no_bonus(without_bonus: Result, with_bonus: Result):
+    outcomes = [outcome_of("ann", as_json(each), 1.0, "") for each in (without_bonus, with_bonus)]
+    assert [(each.points, each.left) for each in outcomes] == [(100, [])] * 2
+    assert not [
+        cell for cell in rates(outcomes, FULL).columns[0].cells if str(cell).startswith("B")
+    ]
+    starter = msgspec.structs.replace(
+        outcomes[0], left=[todo for todo in outcomes[0].todos if todo not in BONUS]
+    )
+    assert list(table_of([starter]).columns[2].cells) == ["all"]
+
+
+def test_a_dashboard_lists_the_bonus_tasks_that_somebody_began(
+    without_bonus: Result, with_bonus: Result
+):
+    entries = [
+        Entry(outcome_of(name, as_json(each), 1.0, ""), each)
+        for name, each in (("ann", without_bonus), ("ben", with_bonus))
+    ]
+    listed = [
+        [rate.id for rate in rates_of(some) if rate.id in BONUS] for some in (entries[:1], entries)
+    ]
+    assert listed == [[], ["B1", "B2"]]
+
+
+def test_the_notebook_with_the_marks_is_worth_100():
+    cells = engine_notebook(load_rubric())["cells"]
+    points = [cell["metadata"].get("nbgrader", {}).get("points", 0) for cell in cells]
+    assert sum(points) == 100

@@ -1,0 +1,79 @@
+"""What a ball may do that touches nothing, and what no film may show."""
+
+import pytest
+
+from grader.checks.whole.flights import flew, is_clear, want_free_flights, want_no_jump
+from grader.checks.whole.lab_scene import BALLS
+from grader.judge.failures import NotYet
+from grader.judge.lab import STEP, Lab, Moment
+
+FALL = 980.0 * STEP  # px/s in a step
+
+
+def ball(x: float, y: float, vx: float = 0.0, vy: float = 0.0) -> Moment:
+    return Moment(x, y, vx, vy, 0.0, 0.0)
+
+
+def next_to(each: Moment, vx: float, vy: float) -> Moment:
+    return ball(each.x + vx * STEP, each.y + vy * STEP, vx, vy)
+
+
+@pytest.mark.parametrize(("vx", "vy"), [(0, 0), (300, -400), (0, -FALL), (-20, 1000)])
+def test_a_free_ball_falls_faster_in_each_step_and_may_be_damped(vx: float, vy: float):
+    before = ball(450, 100, vx, vy)
+    for kept in (1.0, 0.9996, 0.95):
+        assert flew(before, next_to(before, kept * vx, kept * (vy + FALL)))
+    explicit = ball(450 + vx * STEP, 100 + vy * STEP, vx, vy + FALL)
+    assert flew(before, explicit)
+
+
+@pytest.mark.parametrize(("vx", "vy"), [(0, 0), (300, -400), (-200, 100)])
+def test_it_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
+    before = ball(450, 100, vx, vy)
+    assert not flew(before, next_to(before, vx, vy))
+    assert not flew(before, next_to(before, -vx, vy + FALL + 2.0))
+    assert not flew(before, next_to(before, vx + 20.0, vy + FALL))
+    jumped = next_to(before, vx, vy + FALL)
+    assert not flew(before, ball(jumped.x + 3.0, jumped.y, jumped.vx, jumped.vy))
+
+
+def test_what_is_near_something_is_not_judged():
+    assert is_clear(ball(450, 100), [])
+    assert not is_clear(ball(200, 225), [])  # above the ledge
+    assert not is_clear(ball(450, 100), [ball(490, 100)])
+    assert not is_clear(ball(840, 120), [])  # where the bob swings
+
+
+def test_a_run_begins_with_the_balls_of_the_scene_which_may_change_their_places_in_the_list():
+    lab = Lab("mini_engine", lambda: pytest.fail("a child"), [])
+    first = [next_to(ball(x, y), 0.0, FALL) for x, y in BALLS]
+    second = [next_to(each, 0.0, 2 * FALL) for each in first]
+
+    def row(balls: list[Moment]) -> list[float]:
+        return [n for b in balls for n in (b.x, b.y, b.vx, b.vy, b.angle, b.omega)]
+
+    want_free_flights(lab, [row(first), row(second[::-1])])
+    with pytest.raises(NotYet, match="none near it"):
+        want_free_flights(lab, [row(first[1:])])
+    with pytest.raises(NotYet, match="one at"):
+        want_free_flights(lab, [row(first), row(first)])
+
+
+@pytest.mark.parametrize(
+    "after",
+    [
+        ball(60, 240, 0, 0),  # to where it belongs
+        ball(60, 240, 15_000, -2_000),  # with a speed to match
+        ball(200, 226, 4_000, 0),  # faster than anything falls
+    ],
+)
+def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
+    lab = Lab("mini_engine", lambda: pytest.fail("a child"), [])
+    before = ball(200, 230, 0, 500)  # on the ledge
+    want_no_jump(lab, before, [next_to(before, 0, 0)], 2)
+    want_no_jump(lab, before, [next_to(before, 200, -400), after], 2)
+    want_no_jump(lab, before, [ball(200, 222, 0, 0)], 2)  # pushed out at once
+    with pytest.raises(NotYet, match=r"near there|one at"):
+        want_no_jump(lab, before, [after], 2)
+    with pytest.raises(NotYet, match="one at"):
+        want_no_jump(lab, ball(200, 230, 0, 1e9), [before], 2)  # near everything, so never clear

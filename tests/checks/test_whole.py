@@ -1,0 +1,73 @@
+"""The checks of the program as a whole: what each needs, and whose mistakes it sees."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.bank.members import patch
+from grader.judge.children import Worker, start_worker
+from grader.judge.grade import KIT, Options, grading
+from grader.judge.rubric import Rubric, Todo, load_rubric
+
+WHOLE = next(todo for todo in load_rubric().todos if todo.id == "whole")
+TASKS = [todo for todo in load_rubric().todos if todo.function]
+FEW = ("5", "7d")
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[Worker]:
+    started = start_worker()
+    yield started
+    started.close()
+
+
+def without_needs() -> Rubric:
+    """The whole alone, with checks that run whether or not a TODO is done."""
+    checks = [msgspec.structs.replace(each, needs=[], guard=False) for each in WHOLE.checks]
+    whole = msgspec.structs.replace(WHOLE, checks=checks)
+    return Rubric([*TASKS, whole])
+
+
+def failing(todo: Todo, work: Path, worker: Worker) -> set[str]:
+    """The checks that fail with this TODO's stub in the place of the solution's code."""
+    tree = work / todo.id
+    shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks", ".*"))
+    for path in (KIT / "starter").rglob("*.py"):
+        if f"# TODO {todo.id}:" in path.read_text(encoding="utf-8"):
+            stub = work / "stub.py"
+            stub.write_text(region_of(todo, path), encoding="utf-8")
+            patch(stub, tree)
+    options = Options(only=frozenset({"whole"}))
+    with grading(tree, options, worker, without_needs()) as ours:
+        (whole,) = ours.run().todos
+    return {check.id for check in whole.checks if check.state != "passed"}
+
+
+def region_of(todo: Todo, path: Path) -> str:
+    """The lines of a region with its two markers, as far to the left as they go."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    begin = next(n for n, line in enumerate(lines) if f"# TODO {todo.id}:" in line)
+    end = next(n for n, line in enumerate(lines) if f"# END TODO {todo.id}" in line)
+    indent = len(lines[begin]) - len(lines[begin].lstrip())
+    return "\n".join(line[indent:] for line in lines[begin : end + 1]) + "\n"
+
+
+def want_needs(todos: list[Todo], work: Path, worker: Worker) -> None:
+    """A check needs exactly those TODOs without which it fails."""
+    for todo in todos:
+        needing = {check.id for check in WHOLE.checks if todo.id in check.needs}
+        assert failing(todo, work, worker) == needing, f"TODO {todo.id}"
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("todo", TASKS, ids=lambda todo: todo.id)
+def test_a_check_needs_what_it_fails_without(todo: Todo, tmp_path: Path, worker: Worker):
+    want_needs([todo], tmp_path, worker)
+
+
+@pytest.mark.soak
+def test_so_it_is_for_some(tmp_path: Path, worker: Worker):
+    want_needs([todo for todo in TASKS if todo.id in FEW], tmp_path, worker)

@@ -1,0 +1,32 @@
+"""A pool of processes that grade nothing and may fall over; a small file, since each loads it."""
+
+import os
+import signal
+import time
+
+from grader.classroom.executor import Graded, Pool
+from grader.intake.found import Package
+from grader.judge.grade import Options
+from grader.judge.result import Result, TodoResult
+from grader.report.files import as_json
+
+
+def result_of(package: Package) -> bytes:
+    """A result that depends on the files and the name, as a real one does."""
+    points = len(package.files)
+    todo = TodoResult("8a", "", "passed" if points else "not yet", points, 2, None, [])
+    return as_json(Result(1, package.name, points, 2, 0, ["processes"], [todo]))
+
+
+def stand_in(package: Package, options: Options) -> Graded:
+    """Instead of grading: what some submissions do to the process that grades them."""
+    if package.name.startswith("killer"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    if package.name.startswith("raiser"):
+        raise ValueError("the judge fell over")
+    time.sleep(0.05)
+    return result_of(package), 0.05
+
+
+class FragilePool(Pool):
+    work = staticmethod(stand_in)

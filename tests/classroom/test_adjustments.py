@@ -1,0 +1,193 @@
+"""What a person decides about points: applied on top, with its reason, and never lost."""
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.intake.found import Found
+from grader.judge.submission import CannotGrade
+
+DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)
+LATE = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = 10\nat_most = 25\n"
+
+
+def loaded(tmp_path: Path, text: str) -> Adjustments:
+    (tmp_path / "adjustments.toml").write_text(text, encoding="utf-8")
+    return load_adjustments(tmp_path / "adjustments.toml")
+
+
+def adjust(**what: object) -> str:
+    lines = [f"{name} = {str(value).lower()}" for name, value in what.items()]
+    return "\n[[adjust]]\nstudent = 'Ann'\nreason = 'ill'\n" + "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    "after, points",
+    [
+        (timedelta(seconds=-1), 80),
+        (timedelta(0), 80),
+        (timedelta(seconds=1), 70),
+        (timedelta(days=1), 70),
+        (timedelta(days=1, seconds=1), 60),
+        (timedelta(days=9), 55),  # 25 at most
+    ],
+)
+def test_days_that_have_begun_cost_their_points(tmp_path, after, points):
+    final = loaded(tmp_path, LATE).final(Found("ann", (), handed_in=DUE + after), 80)
+    assert final.points == points
+    assert bool(final.reasons) == (points < 80)
+
+
+def test_a_mark_of_the_lms_without_a_time_is_one_day(tmp_path):
+    final = loaded(tmp_path, LATE).final(Found("ann", (), late=True), 80)
+    assert final.points == 70 and final.reasons == ("1 day late: -10",)
+
+
+def test_points_never_fall_below_0(tmp_path):
+    assert loaded(tmp_path, LATE).final(Found("ann", (), late=True), 4).points == 0
+
+
+def test_who_is_excused_loses_nothing_and_it_is_said(tmp_path):
+    final = loaded(tmp_path, LATE + adjust(late=False)).final(Found("ann", (), late=True), 80)
+    assert final.points == 80 and final.reasons == ("1 day late: 0", "excused: ill")
+
+
+def test_points_are_added_and_set_in_the_order_of_the_file(tmp_path):
+    both = loaded(tmp_path, LATE + adjust(points=50) + adjust(add=-3))
+    final = both.final(Found("ann", (), late=True), 80)
+    assert final.points == 47
+    assert final.reasons == ("1 day late: -10", "ill: set to 50", "ill: -3")
+
+
+def test_nobody_else_is_touched(tmp_path):
+    adjustments = loaded(tmp_path, adjust(add=5))
+    assert adjustments.final(Found("ben", ()), 80).reasons == ()
+    assert adjustments.unused(["ben"]) == ["Ann"] and adjustments.unused(["ANN"]) == []
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("[[adjust]]\nstudent = 'a'\nadd = 1\n", "reason"),
+        ("[[adjust]]\nstudent = 'a'\nreason = ' '\nadd = 1\n", "needs a reason"),
+        (adjust(), "one of"),
+        (adjust(add=1, points=2), "one of"),
+        (adjust(late=True), "late = false"),
+        (adjust(add=1.5), "add = 1.5 of .Ann. must be a whole number"),
+        (adjust(ad=1), "ad"),
+        ("[late]\nper_day = -1\n", "0 or more"),
+        ("[late]\nper_day = 1\ndue = 2026-05-04T22:00:00\n", "time zone"),
+        ("adjust = [", "adjustments.toml"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(tmp_path, text, words):
+    with pytest.raises(CannotGrade, match=words):
+        loaded(tmp_path, text)
+
+
+def test_a_date_alone_is_the_end_of_that_day_in_the_schools_zone(tmp_path):
+    """As in course.toml; people write extensions so."""
+    text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
+    decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
+    assert decided.due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
+    assert decided.due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
+    with pytest.raises(CannotGrade, match="due = 2026-05-04 23:59:59 needs its time zone"):
+        loaded(tmp_path, "[late]\ndue = 2026-05-04\n")
+
+
+@pytest.mark.parametrize(
+    "line, words",
+    [
+        ("points = 70.5", "points = 70.5 of 'Ann' must be a whole number"),
+        ("add = '5'", "add = '5' of 'Ann' must be a whole number"),
+        ("bonus = true", "bonus = True of 'Ann' must be a whole number"),
+        ("due = '09.05.2026'", "must be a date without quotes, as in due = 2027"),
+    ],
+)
+def test_what_is_no_number_or_date_is_said_in_the_words_of_the_file(tmp_path, line, words):
+    name, _, value = line.partition(" = ")
+    with pytest.raises(CannotGrade) as refused:
+        loaded(tmp_path, LATE + f"[[adjust]]\nstudent = 'Ann'\nreason = 'x'\n{name} = {value}\n")
+    assert words in str(refused.value)
+
+
+def test_a_missing_file_is_said(tmp_path):
+    with pytest.raises(CannotGrade, match="no adjustments at"):
+        load_adjustments(tmp_path / "none.toml")
+
+
+# ---------------------------------------------------------------- all that a person decides
+
+
+def final(tmp_path: Path, text: str, points: int | None = 80, **found: object):
+    return loaded(tmp_path, text).final(Found("ann", (), **found), points)
+
+
+def late_by(**time: float) -> dict[str, datetime]:
+    return {"handed_in": DUE + timedelta(**time)}
+
+
+@pytest.mark.parametrize(
+    "line, after, points",
+    [
+        ("grace = 15", {"minutes": 15}, 80),
+        ("grace = 15", {"minutes": 16}, 70),
+        ("free_days = 2", {"days": 2}, 80),
+        ("free_days = 2", {"days": 3}, 70),
+        ("cap = 60", {"hours": 1}, 60),
+        ("cap = 60", {"hours": -1}, 80),
+        ("closed_after = 3", {"days": 3}, 55),  # at_most
+        ("closed_after = 3", {"days": 3, "seconds": 1}, 0),
+    ],
+)
+def test_rules_of_lateness(tmp_path, line, after, points):
+    assert final(tmp_path, LATE + line + "\n", **late_by(**after)).points == points
+
+
+def test_a_share_of_what_was_earned_is_rounded_for_the_student(tmp_path):
+    share = LATE.replace("per_day = 10", 'per_day = "10%"').replace("at_most = 25\n", "")
+    assert final(tmp_path, share, 87, **late_by(hours=1)).points == 87 - 8
+    assert final(tmp_path, share, 87, **late_by(days=20)).points == 0
+
+
+def test_an_extension_is_the_students_own_date(tmp_path):
+    text = LATE + adjust(due="2026-05-06T22:00:00Z")
+    on_time = final(tmp_path, text, **late_by(days=2))
+    assert on_time.points == 80 and on_time.due == DUE + timedelta(days=2)
+    assert on_time.reasons == ("due 2026-05-06 22:00 +00:00: ill",)
+    assert final(tmp_path, text, **late_by(days=2, seconds=1)).points == 70
+    assert final(tmp_path, text, late=True).points == 80  # late, and nobody knows by how much
+
+
+def test_points_by_hand_are_the_mark_of_what_could_not_be_graded(tmp_path):
+    by_hand = final(tmp_path, LATE + adjust(points=70), None)
+    assert (by_hand.points, by_hand.by_hand) == (70, True)
+    added = final(tmp_path, LATE + adjust(add=5), None)
+    assert added.points is None and "set points" in added.reasons[0]
+
+
+def test_a_cap_and_a_bonus(tmp_path):
+    assert final(tmp_path, LATE + adjust(cap=50)).points == 50
+    given = final(tmp_path, LATE + adjust(bonus=3))
+    assert (given.points, given.reasons) == (80, ("ill: +3 bonus",))
+
+
+def test_times_without_a_zone_are_the_schools(tmp_path):
+    naive = {"handed_in": datetime(2026, 5, 5, 0, 30)}
+    berlin = 'zone = "Europe/Berlin"\n[late]\ndue = 2026-05-04T23:59:00\nper_day = 10\n'
+    assert final(tmp_path, berlin, **naive).points == 70
+    assert final(tmp_path, LATE, **naive).points == 70  # as the due date's, UTC here
+    west = LATE.replace("22:00:00Z", "22:00:00-05:00")
+    assert final(tmp_path, west, handed_in=datetime(2026, 5, 4, 21, 59)).points == 80
+
+
+def test_one_decision_for_several_and_an_address_by_its_first_half(tmp_path):
+    text = "[[adjust]]\nstudent = ['ann', 'ben@x']\nreason = 'pair'\nadd = 1\n"
+    decided = loaded(tmp_path, text)
+    assert decided.final(Found("ben@x", ()), 5).points == 6
+    assert decided.final(Found("ann@y", ()), 5).points == 6
+    decided.refuse_doubts(["ann@y", "ben@x"])
+    with pytest.raises(CannotGrade, match="could be ann@x or ann@y"):
+        decided.refuse_doubts(["ann@x", "ann@y"])

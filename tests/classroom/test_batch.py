@@ -1,0 +1,393 @@
+"""Grading a class: what is kept, what is graded again, and what survives a kill."""
+
+import ast
+import csv
+import io
+import json
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Collection
+from concurrent.futures import Future
+from contextlib import nullcontext
+from pathlib import Path
+
+import psutil
+import pytest
+from fragile_pool import FragilePool, result_of
+from rich.console import Console
+from typer.testing import CliRunner
+
+from grader.bank.members import add_odd_names
+from grader.classroom import batch, grading
+from grader.classroom.adjustments import Adjust, Adjustments
+from grader.classroom.batch import Run, grade_class
+from grader.classroom.executor import Graded, grade_package, shared_worker
+from grader.classroom.fingerprint import key_of
+from grader.classroom.grading import ClassOptions, page_of, run_class
+from grader.classroom.similarity import Prints, prints_of
+from grader.cli import classroom as commands
+from grader.intake.found import Found, Package
+from grader.intake.listing import opened_class
+from grader.intake.packing import pack
+from grader.judge.fingerprint import DECIDING, deciding_files
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.submission import CannotGrade
+from grader.report import progress
+from grader.report.files import as_json
+
+QUIET = Console(quiet=True)
+ONLY_8A = Options(shipped_reference(), only=frozenset({"8a"}))  # a second instead of five
+
+
+class Inline:
+    """Grades at once, and remembers whom."""
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def capacity(self) -> int:
+        return 1
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        self.names.append(package.name)
+        future: Future[Graded] = Future()
+        future.set_result((result_of(package), 0.0))
+        return future
+
+
+class InThisProcess(Inline):
+    """Grades in earnest."""
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        future: Future[Graded] = Future()
+        future.set_result(grade_package(package, ONLY_8A))
+        return future
+
+
+@pytest.fixture
+def classroom(tmp_path: Path) -> Path:
+    for name in ("ann", "ben", "cem"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "integrators.py").write_text(f"# {name}\n", encoding="utf-8")
+    return tmp_path / "class"
+
+
+def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
+    """One run; `.names` of its executor are those that were graded anew."""
+    executor = Inline()
+    with opened_class(classroom) as intake:
+        run = grade_class(intake, classroom.parent / "out", key, executor, QUIET, adjustments)
+    run.names = executor.names
+    return run
+
+
+# ---------------------------------------------------------------- how far it is
+
+
+def test_a_log_gets_a_line_now_and_then(classroom, monkeypatch):
+    monkeypatch.setattr(progress, "NOW_AND_THEN", 0.0)
+    log = Console(record=True, force_terminal=False, file=io.StringIO())
+    with opened_class(classroom) as intake:
+        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    assert "grading: 1 of 3, 1 graded\ngrading: 2 of 3, 2 graded\n" in log.export_text()
+
+
+def test_a_log_of_short_work_gets_none(classroom):
+    log = Console(record=True, force_terminal=False, file=io.StringIO())
+    with opened_class(classroom) as intake:
+        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    assert log.export_text() == ""
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def test_only_what_changed_is_graded_again(classroom):
+    assert graded(classroom).names == ["ann", "ben", "cem"]
+    assert graded(classroom).names == []
+    (classroom / "ben" / "helper.py").write_text("", encoding="utf-8")
+    assert graded(classroom).names == ["ben"]
+    assert graded(classroom, key="another seed").names == ["ann", "ben", "cem"]
+
+
+def test_a_result_that_is_gone_or_touched_is_made_again(classroom):
+    run = graded(classroom)
+    run.book.result_file("ann").unlink()
+    run.book.result_file("cem").write_text("{}", encoding="utf-8")
+    assert graded(classroom).names == ["ann", "cem"]
+
+
+def test_a_line_cut_off_by_a_kill_costs_that_submission_only(classroom):
+    book = graded(classroom).book
+    whole = book.path.read_bytes()
+    book.path.write_bytes(whole[:-40])
+    (book.folder / f".ann.json.{'0' * 16}").write_text("half", encoding="utf-8")
+    assert graded(classroom).names == ["cem"]
+    assert sorted(path.name for path in book.folder.iterdir()) == [
+        "ann.json",
+        "ben.json",
+        "cem.json",
+    ]
+
+
+def test_no_result_outlives_its_submission(classroom):
+    assert graded(classroom).book.result_file("ann").exists()
+    shutil.rmtree(classroom / "ann")
+    (classroom / "ann.zip").write_bytes(b"not a zip")
+    run = graded(classroom)
+    assert not run.book.result_file("ann").exists()
+    assert "broken" in {each.name: each.trouble for each in run.outcomes}["ann"]
+    assert run.counts == {"graded": 0, "kept": 2, "trouble": 1}
+
+
+def test_results_of_others_in_the_folder_stay_and_are_mentioned(classroom):
+    graded(classroom)
+    shutil.rmtree(classroom / "ben")
+    run = graded(classroom)
+    assert run.book.result_file("ben").exists()
+    assert any("others than this class: ben" in note for note in run.notes)
+
+
+def test_the_key_depends_on_all_that_decides(tmp_path):
+    keys = {
+        key_of(options)
+        for options in (
+            Options(),
+            Options(seed=1),
+            Options(only=frozenset({"1"})),
+            Options(isolation="strict"),
+            Options(shipped_reference()),
+        )
+    }
+    assert len(keys) == 5 and key_of(Options(seed=1)) in keys
+
+
+def test_what_decides_no_points_does_not_count(tmp_path):
+    names = ("checks/todo_1.py", "checks/rubric.toml", "judge/grade.py", "worker/child.py")
+    others = ("player/page.py", "report/terminal.py", "cli.py", "watch.py", "classroom/book.py")
+    for name in (*names, *others, "protocol.py", "judge/notes.txt"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    found = [path.relative_to(tmp_path).as_posix() for path in deciding_files(tmp_path)]
+    assert found == sorted([*names, "protocol.py"])
+
+
+def test_what_decides_uses_nothing_that_does_not_count():
+    top = KIT / "grader"
+    used: dict[str, set[str]] = {}
+    for path in deciding_files(top):
+        if path.suffix == ".py":
+            for node in ast.walk(ast.parse(path.read_bytes())):
+                if isinstance(node, ast.ImportFrom) and str(node.module).startswith("grader."):
+                    used.setdefault(str(node.module).split(".")[1], set()).add(path.name)
+    places = {Path(name).stem for name in DECIDING}
+    assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
+    # Replays show what was decided, in the words of reports.
+    shown = {name: files for name, files in used.items() if name not in places}
+    assert shown == {"player": {"filming.py", "replay.py"}, "words": {"replay.py"}}
+
+
+# ---------------------------------------------------------------- adjustments, table, notes
+
+
+def test_adjustments_stay_on_top_and_results_as_they_are(classroom):
+    adjustments = Adjustments(adjust=[Adjust("ann", "=ill", add=40), Adjust("eve", "x", add=1)])
+    before = graded(classroom).book.result_file("ann").read_bytes()
+    for run in (graded(classroom, adjustments=adjustments), graded(classroom, "k", adjustments)):
+        assert run.book.result_file("ann").read_bytes() == before
+        with open(run.book.table, encoding="utf-8-sig", newline="") as file:
+            row = next(row for row in csv.DictReader(file) if row["name"] == "ann")
+        assert (row["points"], row["found"], row["adjusted"]) == ("41", "1", "'=ill: +40")
+        assert "adjusted, but nothing was handed in: eve" in run.notes
+    assert graded(classroom).outcomes[0].final == 1
+
+
+def test_marks_for_the_lms_are_those_after_adjustments(classroom):
+    graded(classroom, adjustments=Adjustments(adjust=[Adjust("ann", "ill", points=2)]))
+    (classroom / "list.csv").write_text("Email address\nann@x\nben@x\n", encoding="utf-8")
+    out = classroom / "marks.csv"
+    files = [str(classroom / "list.csv"), "--results", str(classroom.parent / "out")]
+    done = CliRunner().invoke(commands.app, ["marks", *files, "--out", str(out)])
+    assert done.exit_code == 0 and "ann: ill: set to 2" in done.output
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
+    assert [row["Grade"] for row in rows] == ["100.0", "50.0"]
+
+
+def test_the_same_files_from_two_people_are_mentioned(classroom):
+    shutil.copy(classroom / "ann" / "integrators.py", classroom / "cem" / "integrators.py")
+    assert "the same files were handed in by ann, cem" in graded(classroom).notes
+
+
+def test_those_who_work_together_are_no_copies(classroom):
+    (classroom / "submission_metadata.yml").write_text(
+        "ann: {':submitters': [{':email': a@x}, {':email': b@x}]}\n", encoding="utf-8"
+    )
+    run = graded(classroom)
+    assert [each.name for each in run.outcomes] == ["a@x", "b@x", "ben", "cem"] and not run.notes
+
+
+def test_whatever_goes_wrong_with_one_the_others_are_graded(classroom, monkeypatch):
+    def breaks_at_ben(found: Found, asked: Collection[str]) -> Package:
+        if found.name == "ben":
+            raise RecursionError("too deep")
+        return pack(found, asked)
+
+    monkeypatch.setattr(batch, "pack", breaks_at_ben)
+    run = graded(classroom)
+    assert run.names == ["ann", "cem"]
+    assert {each.name: each.trouble for each in run.outcomes}["ben"] == "RecursionError: too deep"
+
+
+def test_so_are_they_where_a_name_is_no_text(classroom):
+    """Of a file, or of a folder around one: another machine's letters, or what a terminal obeys."""
+    add_odd_names(classroom / "ben")
+    run = graded(classroom)
+    assert run.names == ["ann", "ben", "cem"]
+    assert not any(each.trouble for each in run.outcomes)
+
+
+def test_and_where_only_comparing_goes_wrong(classroom, monkeypatch):
+    def breaks(package: Package, whose: tuple[str, ...]) -> Prints:
+        if package.name == "ben":
+            raise UnicodeEncodeError("utf-8", "x", 0, 1, "surrogates")
+        return prints_of(package, whose)
+
+    monkeypatch.setattr(batch, "prints_of", breaks)
+    assert graded(classroom).names == ["ann", "cem"]
+
+
+def test_names_and_words_are_harmless_in_the_table(classroom):
+    (classroom / "ben").rename(classroom / "=1+1")
+    with open(graded(classroom).book.table, encoding="utf-8-sig", newline="") as file:
+        assert [row["name"] for row in csv.DictReader(file)] == ["'=1+1", "ann", "cem"]
+
+
+def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
+    monkeypatch.setattr(grading, "opened_executor", lambda wanted: FragilePool(wanted.options, 1))
+    (classroom / "roster.csv").write_text(
+        "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
+    )
+    (classroom / "adjustments.toml").write_text("[late]\nper_day = 10\n", encoding="utf-8")
+    run = run_class(classroom, ClassOptions(Options()), QUIET)
+    assert run.book.folder == classroom.parent / "class-results"
+    assert "nothing was handed in by dora@x" in run.notes
+    assert "not in the class list: ben, cem" in run.notes
+
+
+# ---------------------------------------------------------------- processes
+
+
+def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
+    for name in ("killer", "killer2", "raiser", *(f"more{n}" for n in range(3))):
+        shutil.copytree(classroom / "ann", classroom / name)
+    with opened_class(classroom) as intake, FragilePool(Options(), 2) as pool:
+        run = grade_class(intake, classroom.parent / "out", "key", pool, QUIET)
+    troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
+    assert troubles.keys() == {"killer", "killer2", "raiser"}
+    assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
+    assert run.counts == {"graded": 6, "kept": 0, "trouble": 3}
+
+
+def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):
+    class Leaving(Inline):
+        def submit(self, package: Package) -> "Future[Graded]":
+            future = super().submit(package)
+            if package.name == "ben":
+                future = Future()
+                future.cancel()
+                future.set_running_or_notify_cancel()
+            return future
+
+    with opened_class(classroom) as intake, pytest.raises(CannotGrade, match="goes on from there"):
+        grade_class(intake, classroom.parent / "out", "key", Leaving(), QUIET)
+    assert graded(classroom).names == ["ben", "cem"]
+
+
+def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
+    for name, tree in (("anna", "solution"), ("ben", "starter")):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        shutil.copy(KIT / tree / "integrators.py", tmp_path / "class" / name)
+    run = run_class(tmp_path / "class", ClassOptions(ONLY_8A, jobs=1), QUIET)
+    for name in ("anna", "ben"):
+        alone = as_json(grade(tmp_path / "class" / name, ONLY_8A, shared_worker()))
+        assert run.book.result_file(name).read_bytes() == alone
+    assert [each.points for each in run.outcomes] == [2, 0]
+    assert "anna" in (tmp_path / "class-results.class.html").read_text(encoding="utf-8")
+    assert (tmp_path / "class-results" / "anna.html").is_file()
+
+
+def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
+    run = graded(classroom)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 2)
+    assert "more than 2, by `grader dashboard" in page_of(run)
+    monkeypatch.setattr(grading, "LONGEST_PAGE", 3)
+    assert page_of(run).endswith("out.class.html")
+
+
+def command(classroom: Path) -> list[str]:
+    grading = ["grade", "--class", str(classroom), "--todo", "8a", "--jobs", "2"]
+    return [sys.executable, "-m", "grader", *grading]
+
+
+def test_a_kill_in_the_middle_and_a_rerun_are_an_undisturbed_run(tmp_path, monkeypatch):
+    for number in range(8):
+        folder = tmp_path / "class" / f"student-{number}"
+        folder.mkdir(parents=True)
+        shutil.copy(KIT / "solution" / "integrators.py", folder)
+        (folder / "name.py").write_text(f"# {number}\n", encoding="utf-8")
+    shutil.copytree(tmp_path / "class", tmp_path / "undisturbed" / "class")
+
+    process = subprocess.Popen(command(tmp_path / "class"), cwd=KIT, stdout=subprocess.DEVNULL)
+    results = tmp_path / "class-results"
+    until(lambda: len(list(results.glob("*.json"))) >= 2)
+    family = psutil.Process(process.pid).children(recursive=True)
+    process.kill()
+    process.wait()
+    stands = len(list(results.glob("*.json")))
+    assert 2 <= stands < 8
+    until(lambda: all(map(has_ended, family)))  # nobody works on without a parent
+
+    done = subprocess.run(command(tmp_path / "class"), cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    kept = int(done.stdout.split(" kept")[0].split()[-1])
+    assert kept in (stands, stands - 1)  # one may have been written and not yet been noted
+    monkeypatch.setattr(grading, "opened_executor", lambda _: nullcontext(InThisProcess()))
+    undisturbed = run_class(tmp_path / "undisturbed" / "class", ClassOptions(ONLY_8A), QUIET)
+    assert snapshot(results) == snapshot(undisturbed.book.folder)
+
+
+def has_ended(process: psutil.Process) -> bool:
+    """Also where nobody asks how it ended, as in a container whose first process does not."""
+    try:
+        return not process.is_running() or process.status() == psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return True
+
+
+def snapshot(results: Path) -> dict[str, bytes]:
+    table = results.with_name(f"{results.name}.class.csv")
+    return {path.name: path.read_bytes() for path in (table, *results.iterdir())}
+
+
+def until(true: Callable[[], bool]) -> None:
+    for _ in range(600):
+        if true():
+            return
+        time.sleep(0.1)
+    raise TimeoutError
+
+
+def test_the_exit_status_says_whether_all_could_be_graded(tmp_path):
+    (tmp_path / "class" / "ann").mkdir(parents=True)
+    (tmp_path / "class" / "ann" / "integrators.py").write_text("x = 1\n", encoding="utf-8")
+    out = ["--out", str(tmp_path / "marks")]
+    done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, stdout=subprocess.DEVNULL)
+    assert done.returncode == 0
+    (tmp_path / "class" / "ben.zip").write_bytes(b"")
+    done = subprocess.run([*command(tmp_path / "class"), *out], cwd=KIT, capture_output=True)
+    assert done.returncode == 2 and b"the archive is broken" in done.stdout
+    assert json.loads((tmp_path / "marks" / "ann.json").read_bytes())["points"] == 0
+    nowhere = subprocess.run(command(tmp_path / "nowhere"), cwd=KIT, capture_output=True)
+    assert nowhere.returncode == 2 and b"no folder of submissions" in nowhere.stderr

@@ -1,0 +1,104 @@
+"""What would go wrong is said before anything is graded, and all of it at once."""
+
+from pathlib import Path
+
+import classes
+import packed
+import pytest
+from typer.testing import CliRunner
+
+from grader.classroom.course_check import Files, faults_of_course
+from grader.cli import classroom as commands
+
+GOOD = "Email address,Group\nann@x.edu,1\nben@x.edu,1\n"
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    (tmp_path / "list.csv").write_text(GOOD, encoding="utf-8")
+    classes.put(tmp_path / "class" / "ann.zip", packed.as_zip(classes.work(3)))
+    classes.put(tmp_path / "class" / "ben.zip", packed.as_zip(classes.work(3)))
+    return tmp_path
+
+
+def told(place: Path, **texts: str) -> list[str]:
+    names = {"roster": "list.csv", "adjust": "adjustments.toml", "marking": "marks.toml"}
+    files = {}
+    for name, text in {"roster": GOOD, **texts}.items():
+        (place / names[name]).write_text(text, encoding="utf-8")
+        files[name] = place / names[name]
+    return list(faults_of_course(Files(submissions=place / "class", **files)))
+
+
+def test_of_what_is_well_nothing_is_said(place):
+    assert told(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
+    words = ["course-check", str(place / "class"), "--roster", str(place / "list.csv")]
+    done = CliRunner().invoke(commands.app, words)
+    assert done.exit_code == 0 and "Nothing would go wrong" in done.output
+
+
+def test_all_that_would_go_wrong_is_said_at_once(place):
+    classes.put(place / "class" / "cem.rar", b"Rar!")
+    classes.put(place / "class" / "dora.docx", b"")
+    classes.put(place / "class" / "finn.zip", packed.as_zip({"a.docx": ""}))
+    adjust = (
+        "[late]\ndue = 2026-05-04T12:00:00Z\nper_day = 5\n"
+        "[[adjust]]\nstudent = 'nobody'\nadd = 1\nreason = 'x'\n"
+    )
+    faults = told(place, adjust=adjust, marking="title = 1\n")
+    for words in (
+        "cem: the archive is broken",
+        "finn: nothing of the lab",
+        "not in the class list: cem, finn",
+        "no time is known of ann, ben, cem, finn",
+        "'nobody' is nobody of this class",
+        "marks.toml",
+    ):
+        assert any(words in fault for fault in faults), (words, faults)
+
+
+@pytest.mark.parametrize(
+    "roster, words",
+    [
+        ("Email address\nann@x.edu\nann@x.edu\n", "stands 2 times"),
+        ("Email address,Name\nann@x.edu,A\n,B\n", "1 rows have no 'Email address'"),
+        (
+            "First name,Last name,Email address\nA,L,a@x.edu\nA,L,b@x.edu\n",
+            "a@x.edu and b@x.edu have one name",
+        ),
+        ("Email address,Group\nann@x.edu,\n", "no group shares a mark"),
+        ("Name\nAnn\n", "has none of"),
+    ],
+)
+def test_a_class_list_that_does_not_tell_people_apart(place, roster, words):
+    assert any(words in fault for fault in told(place, roster=roster))
+
+
+def test_a_gradebook_without_the_assignments_column(place):
+    marking = 'title = "Physics engine"\nshares.engine = 1\n'
+    canvas = classes.canvas(place / "other", [])
+    assert not any("no column" in f for f in told(place, roster=canvas, marking=marking))
+    other = canvas.replace("Physics engine (77)", "Essay (78)")
+    assert any(
+        "no column 'Physics engine'" in f for f in told(place, roster=other, marking=marking)
+    )
+
+
+@pytest.mark.parametrize("system", ["moodle", "blackboard", "brightspace"])
+def test_marks_out_of_another_number_than_the_gradebooks(place, system):
+    roster = classes.SYSTEMS[system](place / "other", classes.students())
+    marking = 'title = "Physics engine"\nshares.engine = 1\ntotal = '
+    assert any("counts to 20" in f for f in told(place, roster=roster, marking=marking + "100"))
+    fine = told(place, roster=roster, marking=f"{marking}{classes.FULL}")
+    assert not any("counts to" in fault for fault in fine)
+
+
+def test_decisions_are_checked_as_a_whole(place):
+    adjust = (
+        "[late]\nper_day = 'x'\ngrace = -1\n"
+        "[[adjust]]\nstudent = 'ann'\npoints = 700\nreason = 'x'\n"
+        "[[adjust]]\nstudent = 'ann'\npoints = 7\nreason = ' '\n"
+    )
+    (fault,) = told(place, adjust=adjust)
+    for words in ("per_day = 'x'", "grace = -1", "points = 700", "needs a reason", "set twice"):
+        assert words in fault

@@ -1,0 +1,269 @@
+"""The page of a class: what it says adds up, its links lead somewhere, no word in it is obeyed."""
+
+import re
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import msgspec
+import pytest
+from msgspec import structs
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+from typer.testing import CliRunner
+
+from grader.bank.members import members
+from grader.classroom.book import Book, Outcome, outcome_of
+from grader.classroom.dashboard import NoResults, read_class, write_dashboard
+from grader.cli import classroom as commands
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult, Result, State, TodoResult
+from grader.report.files import as_json, write_json
+
+STATES: list[State] = ["passed", "not yet", "not started", "error"]
+TODOS = 14
+WORTH = 7  # of each TODO
+MANY = 200
+ONLY_5 = Options(shipped_reference(), only=frozenset({"5"}))
+
+
+def todo(number: int, state: State, mistake: str | None = None, words: str = "w") -> TodoResult:
+    points = WORTH if state == "passed" else 0
+    check = CheckResult(
+        "a", "A title", "unit", state, points, WORTH, words, words, words, meaning=words
+    )
+    return TodoResult(str(number), f"Task {number}", state, points, WORTH, mistake, [check])
+
+
+def result(student: int, words: str = "w") -> Result:
+    """Student n passes all TODOs but the first n % 15; what is wrong there changes with n."""
+    wrong = student % (TODOS + 1)
+    todos = [
+        todo(n, STATES[1 + (student + n) % 3] if n < wrong else "passed", None, words)
+        for n in range(TODOS)
+    ]
+    if student % 4 == 1:
+        todos[0] = todo(0, "not yet", "half-for-full", words)
+    bonus = TodoResult("B1", "Sleep", "passed", 5, 5, None, [])
+    points = sum(each.points for each in todos)
+    extra = [bonus] if student % 2 else []
+    return Result(1, "s", points, WORTH * TODOS, 5 * len(extra), ["processes"], [*todos, *extra])
+
+
+def make_class(folder: Path, count: int, name: str = "student {:03}", words: str = "w") -> Path:
+    """A class in which student 3 is in trouble, 4 was late and 5 took longest."""
+    outcomes = []
+    with Book(folder) as book:
+        for number in range(count):
+            content = as_json(result(number, words))
+            outcome = outcome_of(name.format(number), content, 2.0 + (number == 5) * 9, "")
+            book.write(outcome, content)
+            outcomes.append(outcome)
+        if count > 4:
+            book.forget(outcomes[3].name)
+            outcomes[3] = Outcome(outcomes[3].name, words or "no zip")
+            final = outcomes[4].points - 10
+            outcomes[4] = msgspec.structs.replace(
+                outcomes[4], late=True, reasons=[f"1 day late: -10 {words}"], final=final
+            )
+        book.close_with(outcomes)
+    return write_dashboard(folder, read_class(folder))
+
+
+def read(page: Path) -> Reader:
+    return Reader(page.read_text(encoding="utf-8"))
+
+
+def links(page: Path) -> list[str]:
+    return [attributes["href"] or "" for tag, attributes in read(page).tags if tag == "a"]
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_class(tmp_path_factory.mktemp("term") / "Physik & Übung #1", MANY)
+
+
+# ---------------------------------------------------------------- as a file
+
+
+def test_two_hundred_students_are_a_small_page_that_needs_nothing_else(page: Path):
+    assert page.stat().st_size <= 1_500_000
+    seen = read(page)
+    assert "default-src 'none'" in seen.source
+    assert not re.search(r"@import|url\(|https?:", seen.source)
+    assert not any("src" in attributes or "style" in attributes for _, attributes in seen.tags)
+
+
+def test_every_link_leads_to_a_report_beside_it(page: Path):
+    found = links(page)
+    assert len({link.partition("#")[0] for link in found}) == MANY
+    for link in found:
+        path, _, part = link.partition("#")
+        report = page.parent / unquote(path)
+        assert report.is_file()
+        assert not part or f'id="{part}"' in report.read_text(encoding="utf-8")
+
+
+def test_no_report_outlives_its_submission(tmp_path: Path):
+    page = make_class(tmp_path / "class", 6)
+    stale = tmp_path / "class" / "student 003.html"
+    stale.write_text("of an earlier run")
+    write_dashboard(tmp_path / "class", read_class(tmp_path / "class"))
+    source = stale.read_text(encoding="utf-8")
+    assert "No points yet: a person must look at this first." in source and page.is_file()
+
+
+def test_a_students_page_has_the_mark_the_dates_and_what_was_decided(tmp_path: Path):
+    at = datetime(2026, 5, 4, 22, tzinfo=UTC)
+    content = as_json(result(1))
+    with Book(tmp_path / "class") as book:
+        ann = outcome_of("ann", content, 1.0, "")
+        book.write(ann, content)
+        ann = structs.replace(ann, final=70, reasons=["1 day late: -10", "<ill>: +2"], due=at)
+        ann = structs.replace(ann, handed_in=at, notes=["a (1).py is taken as a.py"])
+        ben = Outcome("ben", "broken", final=70, max_points=98, by_hand=True, reasons=["seen: 70"])
+        book.close_with([ann, ben, Outcome("cem", "broken")])
+    write_dashboard(tmp_path / "class", read_class(tmp_path / "class"))
+    pages = {n: (tmp_path / "class" / f"{n}.html").read_text() for n in ("ann", "ben", "cem")}
+    for words in ("Mark: <strong>70</strong> of 98", "1 day late: -10", "&lt;ill&gt;: +2"):
+        assert words in pages["ann"]
+    for words in ("2026-05-04 22:00 +00:00", "a (1).py is taken as a.py", "91</strong> of 98"):
+        assert words in pages["ann"]
+    assert "Mark: <strong>70</strong> of 98" in pages["ben"] and "seen: 70" in pages["ben"]
+    assert "No points yet" in pages["cem"] and "broken" in pages["cem"]
+
+
+def test_the_numbers_add_up(page: Path):
+    results = [result(number) for number in range(MANY) if number != 3]
+    source = page.read_text(encoding="utf-8")
+    mean = (sum(each.points for each in results) - 10) / len(results)  # one was late
+    assert f"<dt>mean</dt><dd>{mean:.1f}</dd>" in source
+    full = sum(each.points == WORTH * TODOS for each in results)  # without any bonus
+    assert f"<dt>full marks</dt><dd>{full}</dd>" in source
+    for number in range(TODOS):
+        passed = sum(each.todos[number].state == "passed" for each in results)
+        share = f'<td class="n">{100 * passed / len(results):.0f} %</td>'
+        assert f'<th scope="row">{number}</th><td>Task {number}</td>{share}' in source
+    counts = re.findall(r'data-filter="bin"[^>]*>(\d+)<', source)
+    assert sum(map(int, counts)) == len(results)
+
+
+def test_bonus_is_apart(tmp_path: Path):
+    page = make_class(tmp_path / "class", 2)
+    rows = [row for row in page.read_text(encoding="utf-8").split("<tr") if "student 001" in row]
+    assert f'<td class="n">{result(1).points}</td><td class="n">5</td>' in rows[-1]
+
+
+def test_words_of_students_stay_words(tmp_path: Path):
+    name = "'; x&lt;b&gt; {:03} --"
+    page = make_class(tmp_path / "class", 6, name, HOSTILE)
+    seen = read(page)
+    assert (seen.count("script"), seen.count("img"), seen.handlers) == (1, 0, [])
+    assert seen.text.count(HARMLESS) >= 4 and "x&lt;b&gt; 000" in seen.text
+    assert not set("\u202e\x07") & set(seen.source)
+
+
+def test_results_without_a_book_are_shown_and_rubbish_is_named(tmp_path: Path):
+    (tmp_path / "ann.json").write_bytes(as_json(result(0)))
+    (tmp_path / "ben.json").write_text("[]")
+    ann, ben = read_class(tmp_path)
+    assert (ann.outcome.final, ann.result) == (WORTH * TODOS, result(0))
+    assert ben.result is None and "ben.json is no result" in ben.outcome.trouble
+
+
+def test_an_empty_folder_is_refused(tmp_path: Path):
+    with pytest.raises(NoResults, match="there are no results in"):
+        read_class(tmp_path)
+    assert CliRunner().invoke(commands.app, ["dashboard", str(tmp_path)]).exit_code == 2
+
+
+@pytest.mark.soak
+def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
+    """From a class and its results, by the command."""
+    member = next(each for each in members(KIT) if each.name == "5-spin-is-not-damped")
+    for student in ("ann", "ben"):
+        member.build(KIT, tmp_path / "class" / student)
+        graded = grade(tmp_path / "class" / student, ONLY_5)
+        write_json(graded, tmp_path / "results" / f"{student}.json")
+    before = (tmp_path / "results" / "ann.json").read_bytes()
+    folders = [str(tmp_path / "results"), "--submissions", str(tmp_path / "class")]
+    done = CliRunner().invoke(commands.app, ["dashboard", *folders])
+    assert done.exit_code == 0, done.output
+    (replay,) = [link for link in links(tmp_path / "results.class.html") if "/ann/" in link]
+    assert '<canvas id="picture"' in (tmp_path / replay).read_text(encoding="utf-8")
+    assert "<iframe" in (tmp_path / "results" / "ann.html").read_text(encoding="utf-8")
+    assert (tmp_path / "results" / "ann.json").read_bytes() == before
+
+
+# ---------------------------------------------------------------- in a browser
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as browser:
+        yield browser
+
+
+@pytest.fixture
+def screen(browser: Any, page: Path) -> Iterator[Screen]:
+    shown = Screen(browser, page)
+    yield shown
+    shown.page.close()
+    assert shown.complaints == []
+
+
+def column(screen: Screen, number: int) -> list[str]:
+    rows = screen.page.locator("#table tbody tr:visible")
+    return rows.evaluate_all(f"rows => rows.map(row => row.cells[{number}].textContent.trim())")
+
+
+def test_a_click_sorts_and_another_turns_it_round(screen: Screen):
+    names = column(screen, 0)
+    head = screen.page.locator("#table thead th").nth(1)
+    head.locator("button").click()
+    falling = column(screen, 1)
+    assert falling[-1] == ""  # the one that was not graded stays at the end
+    numbers = [int(points) for points in falling[:-1]]
+    assert numbers == sorted(numbers, reverse=True) and len(set(numbers)) > 10
+    assert head.get_attribute("aria-sort") == "descending"
+    head.locator("button").press("Enter")
+    assert [int(points) for points in column(screen, 1)[:-1]] == sorted(numbers)
+    screen.page.locator("#table thead button").first.click()
+    assert column(screen, 0) == names == sorted(names)
+
+
+def test_search_and_choices_narrow_the_table(screen: Screen):
+    screen.page.get_by_label("Search").fill("STUDENT 01")
+    assert column(screen, 0) == [f"student {number:03}" for number in range(10, 20)]
+    assert screen.page.locator("#count").inner_text() == f"10 of {MANY}"
+    screen.page.get_by_label("Search").fill("")
+    for kind, name in (("trouble", "student 003"), ("late", "student 004")):
+        screen.page.locator("#kind").select_option(kind)
+        assert column(screen, 0) == [name]
+
+
+def test_a_count_shows_whom_it_counts(screen: Screen):
+    makers = [number for number in range(MANY) if number % 4 == 1]
+    mistakes = screen.page.locator(".mistakes tbody button")
+    assert mistakes.inner_text() == str(len(makers))
+    mistakes.press("Enter")
+    assert column(screen, 0) == [f"student {number:03}" for number in makers]
+    screen.page.get_by_role("button", name="show all").click()
+    assert len(column(screen, 0)) == MANY
+    for button in screen.page.locator("[data-filter]").all():
+        button.click()
+        assert len(column(screen, 0)) == int(button.inner_text())
+
+
+def test_a_hostile_class_is_quiet_in_the_browser(browser: Any, tmp_path: Path):
+    shown = Screen(browser, make_class(tmp_path / "class", 6, "'; {:03}", HOSTILE))
+    shown.page.locator("#table thead button").last.click()
+    shown.page.locator("#table a").first.click()
+    assert shown.page.locator("h1").count() == 1
+    assert shown.complaints == []
+
+
+@pytest.mark.soak
+def test_the_page_of_a_class_is_for_all(browser: Any, tmp_path: Path):
+    assert barriers(browser, make_class(tmp_path, 3)) == []

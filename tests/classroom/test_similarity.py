@@ -1,0 +1,148 @@
+"""How alike submissions are: copies are shown however they are dressed, others are not."""
+
+import re
+import subprocess
+import sys
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+from page_readers import HOSTILE, Reader
+from points_pool import Inline
+from rich.console import Console
+from typer.testing import CliRunner
+
+from grader.bank.members import members
+from grader.classroom import grading
+from grader.classroom.grading import ClassOptions, run_class
+from grader.classroom.similarity import EXPECTED, Pair, alike, prints_of, read_alike
+from grader.cli import classroom as commands
+from grader.intake.found import Found, Package
+from grader.intake.packing import pack
+from grader.judge.grade import KIT, Options
+
+WHOLE = [  # of the bank: written anew from end to end, each in another way
+    "whole-complex-numbers",
+    "whole-functional-style",
+    "whole-numpy-inside",
+    "whole-slots-and-floats",
+    "whole-verbose-many-classes",
+    "whole-very-terse",
+    "single-file-dataclasses",
+    "single-file-typed-slots",
+]
+
+
+@pytest.fixture(scope="module")
+def right(tmp_path_factory) -> dict[str, Package]:
+    """Independent right members of the bank: whole programs, and answers to one task."""
+    place, found = tmp_path_factory.mktemp("right"), {}
+    for member in members(KIT):
+        if member.kind == "right" and (member.name in WHOLE or re.match(r"[1-8]", member.name)):
+            member.build(KIT, place / member.name)
+            found[member.name] = pack(Found(member.name, (place / member.name,)))
+    return found
+
+
+def shares(packages: list[Package]) -> list[Pair]:
+    return alike([prints_of(each) for each in packages], 0.0)
+
+
+@pytest.mark.soak
+def test_independent_right_answers_stay_below_what_is_expected(right):
+    whole = shares([right[name] for name in WHOLE])
+    assert whole and max(each.share for each in whole) < 0.3 < EXPECTED
+    tasks = [right[name] for name in sorted(set(right) - set(WHOLE))]
+    assert max((each.share for each in shares(tasks)), default=0.0) <= EXPECTED
+
+
+def dressed(package: Package) -> Package:
+    """The same with other names, numbers, comments, line breaks, and the functions turned round."""
+    files = []
+    for name, content in package.files:
+        text = content.decode()
+        if name.endswith(".py"):
+            text = re.sub(r"\b(body|velocity|normal|dt|state)\b", r"my_\1", text)
+            text = re.sub(r"\b\d+\.\d+\b", "3.25", text)
+            parts = re.split(r"(?m)^(?=def |class )", text)
+            text = "# mine\n".join([parts[0], *reversed(parts[1:])])
+        files.append((name, text.encode()))
+    return Package("copy", files)
+
+
+@pytest.mark.parametrize("name", ["whole-very-terse", "whole-functional-style"])
+def test_a_copy_is_shown_however_it_is_dressed(right, name):
+    (pair,) = alike([prints_of(p) for p in [*(right[n] for n in WHOLE), dressed(right[name])]])
+    assert set(pair.names) == {"copy", name} and pair.share > 0.8
+
+
+def test_what_everybody_was_given_and_the_solutions_wording_tell_nothing(tmp_path):
+    trees = [pack(Found(name, (KIT / name,))) for name in ("starter", "solution")]
+    assert all(not prints_of(each).runs for each in trees)
+    twins = [Package(name, trees[1].files) for name in ("ann", "ben")]
+    assert alike([prints_of(each) for each in twins], 0.0) == []
+
+
+def test_who_handed_in_together_is_no_pair(right):
+    together = (Path("one folder"),)
+    package = right["whole-very-terse"]
+    both = [prints_of(Package(name, package.files), together) for name in ("ann", "ben")]
+    apart = [prints_of(Package(name, package.files)) for name in ("ann", "ben")]
+    assert not alike(both) and alike(apart) == [Pair("ann", "ben", 1.0, alike(apart)[0].runs)]
+
+
+def test_what_many_have_tells_nothing(right):
+    package = right["whole-very-terse"]
+    many = [prints_of(Package(f"s{n}", package.files)) for n in range(20)]
+    assert alike(many) == []
+
+
+def test_the_same_pairs_whatever_the_hash_seed_is():
+    text = "a = b + c * d - e / f\n" * 9
+    code = f"from grader.classroom.similarity import runs_of; print(sorted(runs_of({text!r})))"
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={"PYTHONHASHSEED": seed},
+            cwd=KIT,
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert len(told) == 1
+
+
+def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right, monkeypatch):
+    monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline())
+    package, classroom = right["whole-very-terse"], tmp_path / "class"
+    wrong = "<script>alert(1)</script>"
+    for name, each in (("ann", package), ("ben", dressed(package)), ("zoe", right[WHOLE[0]])):
+        files = [*each.files, ("note.py", f"x = '{wrong}{HOSTILE}'\n".encode())]
+        Package(name, files).unpack(classroom) if classroom.mkdir(exist_ok=True) is None else None
+    run_class(classroom, ClassOptions(Options()), Console(quiet=True))
+    results = tmp_path / "class-results"
+    (pair,) = read_alike(results)
+    assert pair.names == ("ann", "ben")
+    page = (tmp_path / "class-results.class.html").read_text(encoding="utf-8")
+    assert "ann and ben" in page and "class-results.alike.html#pair-1" in page
+    shown = (tmp_path / "class-results.alike.html").read_text(encoding="utf-8")
+    assert 'id="pair-1"' in shown and "<mark>" in shown and wrong not in shown
+    assert not Reader(shown).count("script")
+    table = (tmp_path / "class-results.alike.csv").read_text(encoding="utf-8-sig")
+    assert table.splitlines()[1].startswith("ann,ben,")
+
+    last = tmp_path / "2025"
+    last.mkdir()
+    Package("old", right[WHOLE[0]].files).unpack(last)
+    words = ["alike", str(results), "--submissions", str(classroom), "--also", str(last)]
+    done = CliRunner().invoke(commands.app, words)
+    assert done.exit_code == 0, done.output
+    assert {each.names for each in read_alike(results)} == {("ann", "ben"), ("2025/old", "zoe")}
+
+
+def test_no_pair_of_others_than_the_class(right):
+    package = right["whole-very-terse"]
+    names = ("a", "b", "c")
+    prints = [prints_of(Package(name, package.files)) for name in names]
+    assert {each.names for each in alike(prints, of={"a"})} == set(list(combinations(names, 2))[:2])

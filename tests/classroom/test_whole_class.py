@@ -1,0 +1,415 @@
+"""A class from the export to the gradebook and back: nobody is silently 0, nobody is lost."""
+
+import csv
+import subprocess
+import sys
+import time
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import classes
+import gradebooks
+import msgspec
+import packed
+import pytest
+from classes import TITLE, Student
+from points_pool import Inline, PointsPool
+from rich.console import Console
+from typer.testing import CliRunner
+
+from grader.bank.members import members
+from grader.classroom import grading
+from grader.classroom.batch import Run
+from grader.classroom.grading import ClassOptions, run_class
+from grader.cli import classroom as commands
+from grader.intake import archives, repack
+from grader.judge.children import start_worker
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.submission import plain_files
+
+QUIET = Console(quiet=True)
+SYSTEMS = list(classes.SYSTEMS)
+
+
+@dataclass
+class Class:
+    """A class that was graded, and who is in it."""
+
+    system: str
+    folder: Path
+    roster: Path
+    students: list[Student]
+    run: Run
+
+    @property
+    def results(self) -> Path:
+        return self.run.book.folder
+
+    def called(self, student: Student) -> str:
+        """Brightspace gives no identifier of the class list's: of two of one name none is known."""
+        if self.system == "brightspace" and student.full == "Ann Lee":
+            return f"Ann Lee_{1001 + self.students.index(student)}-77"
+        return self.name(student)
+
+    def mark(self, student: Student) -> int | None:
+        """What the gradebook may say: nothing of those who could be one another."""
+        known = self.called(student) == self.name(student)
+        return student.mark if known else None
+
+    def name(self, student: Student) -> str:
+        return name_in(self.system, student)
+
+
+def name_in(system: str, student: Student) -> str:
+    """What the class list calls a student."""
+    if system in ("moodle", "gradescope"):
+        return student.email
+    return student.login
+
+
+@pytest.fixture
+def in_one_process(monkeypatch) -> None:
+    monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline())
+    here(monkeypatch)
+
+
+def here(monkeypatch) -> None:
+    """Archives are read by this process: `test_pieces.py` has them read as they are in earnest."""
+    monkeypatch.setattr(repack, "limit", lambda: None)
+    make = lambda path, target: repack.main(str(path), str(target)) and []  # noqa: E731
+    monkeypatch.setattr(archives, "make_plain", lambda *paths: make(*paths) or [])
+
+
+def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
+    folder, students = place / f"{system} class", classes.students()
+    folder.mkdir(parents=True)
+    roster = place / ("list.xls" if system == "blackboard" else "list.csv")
+    roster.write_text(classes.SYSTEMS[system](folder, students), encoding="utf-8")
+    decisions = classes.decisions(students, lambda each: name_in(system, each))
+    (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
+    return folder, roster, students
+
+
+@pytest.fixture(params=SYSTEMS)
+def graded(request, tmp_path_factory, in_one_process) -> Iterator[Class]:
+    place = tmp_path_factory.mktemp("term")
+    folder, roster, students = exported(place, request.param)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    yield Class(request.param, folder, roster, students, run)
+
+
+def test_a_class_from_export_to_gradebook_and_back(graded: Class):
+    everybody_has_a_mark_or_a_reason(graded)
+    every_table_and_page_says_so(graded)
+    the_gradebook_takes_it(graded)
+    feedback_goes_back(graded)
+
+
+def everybody_has_a_mark_or_a_reason(graded: Class) -> None:
+    outcomes = {each.name: each for each in graded.run.outcomes}
+    for student in graded.students:
+        if student.login == "hana":
+            assert graded.name(student) not in outcomes
+            assert any("nothing was handed in by" in n and "hana" in n for n in graded.run.notes)
+            continue
+        outcome = outcomes.pop(graded.called(student))
+        assert outcome.mark == student.mark, (student.login, outcome)
+        if student.points is None:
+            says = "nothing" if student.text and graded.system != "canvas" else student.says
+            assert says in outcome.trouble or "no file" in outcome.trouble, student.login
+        else:
+            assert not outcome.trouble and outcome.points == student.points, student.login
+    assert not outcomes, "somebody who is not in the class"
+
+
+def every_table_and_page_says_so(graded: Class) -> None:
+    with open(graded.run.book.table, encoding="utf-8-sig", newline="") as file:
+        rows = {row["name"]: row for row in csv.DictReader(file)}
+    for student in graded.students:
+        name = graded.called(student)
+        if student.login == "hana":
+            continue
+        row, page = rows[name], (graded.results / f"{name}.html").read_text(encoding="utf-8")
+        assert row["points"] == ("" if student.mark is None else str(student.mark))
+        if student.mark is None:
+            assert row["trouble"] and "No points yet" in page
+        elif student.by_hand is not None:
+            assert "shown in the lab: set to" in row["adjusted"] and "shown in the lab" in page
+        if student.late:
+            assert "1 day late: -5" in row["adjusted"] and "1 day late: -5" in page
+        if student.login == "joy":
+            assert "taken as pymunk_scene.py" in row["notes"] and "taken as" in page
+
+
+READERS = {
+    "canvas": lambda content: gradebooks.canvas(content, TITLE),
+    "moodle": gradebooks.moodle_worksheet,
+    "blackboard": lambda content: gradebooks.blackboard(content, TITLE),
+    "brightspace": lambda content: gradebooks.brightspace(content, TITLE),
+    "gradescope": lambda content: {
+        row["Email address"]: (row["Grade"], row["Feedback"]) for row in gradebooks.rows_of(content)
+    },
+}
+
+
+def the_gradebook_takes_it(graded: Class) -> None:
+    settings = graded.folder.parent / "marks.toml"
+    settings.write_text(
+        f'title = "{TITLE}"\ntotal = {classes.FULL}\ndecimals = 0\nshares.engine = 1\n'
+    )
+    out = graded.folder.parent / "marks.csv"
+    words = [str(graded.roster), "--results", str(graded.results), "--settings", str(settings)]
+    done = CliRunner().invoke(commands.app, ["marks", *words, "--out", str(out)])
+    assert done.exit_code == 1, done.output
+    told = list(READERS[graded.system](out.read_bytes()).values())
+    for student, (mark, _) in zip(graded.students, told, strict=True):
+        wanted = graded.mark(student)
+        assert mark == ("" if wanted is None else str(wanted)), student.login
+        if wanted is None:
+            assert f"{graded.name(student)}: no mark" in done.output
+
+
+def feedback_goes_back(graded: Class) -> None:
+    words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
+    here = [student for student in graded.students if student.files]
+    if graded.system in ("canvas", "moodle", "brightspace"):
+        out = graded.folder.parent / "back.zip"
+        words += ["--for", graded.system, "--submissions", str(graded.folder), "--out", str(out)]
+        done = CliRunner().invoke(commands.app, words)
+        assert done.exit_code in (0, 1), done.output
+        with zipfile.ZipFile(out) as archive:
+            names = archive.namelist()
+        given = {path.name for path in graded.folder.iterdir()}
+        if graded.system == "canvas":
+            assert set(names) <= given and len(names) == len(here)
+        elif graded.system == "moodle":
+            number = {name.split("_")[1] for name in names}
+            paged = [each for each in graded.students if has_page(graded, each)]
+            assert {f"{graded.students.index(each) + 1}" for each in paged} == number
+        else:
+            assert {name.partition("/")[0] for name in names} <= given
+        for student in graded.students:
+            text = student.text and graded.system == "brightspace"  # has a folder there
+            without = not (student.files or text) and has_page(graded, student)
+            named = f"{graded.name(student)}: left out, " in done.output
+            assert named == (without and graded.system != "moodle"), student.login
+    elif graded.system == "gradescope":
+        out = graded.folder.parent / "mail"
+        words += ["--for", "email", "--out", str(out)]
+        CliRunner().invoke(commands.app, words)
+        assert {f"{each.email}.html" for each in here} <= {path.name for path in out.iterdir()}
+
+
+def has_page(graded: Class, student: Student) -> bool:
+    return (graded.results / f"{graded.name(student)}.html").is_file()
+
+
+# ---------------------------------------------------------------- the same bytes
+
+
+@pytest.mark.parametrize(
+    "system",
+    ["blackboard", *(pytest.param(s, marks=pytest.mark.soak) for s in ("canvas", "moodle"))],
+)
+def test_stopped_twice_the_bytes_are_the_same(tmp_path, monkeypatch, system):
+    here(monkeypatch)
+    kept = []
+    for name, stops in (("once", 0), ("again", 2)):
+        folder, roster, _ = exported(tmp_path / name, system)
+        options = ClassOptions(Options(), roster=roster)
+        monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline(3))
+        for _ in range(stops):
+            with pytest.raises(KeyboardInterrupt):
+                run_class(folder, options, QUIET)
+        kept.append(bytes_of(monkeypatch, folder, options, lambda wanted: Inline()))
+    assert kept[0] == kept[1] and len(kept[0]) > 12
+
+
+@pytest.mark.soak
+def test_on_two_workers_the_bytes_are_the_same(tmp_path, monkeypatch):
+    kept = []
+    for jobs in (1, 2):
+        folder, roster, _ = exported(tmp_path / str(jobs), "moodle")
+        options = ClassOptions(Options(), roster=roster, jobs=jobs)
+        pool = lambda wanted: PointsPool(wanted.options, wanted.jobs)  # noqa: E731
+        kept.append(bytes_of(monkeypatch, folder, options, pool))
+    assert kept[0] == kept[1] and len(kept[0]) > 12
+
+
+def bytes_of(monkeypatch, folder: Path, options: ClassOptions, executor) -> dict[str, bytes]:
+    """What a run leaves behind, once more run to make sure that nothing is graded again."""
+    monkeypatch.setattr(grading, "opened_executor", executor)
+    run_class(folder, options, QUIET)
+    run = run_class(folder, options, QUIET)
+    assert run.counts["graded"] == 0
+    files = [run.book.table, *sorted(run.book.folder.iterdir())]
+    return {path.name: path.read_bytes() for path in files}
+
+
+def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
+    folder, roster, _ = exported(tmp_path, "brightspace")
+    first, *rows = roster.read_text(encoding="utf-8").splitlines()
+    called = {"#s1": "Ann Lee_1001-77", "#s2": "Ann Lee_1002-77"}
+    lines = [f"{first},Called", *(f"{row},{called.get(row.split(',')[0], '')}" for row in rows)]
+    roster.write_text("\n".join(lines), encoding="utf-8")
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    marks = {each.name: each.mark for each in run.outcomes}
+    assert (marks["ann"], marks["ann2"]) == (3, 4)
+
+
+# ---------------------------------------------------------------- graded in earnest
+
+PACKED = {
+    ".zip": packed.as_zip,
+    ".7z": packed.as_7z,
+    ".rar": packed.as_rar,
+    ".tar.gz": packed.as_tar,
+}
+CHOSEN = ("whole-very-terse", "copies-beside", "single-file-dataclasses", "4-clamps-the-increment")
+TODOS = ("4", "8a")
+
+
+@pytest.fixture(scope="module")
+def bank(tmp_path_factory) -> list[Student]:
+    """Submissions of the bank, each in another archive, among all that goes wrong; as graded."""
+    place = tmp_path_factory.mktemp("bank")
+    options = Options(shipped_reference(), only=frozenset(TODOS))
+    found, worker = [], start_worker()
+    chosen = [each for each in members(KIT) if each.name in CHOSEN and each.form == "package"]
+    for number, member in enumerate(chosen):
+        member.build(KIT, place / member.name)
+        points = grade(place / member.name, options, worker).points
+        kind, make = list(PACKED.items())[number % len(PACKED)]
+        files = {
+            f"work/{path.relative_to(place / member.name).as_posix()}": path.read_bytes()
+            for path in plain_files(place / member.name)
+            if path.suffix == ".py"
+        }
+        upload = {f"work{kind}": make(files)}
+        found.append(Student(f"bank{number}", "Bank", f"No{number}", upload, points))
+    worker.close()
+    odd = [s for s in classes.students() if s.points is None]
+    return [*found, *odd]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, bank, system):
+    kept = []
+    for name, jobs, kills in (("once", 1, 0), ("again", 2, 2)):
+        folder = tmp_path / name / "class"
+        folder.mkdir(parents=True)
+        roster = tmp_path / name / "list.csv"
+        roster.write_text(classes.SYSTEMS[system](folder, bank), encoding="utf-8")
+        decisions = classes.decisions(bank, lambda each: name_in(system, each))
+        (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
+        todos = [word for todo in TODOS for word in ("--todo", todo)]
+        words = ["grade", "--class", str(folder), "--roster", str(roster), "--jobs", str(jobs)]
+        command = [sys.executable, "-m", "grader", *words, *todos]
+        results = folder.with_name("class-results")
+        for count in range(1, kills + 1):
+            process = subprocess.Popen(command, cwd=KIT, stdout=subprocess.DEVNULL)
+            while process.poll() is None and len(list(results.glob("[!.]*.json"))) < count:
+                time.sleep(0.02)
+            process.kill()
+            process.wait()
+        done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+        assert done.returncode == 2, done.stderr  # some are for a person to look at
+        files = [folder.with_name("class-results.class.csv"), *sorted(results.iterdir())]
+        kept.append({path.name: path.read_bytes() for path in files})
+    assert kept[0] == kept[1]
+    told = kept[0]["class-results.class.csv"].decode("utf-8-sig").splitlines()
+    rows = {row["name"]: row for row in csv.DictReader(told)}
+    for student in bank:
+        if student.files or student.by_hand is not None:
+            mark = rows[name_in(system, student)]["points"]
+            assert mark == ("" if student.mark is None else str(student.mark)), student.login
+
+
+# ---------------------------------------------------------------- groups
+
+
+def grouped(roster: Path, system: str, group: list[Student], students: list[Student]) -> None:
+    """The class list with a column of groups, in which these are one."""
+    mark = "\t" if system == "blackboard" else ","
+    first, *rows = roster.read_text(encoding="utf-8").splitlines()
+    own = {name_in(system, each) for each in group}
+    lines = [f"{first}{mark}Group"]
+    for row in rows:
+        theirs = own & {cell.strip('"') for cell in row.split(mark)}
+        lines.append(f"{row}{mark}{'one' if theirs else ''}")
+    roster.write_text("\n".join(lines), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "system",
+    ["canvas", "moodle", *(pytest.param(each, marks=pytest.mark.soak) for each in SYSTEMS[2:])],
+)
+def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_process, system):
+    """Kim was late and Hana handed in nothing; Ian has a decision of his own, and no files."""
+    folder, roster, students = exported(tmp_path, system)
+    by_login = {each.login: each for each in students}
+    kim, hana, ian = (by_login[login] for login in ("kim", "hana", "ian"))
+    grouped(roster, system, [kim, hana, ian], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    group = Class(system, folder, roster, students, run)
+    outcomes = {each.name: each for each in run.outcomes}
+    names = [name_in(system, each) for each in (kim, hana, ian)]
+    assert [outcomes[name].mark for name in names] == [8, 8, 9]
+    for name in names:
+        page = (group.results / f"{name}.html").read_text(encoding="utf-8")
+        others = [each for each in names if each != name]
+        assert all(each in page for each in others) and "<dt>Group</dt>" in page
+        result = msgspec.json.decode((group.results / f"{name}.json").read_bytes())
+        assert (result["submission"], result["points"]) == (name, 13)
+    assert f"handed in by {names[0]}" in page
+    everybody_gets_a_page(group, names)
+    again = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    assert again.counts["graded"] == 0
+    assert not [n for n in run.notes if "nothing was handed in" in n and names[1] in n]
+
+
+def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
+    out = graded.folder.parent / "back"
+    words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
+    if graded.system in ("canvas", "moodle", "brightspace"):
+        words += ["--submissions", str(graded.folder), "--for", graded.system]
+    else:
+        words += ["--for", "nbgrader"]
+    CliRunner().invoke(commands.app, [*words, "--out", str(out)])
+    if out.is_dir():
+        found = {path.parts[-3] for path in out.rglob("*.html")}
+    else:
+        found = set(zipfile.ZipFile(out).namelist())
+    if graded.system == "canvas":
+        (own,) = [name for name in found if name.startswith("beekim")]
+        text = zipfile.ZipFile(out).read(own).decode()
+        found = set(text.splitlines())
+    for name in names[1:]:
+        student = next(each for each in graded.students if name_in(graded.system, each) == name)
+        number = graded.students.index(student) + 1
+        moodles = f"{student.full}_{number}_assignsubmission_file_feedback.html"
+        assert {name, moodles} & found or any(f"/feedback-{name}.html" in each for each in found)
+
+
+def test_a_group_with_different_work_is_for_a_person_where_one_has_none(tmp_path, in_one_process):
+    folder, roster, students = exported(tmp_path, "moodle")
+    by_login = {each.login: each for each in students}
+    grouped(roster, "moodle", [by_login[each] for each in ("kim", "joy", "hana")], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    outcomes = {each.name: each for each in run.outcomes}
+    assert [outcomes[f"{each}@x.edu"].mark for each in ("kim", "joy", "hana")] == [8, 12, None]
+    assert "handed in different work" in outcomes["hana@x.edu"].trouble
+
+
+def test_what_cannot_be_read_is_for_a_person_with_all_of_the_group(tmp_path, in_one_process):
+    folder, roster, students = exported(tmp_path, "gradescope")
+    by_login = {each.login: each for each in students}
+    grouped(roster, "gradescope", [by_login["eve"], by_login["hana"]], students)
+    run = run_class(folder, ClassOptions(Options(), roster=roster), QUIET)
+    outcomes = {each.name: each for each in run.outcomes}
+    for login in ("eve", "hana"):
+        assert outcomes[f"{login}@x.edu"].mark is None and outcomes[f"{login}@x.edu"].group
+        assert "broken" in outcomes[f"{login}@x.edu"].trouble

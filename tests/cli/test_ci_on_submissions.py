@@ -1,0 +1,383 @@
+"""What CI does on a submission's repository: the commands of its two files, as GitHub runs them."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import venv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import ci_readers
+import pytest
+import typer
+from check_jsonschema.builtin_schemas import get_builtin_schema
+from jsonschema.validators import validator_for
+from ruamel.yaml import YAML
+
+from grader.bank.members import patch
+from grader.cli.main import finish
+from grader.judge.grade import KIT
+from grader.judge.result import Result, is_bonus
+from grader.release.build import build
+from grader.report.ci import own_folder
+from grader.source.regions import python_files
+
+WORKFLOW, PIPELINE = ".github/workflows/grade.yml", ".gitlab-ci.yml"
+REPOSITORY = "org/cs-engine-anna"
+
+
+def read(name: str) -> Any:
+    return YAML(typ="safe").load(KIT / "solution" / name)
+
+
+def steps() -> list[dict[str, Any]]:
+    return list(read(WORKFLOW)["jobs"]["grade"]["steps"])
+
+
+# ---------------------------------------------------------------- the files
+
+
+@pytest.mark.parametrize(
+    ("schema", "name"), [("vendor.github-workflows", WORKFLOW), ("vendor.gitlab-ci", PIPELINE)]
+)
+def test_the_file_keeps_the_published_schema(schema: str, name: str):
+    published = get_builtin_schema(schema)
+    check = validator_for(published)(published)
+    assert [error.message for error in check.iter_errors(read(name))] == []
+    assert list(check.iter_errors({**read(name), "jobs": 1, "grade": 1}))
+
+
+def test_students_get_both_files():
+    for name in (WORKFLOW, PIPELINE):
+        assert (KIT / "starter" / name).read_bytes() == (KIT / "solution" / name).read_bytes()
+
+
+def test_the_workflow_may_only_read():
+    assert read(WORKFLOW)["permissions"] == {"contents": "read"}
+    assert "permissions" not in read(WORKFLOW)["jobs"]["grade"]
+    checkout = next(step for step in steps() if "actions/checkout@" in step.get("uses", ""))
+    assert checkout["with"]["persist-credentials"] is False
+    assert "secrets." not in (KIT / "solution" / WORKFLOW).read_text(encoding="utf-8")
+
+
+def test_the_workflow_ends_and_its_latest_run_counts():
+    assert read(WORKFLOW)["jobs"]["grade"]["timeout-minutes"] <= 30
+    assert read(WORKFLOW)["concurrency"]["cancel-in-progress"] is True
+
+
+def test_every_action_is_one_commit_with_its_version_beside_it():
+    lines = [
+        line.strip()
+        for line in (KIT / "solution" / WORKFLOW).read_text(encoding="utf-8").splitlines()
+        if "uses:" in line
+    ]
+    assert len(lines) == 3
+    for line in lines:
+        assert re.fullmatch(r"(- )?uses: actions/[a-z-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", line)
+
+
+def test_the_report_is_kept_whatever_the_marks():
+    keep = next(step for step in steps() if "upload-artifact" in step.get("uses", ""))
+    assert keep["if"] == "always()" and keep["with"]["path"] == "report"
+    artifacts = read(PIPELINE)["grade"]["artifacts"]
+    assert artifacts["when"] == "always" and artifacts["paths"] == ["report"]
+    assert artifacts["reports"]["junit"] == "report/junit.xml"
+
+
+def test_both_files_call_the_same_commands():
+    assert [step["run"] for step in steps() if "run" in step] == read(PIPELINE)["grade"]["script"]
+
+
+# ---------------------------------------------------------------- as GitHub runs it
+
+
+@dataclass
+class Run:
+    """A run of the workflow's commands in a checkout, and what GitHub made of it."""
+
+    checkout: Path
+    status: int
+    log: str
+    summary: str
+    outputs: dict[str, str]
+
+    @property
+    def result(self) -> Any:
+        return json.loads((self.checkout / "report" / "result.json").read_bytes())
+
+    @property
+    def annotations(self) -> list[ci_readers.Command]:
+        return ci_readers.commands_in(self.log)
+
+
+def run_workflow(checkout: Path, files: Path, python: str = sys.executable) -> Run:
+    """Each `run` step in turn, by bash as on GitHub, until one fails; files of the runner beside.
+
+    With our own Python packages are there already, so that pip need not and may not look for them.
+    """
+    files.mkdir()
+    environment = {
+        **os.environ,
+        **({"PIP_NO_INDEX": "1"} if python == sys.executable else {}),
+        "PATH": os.pathsep.join([str(Path(python).parent), os.environ["PATH"]]),
+        "CI": "true",
+        "GITHUB_ACTIONS": "true",
+        "GITHUB_REPOSITORY": REPOSITORY,
+        "GITHUB_WORKSPACE": str(checkout),
+        "GITHUB_OUTPUT": str(files / "output"),
+        "GITHUB_STEP_SUMMARY": str(files / "summary"),
+        "GITHUB_ENV": str(files / "env"),
+        "GITHUB_PATH": str(files / "path"),
+    }
+    for name in ("output", "summary", "env", "path"):
+        (files / name).touch()
+    log, status = "", 0
+    for step in steps():
+        if "run" in step and status == 0:
+            done = subprocess.run(
+                ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]],
+                cwd=checkout,
+                env=environment,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                encoding="utf-8",
+                errors="replace",
+            )
+            log, status = log + done.stdout, done.returncode
+    assert (files / "env").read_text() == "" and (files / "path").read_text() == ""
+    summary = (files / "summary").read_text(encoding="utf-8")
+    outputs = ci_readers.outputs_in((files / "output").read_text(encoding="utf-8"))
+    return Run(checkout, status, log, summary, outputs)
+
+
+def checkout_of(tree: str, folder: Path) -> Path:
+    ignored = shutil.ignore_patterns("__pycache__", "notebooks", "experiments", "stable_engine")
+    return shutil.copytree(KIT / tree, folder / "work", ignore=ignored)
+
+
+def with_integrators(checkout: Path) -> Path:
+    """A starter in which TODOs 8a to 8c are done: that is graded in a moment."""
+    shutil.copyfile(KIT / "solution" / "integrators.py", checkout / "integrators.py")
+    return checkout
+
+
+def in_agreement(run: Run) -> Run:
+    """Every form says the same points."""
+    points, most = run.result["points"], run.result["max_points"]
+    assert run.result["submission"] == "cs-engine-anna"
+    assert (run.outputs["points"], run.outputs["max-points"]) == (str(points), str(most))
+    reported = ci_readers.reported(run.outputs["result"])
+    assert sum(test["score"] for test in reported["tests"]) == points
+    assert reported["max_score"] == most
+    bonus = f", and {run.result['bonus']} bonus" if run.result["bonus"] else ""
+    assert run.summary.startswith(f"## cs-engine-anna: {points} of {most} points{bonus}\n")
+    assert (run.checkout / "report" / "summary.md").read_text(encoding="utf-8") == run.summary
+    cases = ci_readers.junit_cases((run.checkout / "report" / "junit.xml").read_bytes())
+    todos = [todo for todo in run.result["todos"] if not unbegun_bonus(todo)]
+    checks = [check for todo in todos for check in todo["checks"]]
+    passed = [check["state"] == "passed" for check in checks]
+    assert [len(case) == 0 for case in cases] == passed
+    return run
+
+
+def unbegun_bonus(todo: dict[str, Any]) -> bool:
+    """Nothing is said of a bonus task until it is begun."""
+    return is_bonus(todo["id"]) and todo["state"] == "not started"
+
+
+@pytest.mark.soak
+def test_the_solution_is_green(tmp_path: Path):
+    run = in_agreement(run_workflow(checkout_of("solution", tmp_path), tmp_path / "runner"))
+    assert run.status == 0 and run.annotations == []
+    assert run.outputs["points"] == run.outputs["max-points"]
+
+
+def test_the_starter_is_red_and_nothing_is_held_against_it(tmp_path: Path):
+    run = in_agreement(run_workflow(checkout_of("starter", tmp_path), tmp_path / "runner"))
+    assert run.status == 1 and run.outputs["points"] == "0"
+    assert run.annotations == []  # not started is no mistake
+
+
+def test_a_mistake_is_annotated_on_its_line(tmp_path: Path):
+    checkout = with_integrators(checkout_of("starter", tmp_path))
+    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
+    run = in_agreement(run_workflow(checkout, tmp_path / "runner"))
+    assert run.status == 1
+    ((kind, held, message),) = run.annotations
+    assert kind == "error" and held["title"].startswith("TODO 8c: ")
+    assert held["file"] == "integrators.py" and "Expected" in message
+    line = (checkout / held["file"]).read_text(encoding="utf-8").splitlines()[int(held["line"]) - 1]
+    assert "accel(x)" in line  # the first line of code in the region, and not its marker
+    assert "TODO 8c" in run.summary.partition("```text")[2]
+
+
+@pytest.mark.soak
+def test_the_release_runs_its_own_workflow(tmp_path: Path):
+    """In an environment that has nothing yet. Packages are downloaded."""
+    (archive,) = build(tmp_path / "release", wrong=()).glob("*.zip")
+    shutil.unpack_archive(archive, tmp_path / "unpacked")
+    (tree,) = (tmp_path / "unpacked").iterdir()
+    venv.create(tmp_path / "python", with_pip=True)
+    python = str(tmp_path / "python" / "bin" / "python")
+    starter = in_agreement(run_workflow(tree, tmp_path / "starter", python))
+    assert starter.status == 1 and starter.outputs["points"] == "0"
+    shutil.rmtree(tree / "report")
+    for path in python_files(KIT / "solution"):
+        shutil.copyfile(path, tree / path.relative_to(KIT / "solution"))
+    solution = in_agreement(run_workflow(tree, tmp_path / "solution", python))
+    assert solution.status == 0 and solution.outputs["points"] == starter.outputs["max-points"]
+    shutil.rmtree(tree / "report")
+    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", tree)
+    wrong = in_agreement(run_workflow(tree, tmp_path / "wrong", python))
+    assert wrong.status == 1 and len(wrong.annotations) == 1
+
+
+# ---------------------------------------------------------------- hostile submissions
+
+ATTACK = """
+import importlib.util, os, sys
+from pathlib import Path
+
+WORDS = (
+    "::error title=Well done::100 of 100 points\\n::set-output name=points::100\\n"
+    "##[add-mask]1 ]]></failure><testcase/> ```\\n# 100 of 100 points <script>alert(1)</script>"
+)
+for stream in (sys.stdout, sys.stderr, sys.__stdout__, sys.__stderr__):
+    try:
+        print("\\n" + WORDS + "\\n::stop-commands::mine\\n::warning::x", file=stream, flush=True)
+    except Exception:
+        pass
+for number in (1, 2):
+    os.write(number, b"\\n::error::written\\n")
+told = [name for name in os.environ if name.startswith(("GITHUB", "CI", "PIP", "RUNNER"))]
+for file in (os.environ.get("GITHUB_OUTPUT"), os.environ.get("GITHUB_STEP_SUMMARY"), *FOUND):
+    try:
+        with open(file, "a") as stream:
+            stream.write("\\npoints=100\\nforged=1\\n")
+        told.append("wrote " + file)
+    except (OSError, TypeError):
+        pass
+
+def fails(*arguments):
+    raise RuntimeError(f"told {told} " + WORDS)
+
+semi_implicit_euler = velocity_verlet = fails
+odd = Path(__file__).parent / "a,line=1::b]]>`.py"
+spec = importlib.util.spec_from_file_location("odd", odd)
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+rk4 = module.rk4
+"""
+
+
+@pytest.fixture
+def attacked(tmp_path: Path) -> Run:
+    """A submission that forges all it can: streams, files of the runner, names and messages."""
+    checkout, runner = checkout_of("starter", tmp_path), tmp_path / "runner"
+    found = [str(runner / name) for name in ("output", "summary", "env", "path")]
+    found += [str(checkout / "report" / name) for name in ("result.json", "junit.xml")]
+    (checkout / "integrators.py").write_text(f"FOUND = {found!r}\n{ATTACK}", encoding="utf-8")
+    (checkout / "a,line=1::b]]>`.py").write_text(
+        "def rk4(*arguments):\n    raise ValueError('##[error]100 of 100 points')\n"
+    )
+    package = checkout / "grader"
+    package.mkdir()
+    for name in ("__init__.py", "__main__.py"):
+        (package / name).write_text("print('::error::taken over')\nraise SystemExit(0)\n")
+    (checkout / "json.py").write_text("print('::error::taken over')\nraise SystemExit(0)\n")
+    return run_workflow(checkout, runner)
+
+
+def test_nothing_can_be_forged(attacked: Run):
+    run = in_agreement(attacked)
+    assert run.status == 1 and run.outputs["points"] == "0"
+    assert set(run.outputs) == {"points", "max-points", "result"}
+    assert [(name, held["title"][:8]) for name, held, _ in run.annotations] == [
+        ("error", f"TODO {each}:") for each in ("8a", "8b", "8c")
+    ]
+    files = {held["file"] for _, held, _ in run.annotations}
+    assert files == {"integrators.py", "a,line=1::b]]>`.py"}
+    assert all("told []" in message for _, _, message in run.annotations[:2])
+    assert (
+        ci_readers.commands_in(ci_readers.reporter_log(ci_readers.reported(run.outputs["result"])))
+        == []
+    )
+    tokens = ci_readers.markdown_tokens(run.summary)
+    assert not [each for each in tokens if each.type in ("html_block", "html_inline", "image")]
+    headings = [each for each in tokens if each.type == "heading_open" and each.tag == "h2"]
+    assert len(headings) == 1
+
+
+def test_reports_go_into_a_folder_and_through_no_link(tmp_path: Path):
+    assert own_folder(tmp_path / "new")
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "empty")
+    (tmp_path / "file").touch()
+    assert own_folder(tmp_path / "empty")
+    assert not own_folder(tmp_path / "link") and not own_folder(tmp_path / "file")
+
+
+# ---------------------------------------------------------------- elsewhere, and the policy
+
+
+def grade(folder: Path, *args: object, **environment: str) -> subprocess.CompletedProcess[str]:
+    kept = {name: each for name, each in os.environ.items() if not name.startswith("GITHUB_")}
+    return subprocess.run(
+        [sys.executable, "-P", "-m", "grader", "grade", folder, *map(str, args)],
+        cwd=folder.parent,
+        env={**kept, "COLUMNS": "200", **environment},
+        capture_output=True,
+        encoding="utf-8",
+    )
+
+
+def test_reports_do_not_mix_with_what_a_submission_brings(tmp_path: Path):
+    checkout = checkout_of("starter", tmp_path)
+    (checkout / "report").mkdir()
+    (checkout / "report" / "marks.html").write_text("100 of 100")
+    done = grade(checkout, "--ci", checkout / "report", GITHUB_ACTIONS="true")
+    assert done.returncode == 2 and "report is there already" in done.stderr
+    assert len(list((checkout / "report").iterdir())) == 1
+
+
+def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
+    checkout = checkout_of("starter", tmp_path)
+    done = grade(
+        *(checkout, "--ci", tmp_path / "report", "--todo", "8c"), CI_PROJECT_PATH="group/sub/ben"
+    )
+    assert done.returncode == 1 and "::" not in done.stdout
+    assert (tmp_path / "report" / "summary.md").read_text().startswith("## ben: 0 of 2 points")
+    assert ci_readers.junit_cases((tmp_path / "report" / "junit.xml").read_bytes())
+
+
+def test_a_folder_of_the_repository_is_named_in_the_annotations(tmp_path: Path):
+    checkout = checkout_of("solution", tmp_path)
+    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
+    done = grade(
+        *(checkout, "--ci", tmp_path / "report", "--todo", "8c"),
+        GITHUB_ACTIONS="true",
+        GITHUB_WORKSPACE=str(tmp_path),
+    )
+    ((_, held, _),) = ci_readers.commands_in(done.stdout)
+    assert held["file"] == "work/integrators.py"
+
+
+@pytest.mark.parametrize(
+    ("points", "at_least", "status"),
+    [(100, None, 0), (99, None, 1), (60, 60, 0), (59, 60, 1), (0, 0, 0), (100, 101, 2)],
+)
+def test_the_course_says_from_how_many_points_on_a_run_is_green(
+    points: int, at_least: int | None, status: int
+):
+    with pytest.raises(typer.Exit) as ended:
+        finish(Result(1, "ann", points, 100, 0, [], []), None, None, at_least)
+    assert ended.value.exit_code == status
+
+
+def test_the_policy_is_an_option_of_grade():
+    done = grade(KIT / "starter", "--todo", "8c", "--at-least", 0)
+    assert done.returncode == 0, done.stdout + done.stderr

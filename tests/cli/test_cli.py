@@ -1,0 +1,280 @@
+"""The command line as people and scripts use it."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from grader.bank.members import members
+from grader.cli import classroom, dev
+from grader.cli import main as cli
+from grader.cli import shared as commands
+from grader.intake.listing import class_in
+from grader.judge.grade import KIT
+
+
+def grader(*args: object, cwd: Path = KIT) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(KIT), "COLUMNS": "100"}
+    environment.pop("MAKELEVEL", None)  # `make test` is not `make hint`
+    command = [sys.executable, "-m", "grader", *map(str, args)]
+    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+
+
+def whole_app() -> typer.Typer:
+    """The command line in this process, with all commands."""
+    app = typer.Typer()
+    for each in (cli.app, classroom.app, dev.app):
+        app.add_typer(each)
+    return app
+
+
+def unwrapped(words: str) -> str:
+    return " ".join(words.split())
+
+
+@pytest.mark.parametrize(
+    ("todos", "points"), [(["7a", "8a"], 5), pytest.param([], 100, marks=pytest.mark.soak)]
+)
+def test_full_marks_end_with_status_0(todos: list[str], points: int):
+    done = grader("grade", "solution", *(f"--todo={todo}" for todo in todos))
+    assert done.returncode == 0 and f"solution: {points} / {points}" in done.stdout
+
+
+def test_less_than_full_marks_end_with_status_1(tmp_path: Path):
+    target = tmp_path / "marks.json"
+    done = grader("grade", "starter", "--json", target)
+    assert done.returncode == 1
+    assert json.loads(target.read_text(encoding="utf-8"))["points"] == 0
+
+
+def test_what_cannot_be_graded_ends_with_status_2_and_a_sentence(tmp_path: Path):
+    done = grader("grade", tmp_path / "nowhere")
+    assert done.returncode == 2
+    assert "there is no submission at" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_an_unknown_todo_ends_with_status_2():
+    assert grader("grade", "solution", "--todo", "99").returncode == 2
+
+
+def test_a_class_is_graded_into_a_folder(tmp_path: Path, hand_in):
+    handed_in = tmp_path / "class"
+    for name, tree in (("anna", "solution"), ("ben", "starter")):
+        (handed_in / name).mkdir(parents=True)
+        content = (KIT / tree / "integrators.py").read_bytes()
+        (handed_in / name / "integrators.py").write_bytes(content)
+    done = grader("grade", handed_in, "--class", "--out", tmp_path / "marks", "--jobs", 1)
+    assert done.returncode == 0, done.stderr
+    marks = {
+        path.stem: json.loads(path.read_text(encoding="utf-8"))["points"]
+        for path in (tmp_path / "marks").glob("*.json")
+    }
+    assert marks == {"anna": 6, "ben": 0}
+
+
+def test_the_command_line_starts_without_what_only_some_commands_need():
+    code = (
+        "import sys; sys.argv = ['grader', '--help']; import grader.cli.main as cli\n"
+        "try: cli.main()\n"
+        "finally: print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    loaded = {name for name in done.stderr.split() if name.startswith("grader.")}
+    assert "grader.cli.classroom" in loaded
+    heavy = {"grader.intake", "grader.classroom.grading", "grader.classroom.nbgrader"}
+    assert not loaded & {*heavy, "grader.report.html", "grader.report.ci", "grader.cli.watch"}
+
+
+def test_check_finds_the_tree_from_a_folder_inside_it(hand_in):
+    tree = hand_in("starter")
+    done = grader("check", "--todo", "3", cwd=tree / "mini_engine")
+    assert done.returncode == 1
+    assert "NOT STARTED 3" in done.stdout and "Next: TODO 3" in done.stdout
+
+
+def test_files_in_the_current_folder_shadow_nothing(hand_in):
+    trap = "raise SystemExit('the judge imported a file of the submission')\n"
+    names = ("json_py", "random_py", "pytest_py", "hypothesis_py", "conftest_py", "typer_py")
+    tree = hand_in("solution", **dict.fromkeys(names, trap))
+    done = grader("check", "--todo", "8a", cwd=tree)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_hints_say_more_by_level():
+    first, third = grader("hint", "--todo", "4"), grader("hint", "--todo", "4", "--level", "3")
+    assert "--level 2" in first.stdout and "clamp" not in first.stdout
+    assert "friction_limit(c)" in third.stdout
+
+
+def test_there_are_three_hints_for_every_todo():
+    import msgspec
+
+    from grader.judge.rubric import CHECKS, load_rubric
+
+    hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes())
+    assert set(hints) == {todo.id for todo in load_rubric().todos if todo.function}
+    assert all(len(each) == 3 for each in hints.values())
+
+
+# ---------------------------------------------------------------- options that would be ignored
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (
+            "starter --roster missing.csv --cluster nowhere:1 --adjust none.toml",
+            "--roster, --adjust, --cluster would be ignored without --class",
+        ),
+        ("starter --jobs 0", "--jobs would be ignored without --class"),
+        ("--class", "--class needs the submissions"),
+        ("--json marks.json --out marks", "--out, --json would be ignored without a submission"),
+        ("--class tests/bank --json marks.json", "--json would be ignored with --class"),
+        ("--class tests/bank --at-least 3", "--at-least would be ignored with --class"),
+        ("--class tests/bank --cluster nowhere:1 --jobs 2", "--jobs would be ignored with --cl"),
+    ],
+)
+def test_an_option_that_would_be_ignored_is_refused(arguments: str, words: str):
+    done = CliRunner().invoke(whole_app(), ["grade", *arguments.split()])
+    assert done.exit_code == 2 and words in unwrapped(done.stderr)
+
+
+# ---------------------------------------------------------------- a class without --class
+
+
+@pytest.mark.parametrize("form", ["folders", "zips", "Canvas", "a wrapper each"])
+def test_a_folder_of_submissions_is_no_submission(tmp_path: Path, form: str):
+    program = "def step():\n    return 1\n"
+    for name in ("ann", "ben"):
+        folder = tmp_path / "class" / name
+        folder = folder / "deeper" if form == "a wrapper each" else folder
+        folder.mkdir(parents=True)
+        (folder / "integrators.py").write_text(program, encoding="utf-8")
+        if form == "zips":
+            shutil.make_archive(str(folder), "zip", folder)
+            shutil.rmtree(folder)
+        if form == "Canvas":
+            (folder / "integrators.py").rename(tmp_path / "class" / f"{name}_1_2_integrators.py")
+            folder.rmdir()
+    done = CliRunner().invoke(whole_app(), ["grade", str(tmp_path / "class")])
+    assert done.exit_code == 2
+    assert "is no submission but holds some, ann" in unwrapped(done.stderr)
+    assert "with --class" in done.stderr
+
+
+def test_the_students_grader_says_that_it_grades_no_class(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr(cli, "find_spec", lambda name: None)
+    done = CliRunner().invoke(whole_app(), ["grade", "--class", str(tmp_path)])
+    assert done.exit_code == 2 and "--class needs the whole kit" in unwrapped(done.stderr)
+
+
+def test_a_zip_of_submissions_is_told_of_class_too(tmp_path: Path):
+    for name in ("ann", "ben"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "integrators.py").touch()
+    shutil.make_archive(str(tmp_path / "class"), "zip", tmp_path / "class")
+    done = CliRunner().invoke(whole_app(), ["grade", str(tmp_path / "class.zip")])
+    assert done.exit_code == 2 and "grade each of them with --class" in unwrapped(done.stderr)
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        [],
+        ["notes.txt"],
+        ["deeper/mini_engine/world.py", "deeper/integrators.py"],
+        ["one/mini_engine/world.py", "two/integrators.py", "three/pymunk_scene.py"],
+        ["integrators.py", "old/integrators.py", "older/integrators.py"],
+        ["integrators.py", "ann.zip", "ben.zip"],
+        ["work/old/integrators.py", "work/new/integrators.py"],
+        ["ann.zip", "ben.zip"],  # with nothing in them
+        ["helpers/a.py", "tests/b.py", "docs/c.md"],
+    ],
+)
+def test_one_submission_stays_one_wherever_its_files_lie(tmp_path: Path, files: list[str]):
+    for name in files:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    assert class_in(tmp_path) == []
+
+
+@pytest.mark.soak
+def test_no_submission_of_the_bank_is_taken_for_a_class(tmp_path: Path):
+    for number, member in enumerate(members(KIT)):
+        if member.kind != "wrong":  # those are the solution with one region changed
+            folder = tmp_path / str(number)
+            member.build(KIT, folder)
+            assert class_in(folder) == [], member.name
+            shutil.rmtree(folder)
+
+
+# ---------------------------------------------------------------- without the kit around it
+
+ELSEWHERE = {
+    "gradescope": "",
+    "verify": "",
+    "release": "",
+    "sync": "",
+    "mutants": "",
+    "bench": "",
+    "nbgrader course": "course",
+    "nbgrader collect": "class",
+    "nbgrader release": "",
+    "marks": "list.csv --results results",
+    "grade": "",
+}
+
+
+@pytest.mark.parametrize("command", ELSEWHERE)
+def test_a_command_of_the_kit_says_so_where_the_grader_is_installed_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+):
+    monkeypatch.setattr(commands, "KIT", tmp_path)
+    done = CliRunner().invoke(whole_app(), [*command.split(), *ELSEWHERE[command].split()])
+    assert done.exit_code == 2 and done.stdout == ""
+    words = unwrapped(done.stderr)
+    assert f"`grader {command}` works on the whole kit" in words and "holds no solution/" in words
+    assert f"run python -m grader {command} in a checkout" in words
+
+
+def test_every_command_of_maintainers_is_one_of_the_kit():
+    names = {str(each.name) for each in dev.app.registered_commands}
+    assert names <= set(ELSEWHERE)
+
+
+@pytest.mark.soak
+@pytest.mark.skipif(os.name == "nt", reason="an environment is laid out differently there")
+def test_an_installed_grader_grades_and_needs_a_checkout_for_the_rest(tmp_path: Path):
+    """From a wheel, in an environment that has this one's packages and not this kit."""
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    source = tmp_path / "kit"
+    shutil.copytree(KIT / "grader", source / "grader")
+    for name in ("pyproject.toml", "LICENSE"):
+        shutil.copy(KIT / name, source)
+    build = ["wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", tmp_path, source]
+    subprocess.run([*pip, *build], check=True)
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
+    python = tmp_path / "venv" / "bin" / "python"
+    (wheel,) = tmp_path.glob("*.whl")
+    install = ["--python", python, "install", "--no-deps", "--no-index", wheel]
+    subprocess.run([*pip, *install], check=True)
+    (packages,) = (tmp_path / "venv").glob("lib/python*/site-packages")
+    (packages / "others.pth").write_text(sysconfig.get_path("purelib"), encoding="utf-8")
+
+    def installed(*arguments: object) -> subprocess.CompletedProcess[str]:
+        command = [tmp_path / "venv" / "bin" / "grader", *map(str, arguments)]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+
+    for command, rest in ELSEWHERE.items():
+        done = installed(*command.split(), *rest.split())
+        assert done.returncode == 2 and "in a checkout" in unwrapped(done.stderr), command
+    done = installed("grade", KIT / "solution", "--todo", "8a")
+    assert done.returncode == 0 and "solution: 2 / 2" in done.stdout, done.stderr
+    assert installed("hint", "--todo", "4").returncode == 0

@@ -1,0 +1,92 @@
+"""What a student hands in is what is asked for, and what the instructor's side finds in it."""
+
+import zipfile
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from grader.bank.sync import students_files
+from grader.cli import hand_in as packing
+from grader.cli.hand_in import PACKED, hand_in, missing_programs
+from grader.cli.student import app
+from grader.intake.found import Found
+from grader.intake.packing import pack
+from grader.judge.course import FULL, read_course
+from grader.judge.grade import KIT
+from grader.judge.submission import CannotGrade
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    """A student's folder, with what lies about in one."""
+    for name, path in students_files(KIT).items():
+        target = tmp_path / "lab" / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(path.read_bytes())
+    for name in ("helper.py", "data/level.json", "notebooks/quiz.ipynb", "handouts/lesson.html"):
+        (tmp_path / "lab" / name).parent.mkdir(exist_ok=True)
+        (tmp_path / "lab" / name).write_text("mine")
+    for name in (
+        ".venv/pyvenv.cfg",
+        ".venv/lib.py",
+        "build/replays/a.html",
+        "grader-1.whl",
+        "old.zip",
+    ):
+        (tmp_path / "lab" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "lab" / name).write_text("not mine")
+    return tmp_path / "lab"
+
+
+def test_the_zip_holds_the_work_and_nothing_else(tree):
+    path, names = hand_in(tree)
+    assert not missing_programs(names, FULL) and path == tree / PACKED
+    wanted = {"helper.py", "data/level.json", "notebooks/quiz.ipynb", "integrators.py"}
+    assert wanted < set(names) and "mini_engine/solver.py" in names
+    first = {name.partition("/")[0] for name in names}
+    assert first == {
+        "mini_engine",
+        "pymunk_scene.py",
+        "integrators.py",
+        "lab_runtime.py",
+        "notebooks",
+        "helper.py",
+        "data",
+    }
+
+
+def test_what_is_packed_is_what_is_taken_in(tree):
+    path, names = hand_in(tree)
+    package = pack(Found("ann", (path,)))
+    assert [name for name, _ in package.files] == sorted(names) and not package.notes
+
+
+def test_the_same_work_is_the_same_zip(tree):
+    first = hand_in(tree)[0].read_bytes()
+    assert hand_in(tree)[0].read_bytes() == first
+
+
+def test_a_program_that_is_missing_is_said(tree):
+    (tree / "integrators.py").unlink()
+    done = CliRunner().invoke(app, ["hand-in", str(tree / "mini_engine")])
+    assert done.exit_code == 1 and "There is no integrators here" in done.output
+    with zipfile.ZipFile(tree / PACKED) as archive:
+        assert "pymunk_scene.py" in archive.namelist()
+
+
+def test_a_course_of_one_program_misses_no_other(tree):
+    (tree / "pymunk_scene.py").unlink()
+    course = KIT / "tests" / "courses" / "integrators.toml"
+    words = ["hand-in", str(tree), "--out", str(tree / "mine.zip"), "--course", str(course)]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 0 and "mine.zip" in "".join(done.output.split())
+    assert missing_programs(hand_in(tree)[1], FULL) == ["pymunk_scene"]
+    assert missing_programs(hand_in(tree, read_course(course))[1], read_course(course)) == []
+
+
+def test_more_than_will_be_read_is_refused(tree, monkeypatch):
+    monkeypatch.setattr(packing, "MAX_FILES", 3)
+    with pytest.raises(CannotGrade, match="more than will be read"):
+        hand_in(tree)
+    assert not (tree / PACKED).exists()

@@ -1,0 +1,345 @@
+"""What a student sees: `check` and `hint`, from any folder, in any terminal."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from grader.cli.student import app
+from grader.judge.grade import KIT
+from grader.judge.rubric import load_rubric
+from grader.judge.wording import command
+from grader.source.definitions import statements
+from grader.source.regions import replaced, shape_of
+
+WORLD, INTEGRATORS = "mini_engine/world.py", "integrators.py"
+
+
+def grader(
+    *args: object, cwd: Path, columns: int = 80, **variables: str
+) -> subprocess.CompletedProcess[str]:
+    environment = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("MAKELEVEL", "NO_COLOR", "FORCE_COLOR", "PYTHONIOENCODING")
+    }
+    environment |= {"PYTHONPATH": str(KIT), "COLUMNS": str(columns), **variables}
+    return subprocess.run(
+        [sys.executable, "-m", "grader", *map(str, args)],
+        cwd=cwd,
+        env=environment,
+        capture_output=True,
+        encoding="utf-8",
+    )
+
+
+def check(tree: Path, *todos: str, options: tuple[str, ...] = ()) -> str:
+    """What `check` prints, without a process of its own."""
+    words = ["check", str(tree), *options, *(f"--todo={todo}" for todo in todos)]
+    return CliRunner().invoke(app, words).output
+
+
+def fill_in(tree: Path, file: str, **regions: str) -> None:
+    """Write lines into TODO regions of a file: `_5="..."`."""
+    lines = {name[1:]: tuple(text.splitlines()) for name, text in regions.items()}
+    text = (tree / file).read_text(encoding="utf-8")
+    (tree / file).write_text(replaced(text, lines), encoding="utf-8")
+
+
+# ---------------------------------------------------------------- the first minute
+
+
+def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
+    tree = hand_in("starter")
+    done = grader("check", cwd=tree)
+    assert done.returncode == 1 and done.stderr == "" and "\x1b" not in done.stdout
+    todos = " ".join(todo.id for todo in load_rubric().counted)
+    assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
+    assert "B1" not in done.stdout  # a bonus task is shown once it is begun
+    file = tree / "mini_engine" / "contacts.py"
+    lines = file.read_text(encoding="utf-8").splitlines()
+    (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 1:" in line)
+    place = f"mini_engine/contacts.py:{marker + 2}"  # the stub's return, below its comment
+    assert f"Next: TODO 1, Circle against box ({place})" in done.stdout
+    assert "python -m grader hint --todo 1" in done.stdout
+
+
+def test_all_of_it_is_a_line_for_each_todo_and_what_its_state_means(hand_in):
+    out = check(hand_in("starter"), "1", "8a", options=("--all",))
+    for todo in ("1", "8a"):
+        assert re.search(rf"^NOT STARTED {todo} +\S.+ 0 / ", out, re.MULTILINE)
+    assert "NOT STARTED only what was handed out is there" in out
+    assert "To hand in: " in out
+
+
+def test_full_marks_leave_nothing_to_do(hand_in):
+    out = check(hand_in("solution"), "8a")
+    assert "2 / 2" in out and "Next" not in out
+
+
+def test_it_works_from_any_folder_inside_the_tree(hand_in):
+    tree = hand_in("starter")
+    inside = tree / "notebooks" / "deeper"
+    inside.mkdir()
+    here = grader("check", "--todo", "8a", cwd=inside).stdout
+    assert "Next: TODO 8a, Semi-implicit Euler (integrators.py:" in here
+    assert check(inside, "8a") == check(tree, "8a")
+
+
+def test_outside_of_a_tree_it_says_where_to_go(tmp_path: Path):
+    done = grader("check", cwd=tmp_path)
+    assert done.returncode == 2 and "Traceback" not in done.stderr
+    assert "there is no mini_engine in" in done.stderr
+
+
+def test_a_check_leaves_replays_of_what_failed_and_nothing_else(hand_in):
+    tree = hand_in("starter")
+    before = {*tree.rglob("*")}
+    fill_in(tree, INTEGRATORS, _8b="    return x, v")
+    done = grader("check", "--todo", "8b", cwd=tree / "mini_engine")
+    seen = re.findall(r"See it\s+(\S+)", done.stdout)
+    assert seen and all(path.startswith("../build/replays/8b-") for path in seen)
+    assert all((tree / "mini_engine" / path).is_file() for path in seen)
+    assert {path.relative_to(tree).parts[0] for path in {*tree.rglob("*")} - before} == {"build"}
+    assert (tree / "build" / "replays" / ".gitignore").read_text(encoding="utf-8") == "*\n"
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="everything is writable here")
+def test_a_tree_that_cannot_be_written_is_checked_all_the_same(hand_in):
+    tree = hand_in("starter")
+    tree.chmod(0o500)
+    fill_in(tree, INTEGRATORS, _8b="    return x, v")
+    done = grader("check", "--todo", "8b", cwd=tree)
+    tree.chmod(0o700)
+    assert done.returncode == 1 and "NOT YET     8b" in done.stdout and "See it" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("typed", "shown"),
+    [
+        (["python3", "-m", "grader", "check"], "python3 -m grader hint --todo 3 --level 2"),
+        (
+            [".venv/bin/python", "-m", "grader"],
+            ".venv/bin/python -m grader hint --todo 3 --level 2",
+        ),
+        ([sys.executable, "-m", "grader"], "python -m grader hint --todo 3 --level 2"),
+    ],
+)
+def test_commands_are_shown_as_they_are_typed_here(monkeypatch, typed: list[str], shown: str):
+    monkeypatch.delenv("MAKELEVEL", raising=False)
+    monkeypatch.setattr(sys, "orig_argv", typed)
+    assert command("hint", "3", 2) == shown
+    monkeypatch.setenv("MAKELEVEL", "1")
+    assert command("hint", "3", 2) == "make hint TODO=3 LEVEL=2"
+
+
+def test_a_hint_for_the_whole_is_to_read_its_checks():
+    assert "no hint" in CliRunner().invoke(app, ["hint", "--todo=whole"]).output
+
+
+# ---------------------------------------------------------------- what is next
+
+
+def test_what_was_begun_comes_before_what_was_not(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8b="    return x, v")
+    assert "NOT YET     8b " in check(tree, "8a", "8b")
+
+
+def test_waiting_says_for_what(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, "pymunk_scene.py", _7a="    space.gravity = 0, 980")
+    out = check(tree, "whole", options=("--all",))
+    assert re.search(r"^WAITING +whole", out, re.MULTILINE)
+    assert "exit is below 1 px: waiting for TODO 3, 5, 6" in " ".join(out.split())
+    assert "the line below it says what" in out
+
+
+# ---------------------------------------------------------------- errors
+
+
+def test_an_exception_is_told_once_with_the_students_line(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, WORLD, _5="        keep_vel = keep_omega = math.exq(-dt)")
+    out = check(tree, "5")
+    assert "5 checks  (0 / 8)" in out and out.count("AttributeError") == 1
+    assert "keep_vel = keep_omega = math.exq(-dt)" in " ".join(out.split())
+    assert re.search(r"Look at +mini_engine/world\.py:\d+, TODO 5", out)
+    assert "Traceback" not in out and "grader/" not in out
+
+
+def test_a_file_that_is_no_python_is_told_once_and_comes_first(hand_in):
+    tree = hand_in("solution", mini_engine__joints_py="def broken(:\n")
+    out = check(tree, "3", "4", "8a", options=("--all",))
+    assert out.count("SyntaxError") == 1
+    assert "10 checks  (0 / 10)  as above" in out
+    out = check(tree, "3", "4", "8a")
+    assert out.count("SyntaxError") == 1 and len(out.splitlines()) <= 16
+    assert "Next: mend mini_engine/joints.py:1" in out
+    assert re.search(r"^PASSED +8a", out, re.MULTILINE)
+
+
+def test_a_string_that_python_warns_of_is_none_of_our_business():
+    with warnings.catch_warnings(action="error"):
+        assert shape_of("x = '\\d'") == shape_of("x  =  '\\d'")
+        assert len(statements("x = '\\d'")) == 1
+
+
+HOSTILE = "raise ValueError('\\x1b[31mπ\\r\\n\\x07' + 'ö' * 100000)"
+
+
+def test_a_students_words_are_bounded_and_move_no_cursor(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8a="    " + HOSTILE)
+    out = check(tree, "8a")
+    assert "ValueError" in out and len(out) < 3000
+    assert not set(out) & {"\x1b", "\x07", "\r"}
+
+
+def test_a_terminal_that_knows_few_letters_gets_question_marks(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8a="    " + HOSTILE)
+    done = grader("check", "--todo", "8a", cwd=tree, PYTHONIOENCODING="ascii")
+    assert done.returncode == 1 and done.stderr == ""
+    assert "ValueError" in done.stdout and "????" in done.stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
+def test_control_c_ends_a_check_without_a_traceback(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8a="    while True:\n        pass")
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+    process = subprocess.Popen(
+        [sys.executable, "-m", "grader", "check", "--todo", "8a"],
+        cwd=tree,
+        env={**os.environ, "PYTHONPATH": str(KIT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    try:
+        while process.poll() is None and not (tree / "build" / "replays" / ".gitignore").exists():
+            time.sleep(0.01)
+        time.sleep(1)  # in the middle of it: the loop takes five
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 2 and "Traceback" not in out + err
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
+@pytest.mark.parametrize("busy", [False, True])
+def test_control_c_counts_in_the_middle_of_a_garbage_collection_too(busy: bool):
+    """Python can raise nothing there, and hypothesis has a callback that looks on each time."""
+    pressed_while_collecting = """
+import gc, signal, sys, time
+from grader.cli.main import interrupt_again
+sys.unraisablehook = interrupt_again
+signal.signal(signal.SIGINT, signal.default_int_handler)
+gc.callbacks.append(lambda *_: gc.callbacks.clear() or signal.raise_signal(signal.SIGINT))
+{before}gc.collect()
+try:
+    for _ in range(6000):  # short waits: a signal just before one would be heard after it only
+        time.sleep(0.01)
+except KeyboardInterrupt:
+    print("heard")
+"""
+    # Once as it is, and once on a machine that is so busy that a thread takes long to start.
+    slow = """
+import threading
+start, slept = threading.Timer.start, []
+def slowly(self):
+    start(self)
+    if not slept:
+        slept.append(True)
+        time.sleep(1)
+threading.Timer.start = slowly
+"""
+    before = slow if busy else ""
+    command = [sys.executable, "-c", pressed_while_collecting.replace("{before}", before)]
+    ended = subprocess.run(command, cwd=KIT, capture_output=True, encoding="utf-8", timeout=50)
+    assert (ended.stdout, ended.stderr) == ("heard\n", "")
+
+
+# ---------------------------------------------------------------- the terminal
+
+
+def test_no_line_is_longer_than_80_columns(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8b="    return x, v")
+    fill_in(tree, WORLD, _5="        keep_vel = keep_omega = 'long' + 5 * dt")
+    wide = grader("check", "--todo", "5", "--todo", "8b", cwd=tree, columns=200).stdout
+    assert max(map(len, wide.splitlines())) <= 80
+    assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # words that go on below hang
+    narrow = grader("check", "--todo", "8b", cwd=tree, columns=76).stdout
+    words = [line for line in narrow.splitlines() if ".html" not in line]
+    assert max(map(len, words)) <= 76
+
+
+def test_the_path_of_a_replay_is_in_one_piece_and_fits():
+    names = [f"{todo.id}-{check.id}" for todo in load_rubric().todos for check in todo.checks]
+    assert max(len(f"  build/replays/{name}.html") for name in names) <= 80
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a terminal is made with pty")
+@pytest.mark.parametrize("no_colour", ["", "1"])
+def test_colour_is_for_terminals_that_want_it(hand_in, no_colour: str):
+    import pty
+
+    main, inner = pty.openpty()
+    environment = {**os.environ, "PYTHONPATH": str(KIT), "TERM": "xterm-256color"}
+    environment.pop("NO_COLOR", None)
+    if no_colour:
+        environment["NO_COLOR"] = no_colour
+    command = [sys.executable, "-m", "grader", "check", "--todo", "8a"]
+    subprocess.run(command, cwd=hand_in("starter"), env=environment, stdout=inner)
+    os.close(inner)
+    shown = os.read(main, 65536).decode()
+    os.close(main)
+    assert "NOT STARTED" in shown
+    assert bool(re.search(r"\x1b\[(3|9)\d", shown)) is not bool(no_colour)
+
+
+# ---------------------------------------------------------------- the same for everyone
+
+DRAW = """
+import sys
+sys.path[:0] = {folders!r}
+if {others!r}:
+    import constants
+import grader.judge.drawing
+from hypothesis import given, settings, strategies
+settings.load_profile("judge")
+drawn = []
+@given(strategies.lists(strategies.integers(-10**6, 10**6), min_size=20, max_size=20))
+def draw(numbers):
+    drawn.append(numbers)
+draw()
+print(drawn)
+"""
+
+
+def test_the_examples_do_not_depend_on_what_else_is_loaded(tmp_path: Path):
+    folder = tmp_path / "kit"
+    folder.mkdir()
+    numbers = [1000 * n + 7 for n in range(500)]
+    (folder / "constants.py").write_text(f"NUMBERS = {numbers}\n", encoding="utf-8")
+    drawn = {
+        subprocess.run(
+            [sys.executable, "-c", DRAW.format(folders=[str(KIT), str(folder)], others=others)],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for others in (False, True)
+    }
+    assert len(drawn) == 1

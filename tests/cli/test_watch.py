@@ -1,0 +1,343 @@
+"""`check --watch`: what a save touched is checked again, and nothing shown is out of date."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from itertools import islice
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+import grader.cli.watch
+from grader.cli.watch import SavedAgain, Watch, folders_of, moments_to_look, python_sources
+from grader.judge.children import WarmWorker, start_worker
+from grader.judge.grade import KIT, Options, grade
+from grader.report.files import as_json
+from grader.source.regions import regions_in, replaced
+
+WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"
+INTEGRATORS = "integrators.py"
+FEW = Options(reference=None, only=frozenset({"5", "8a"}))  # 10 points
+WHOLE = Options(reference=None)
+
+
+@pytest.fixture(scope="module")
+def worker() -> Iterator[WarmWorker]:
+    worker = start_worker()
+    yield worker
+    worker.close()
+
+
+class Session:
+    """A watched tree, and what was printed since the last save."""
+
+    def __init__(self, folder: Path, worker: WarmWorker, options: Options = FEW) -> None:
+        self.folder, self.out = folder, io.StringIO()
+        console = Console(file=self.out, width=80)
+        self.watch = Watch(folder, options, console, worker)
+        self.watch.start()
+
+    def save(self, file: str, change: Callable[[str], str]) -> str:
+        """Change a file, look, and return what is printed."""
+        path = self.folder / file
+        path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+        return self.look()
+
+    def look(self) -> str:
+        self.out.seek(0)
+        self.out.truncate()
+        self.watch.look()
+        return self.out.getvalue()
+
+    def is_up_to_date(self) -> bool:
+        """Whether a check from scratch says the same, line numbers included."""
+        fresh = grade(self.folder, self.watch.options, self.watch.worker)
+        return as_json(fresh) == as_json(self.watch.result)
+
+
+@pytest.fixture
+def open_session(hand_in, worker: WarmWorker) -> Callable[..., Session]:
+    return lambda tree="starter", options=FEW: Session(hand_in(tree), worker, options)
+
+
+def solved(file: str, *todos: str) -> Callable[[str], str]:
+    """Puts the solution of these TODOs into a file."""
+    text = (KIT / "solution" / file).read_text(encoding="utf-8")
+    lines = {region.id: region.lines for region in regions_in(text) if region.id in todos}
+    return lambda source: replaced(source, lines)
+
+
+def put(old: str, new: str) -> Callable[[str], str]:
+    def change(source: str) -> str:
+        assert old in source
+        return source.replace(old, new)
+
+    return change
+
+
+@pytest.fixture
+def graded(monkeypatch: pytest.MonkeyPatch) -> list[frozenset[str]]:
+    """The TODOs of each grade that a watch asks for, in order."""
+    asked: list[frozenset[str]] = []
+
+    def noting(path, options, worker):
+        asked.append(options.only)
+        return grade(path, options, worker)
+
+    monkeypatch.setattr(grader.cli.watch, "grade", noting)
+    return asked
+
+
+# ---------------------------------------------------------------- what is checked again
+
+
+def test_a_finished_todo_is_told_with_its_points_and_what_is_next(open_session):
+    session = open_session(options=WHOLE)
+    out = session.save(WORLD, solved(WORLD, "5"))
+    assert "saved: mini_engine/world.py" in out
+    assert "PASSED      5" in out and "TODO 5: 0 → 8 of 8, in all 0 → 8 of 100" in out
+    assert "Next: TODO 1" in out
+    assert session.is_up_to_date()
+
+
+def test_what_a_save_touched_comes_first_and_other_programs_not_at_all(open_session, graded):
+    session = open_session(options=WHOLE)
+    graded.clear()
+    session.save(WORLD, solved(WORLD, "5"))
+    assert graded == [{"5"}, {*"12346", "whole", "B1", "B2", "B3", "B5", "B6"}]
+    graded.clear()
+    session.save(INTEGRATORS, solved(INTEGRATORS, "8b"))
+    assert graded == [{"8b"}, {"8a", "8c"}]
+
+
+def test_a_watch_of_one_todo_checks_no_other(open_session, graded):
+    session = open_session(options=Options(reference=None, only=frozenset({"8a"})))
+    graded.clear()
+    assert "nothing new: 0 of 2 points" in session.save(INTEGRATORS, solved(INTEGRATORS, "8b"))
+    out = session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
+    assert "TODO 8a: 0 → 2 of 2, in all 0 → 2 of 2" in out
+    assert set().union(*graded) == {"8a"}
+
+
+@pytest.mark.soak  # a process for each check: on a crowded machine one may not start in time
+def test_it_works_without_fork(hand_in):
+    worker = start_worker(spawn=True)
+    try:
+        few = Options(reference=None, only=frozenset({"8a"}))
+        session = Session(hand_in("starter"), worker, few)
+        assert "TODO 8a: 0 → 2 of 2" in session.save(INTEGRATORS, solved(INTEGRATORS, "8a"))
+    finally:
+        worker.close()
+    assert all(process.poll() is not None for process, _ in worker.ahead)
+
+
+def test_a_function_that_breaks_others_takes_their_points_too(open_session):
+    session = open_session("solution")
+    loop = "for body in self.moving_bodies():\n            body.vel *= keep_vel"
+    out = session.save(WORLD, put(loop, "raise RuntimeError('what now')\n        " + loop))
+    assert "TODO 5: 8 → 0 of 8, in all 10 → 2 of 10" in out
+    assert "Got       RuntimeError: what now" in out
+    assert session.is_up_to_date()
+
+
+def test_given_code_is_watched_as_well(open_session):
+    session = open_session("solution")
+    assert "TODO 5: 8 →" in session.save(WORLD, put("self.apply_damping(dt)\n", "pass\n"))
+    assert session.is_up_to_date()
+
+
+def test_lines_that_move_are_nothing_new_but_known(open_session):
+    session = open_session()
+    out = session.save(SOLVER, lambda text: f"# mine\n{text}")
+    assert out.splitlines() == ["saved: mini_engine/solver.py", "nothing new: 0 of 10 points"]
+    assert session.is_up_to_date()
+
+
+def test_a_todo_that_was_touched_is_shown_whatever_comes_out(open_session):
+    session = open_session()
+    out = session.save(WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"))
+    assert "NOT YET     5" in out and "TODO 5: 0 of 8 as before" in out
+
+
+# ---------------------------------------------------------------- what editors do
+
+
+def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded):
+    session = open_session()
+    session.save(WORLD, solved(WORLD, "5"))
+    graded.clear()
+    out = session.save(SOLVER, put("def friction_limit(c):", "def friction_limit(c:"))
+    assert "mini_engine/solver.py:71 is no Python yet: '(' was never closed" in out
+    session.save(WORLD, lambda text: text + "\n")  # while another file is broken
+    assert session.watch.result.points == 8 and not graded
+    out = session.save(SOLVER, put("def friction_limit(c:", "def friction_limit(c):"))
+    assert "nothing new: 8 of 10 points" in out
+    assert session.is_up_to_date()
+
+
+def test_a_tree_that_was_broken_from_the_start_can_be_mended(hand_in, worker: WarmWorker):
+    session = Session(hand_in("solution", integrators_py="def (:\n"), worker)
+    assert session.watch.result.points == 8
+    text = (KIT / "solution" / INTEGRATORS).read_text(encoding="utf-8")
+    assert "TODO 8a: 0 → 2 of 2" in session.save(INTEGRATORS, lambda _: text)
+    assert session.is_up_to_date()
+
+
+def test_a_save_during_a_check_starts_it_anew(open_session, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(grader.cli.watch, "LOOK_EVERY", 0.0)
+    session, checks = open_session(), 0
+
+    def save_again(self: Watch, check) -> None:
+        nonlocal checks
+        checks += 1
+        if checks == 2:
+            path = self.folder / WORLD
+            path.write_text(solved(WORLD, "5")(path.read_text(encoding="utf-8")), encoding="utf-8")
+        stop_if_saved(self, check)
+
+    stop_if_saved = Watch.stop_if_saved
+    monkeypatch.setattr(Watch, "stop_if_saved", save_again)
+    out = session.save(WORLD, put("keep_vel = 0.99", "keep_vel = 0.98"))
+    assert out.count("saved:") == 2 and "as before" not in out
+    assert "TODO 5: 0 → 8 of 8" in out
+    assert session.is_up_to_date()
+
+
+def test_a_file_that_was_away_for_a_moment_is_no_reason_to_forget_the_rest(
+    open_session, monkeypatch: pytest.MonkeyPatch
+):
+    session, stops = open_session(), iter([True])
+
+    def stop_once(*_) -> None:
+        if next(stops, False):
+            raise SavedAgain
+
+    monkeypatch.setattr(Watch, "stop_if_saved", stop_once)
+    out = session.save(WORLD, solved(WORLD, "5"))
+    assert out.count("saved:") == 1 and "TODO 5: 0 → 8 of 8" in out
+    assert session.is_up_to_date()
+
+
+@pytest.mark.soak
+def test_files_that_come_go_and_move(open_session):
+    session = open_session("solution")
+    moved = session.folder / "methods.py"
+    (session.folder / INTEGRATORS).rename(moved)
+    out = session.look()
+    assert "saved: integrators.py, methods.py" in out
+    assert "TODO 8a: 2 → 0 of 2, in all 10 → 8 of 10" in out
+    assert session.is_up_to_date()
+    moved.rename(session.folder / INTEGRATORS)
+    assert "in all 8 → " in session.look()
+    assert session.watch.result.points == 10 and session.is_up_to_date()
+
+
+@pytest.mark.soak
+def test_a_given_file_that_goes_is_supplied_as_it_was_handed_out(open_session):
+    session = open_session("solution")
+    (session.folder / SOLVER).unlink()  # of no TODO that is asked about
+    assert session.look() == "saved: mini_engine/solver.py\nnothing new: 10 of 10 points\n"
+    assert session.is_up_to_date()
+    (session.folder / WORLD).rename(session.folder / "mini_engine" / "worlds.py")
+    assert "TODO 5: 8 → 0 of 8" in session.look() and session.is_up_to_date()
+    (session.folder / "mini_engine" / "worlds.py").rename(session.folder / WORLD)
+    assert "TODO 5: 0 → 8 of 8" in session.look()
+    assert session.watch.result.points == 10 and session.is_up_to_date()
+
+
+def test_what_editors_leave_beside_a_file_is_nothing(open_session):
+    session = open_session()
+    for name in (".solver.py.swp", "solver.py~", "4913", "#solver.py#", ".#solver.py"):
+        (session.folder / "mini_engine" / name).write_text("half a file", encoding="utf-8")
+    assert session.look() == ""
+
+
+def test_a_tree_that_cannot_be_copied_now_is_taken_at_the_next_save(
+    open_session, monkeypatch: pytest.MonkeyPatch
+):
+    def gone(*_):
+        raise FileNotFoundError("notebooks/.tmp")
+
+    session = open_session()
+    with monkeypatch.context() as patch:
+        patch.setattr(grader.cli.watch, "grade", gone)
+        assert "cannot read the tree now" in session.save(WORLD, solved(WORLD, "5"))
+    assert "TODO 5: 0 → 8 of 8" in session.save(SOLVER, lambda text: text + "\n")
+    assert session.is_up_to_date()
+
+
+# ---------------------------------------------------------------- when it looks
+
+
+def test_a_virtual_environment_is_not_watched(hand_in):
+    tree = hand_in("starter")
+    for name in (".venv/lib", "env/lib", "build", "mini_engine/__pycache__"):
+        (tree / name).mkdir(parents=True, exist_ok=True)
+        (tree / name / "some.py").touch()
+    (tree / "env" / "pyvenv.cfg").touch()
+    watched = {folder.relative_to(tree).as_posix() for folder in folders_of(tree)}
+    assert {".", "mini_engine"} <= watched
+    assert not any(
+        "env" in name or name in ("build", "mini_engine/__pycache__") for name in watched
+    )
+    assert not any("some.py" in file for file in python_sources(tree))
+
+
+def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatch):
+    monkeypatch.setattr(grader.cli.watch, "WITHOUT_EVENTS", 10)
+    tree = hand_in()
+    looks = moments_to_look(tree)
+    assert len(list(islice(looks, 3))) == 3
+    tree.rmdir()
+    assert len(list(islice(looks, 3))) < 3
+
+
+@pytest.mark.parametrize(
+    "replaces",
+    [pytest.param(False, id="writes"), pytest.param(True, id="replaces", marks=pytest.mark.soak)],
+)
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C is no signal there")
+def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
+    tree = hand_in("starter")
+    command = [sys.executable, "-m", "grader", "check", "--todo", "5", "--watch"]
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+    process = subprocess.Popen(
+        command,
+        cwd=tree / "mini_engine",
+        env={**os.environ, "PYTHONPATH": str(KIT), "PYTHONIOENCODING": "utf-8"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+    )
+    lines = iter(process.stdout.readline, "")
+    try:
+        assert any(line.startswith("Watching") for line in lines)
+        text = solved(WORLD, "5")((tree / WORLD).read_text(encoding="utf-8"))
+        if replaces:
+            (tree / "mini_engine" / "world.tmp").write_text(text, encoding="utf-8")
+            os.replace(tree / "mini_engine" / "world.tmp", tree / WORLD)
+        else:
+            (tree / WORLD).write_text(text, encoding="utf-8")
+        assert any(line.startswith("TODO 5: 0 → 8 of 8") for line in lines)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 0 and err == ""
+
+
+def test_a_terminal_shows_one_screen_and_what_changed(open_session):
+    session = open_session()
+    console = Console(file=session.out, width=80, force_terminal=True, color_system=None)
+    session.watch.console = console
+    out = session.save(WORLD, solved(WORLD, "5"))
+    last = out.rpartition("\x1b[2J")[2].splitlines()
+    assert "saved: mini_engine/world.py" in last[0] and len(last) <= 16
+    assert "TODO 5: 0 → 8 of 8, in all 0 → 8 of 10" in last[1]
+    assert any(line.startswith("PASSED      5") for line in last)

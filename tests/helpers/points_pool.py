@@ -1,0 +1,49 @@
+"""A pool that finds the points that stand in a submission; a small file, since each loads it."""
+
+import re
+from concurrent.futures import Future
+from contextlib import AbstractContextManager
+
+from grader.classroom.executor import Graded, Pool
+from grader.intake.found import Package
+from grader.judge.grade import Options
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.report.files import as_json
+
+FULL = 20
+
+
+def stand_in(package: Package, options: Options) -> Graded:
+    """The number in integrators.py, under the name that it must have by now."""
+    text = dict(package.files)["integrators.py"].decode()
+    found = re.search(r"points = (\d+)", text)
+    points = int(found[1]) if found else 0
+    state = "passed" if points == FULL else "not yet"
+    check = CheckResult("a", "A title", "unit", state, points, FULL, "ran", "that", "this")
+    todo = TodoResult("8a", "An integrator", state, points, FULL, None, [check])
+    return as_json(Result(1, package.name, points, FULL, 0, ["processes"], [todo])), 0.5
+
+
+class PointsPool(Pool):
+    work = staticmethod(stand_in)
+
+
+class Inline(AbstractContextManager["Inline"]):
+    """The same in this process; stopped, as by Ctrl-C, when it has graded `patience`."""
+
+    def __init__(self, patience: int = 1000) -> None:
+        self.patience = patience
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def capacity(self) -> int:
+        return 1
+
+    def submit(self, package: Package) -> "Future[Graded]":
+        self.patience -= 1
+        if self.patience < 0:
+            raise KeyboardInterrupt
+        future: Future[Graded] = Future()
+        future.set_result(stand_in(package, Options()))
+        return future

@@ -1,0 +1,556 @@
+"""Taking a class in: what LMSs export, what people hand in, and what must be refused."""
+
+import io
+import os
+import random
+import stat
+import subprocess
+import sys
+import time
+import unicodedata
+import zipfile
+from contextlib import suppress
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from grader.intake import archives
+from grader.intake.found import CannotTake, Found
+from grader.intake.listing import opened_class
+from grader.intake.names import portable
+from grader.intake.packing import opened_submission, pack
+from grader.intake.roster import ClassList, read_roster
+from grader.judge import submission
+from grader.judge.grade import KIT
+from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
+
+PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
+
+
+def zipped(files: dict[str, str | bytes], how: int = zipfile.ZIP_DEFLATED) -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", how) as archive:
+        for name, text in files.items():
+            archive.writestr(name, text)
+    return content.getvalue()
+
+
+def write(folder: Path, files: dict[str, str | bytes]) -> Path:
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return folder
+
+
+def under(folder: str, files: dict[str, str | bytes] = PROGRAM) -> dict[str, str | bytes]:
+    return {f"{folder}/{name}": content for name, content in files.items()}
+
+
+def names_in(found: Found) -> list[str]:
+    return [name for name, _ in pack(found).files]
+
+
+@pytest.fixture
+def classroom(tmp_path: Path) -> Path:
+    (tmp_path / "class").mkdir()
+    return tmp_path / "class"
+
+
+def handed_in(classroom: Path, content: bytes) -> Found:
+    (classroom / "ann.zip").write_bytes(content)
+    return Found("ann", (classroom / "ann.zip",))
+
+
+def refused(classroom: Path, content: bytes) -> str:
+    with pytest.raises(CannotTake) as caught:
+        pack(handed_in(classroom, content))
+    assert {path.name for path in classroom.parent.iterdir()} == {"class"}, "written outside"
+    return str(caught.value)
+
+
+# ---------------------------------------------------------------- what LMSs export
+
+
+def test_canvas_names_late_marks_and_loose_files(classroom):
+    write(
+        classroom,
+        {
+            "doejane_LATE_1234_5678_hand-in.zip": zipped(PROGRAM),
+            "roebo_77_10_integrators-2.py": "x = 2\n",
+            "roebo_77_11_pymunk_scene.py": "",
+            "anon_k3Xyz_99_work.zip": zipped(under("work")),
+            "texter_5_text.html": "<p>it does not run</p>",
+        },
+    )
+    with opened_class(classroom) as taken:
+        found = {each.name: each for each in taken.found}
+        assert list(found) == ["anon_k3Xyz", "doejane_1234", "roebo_77"]
+        assert found["doejane_1234"].late and not found["roebo_77"].late
+        assert names_in(found["roebo_77"]) == ["integrators.py", "pymunk_scene.py"]
+        assert names_in(found["anon_k3Xyz"]) == sorted(PROGRAM)
+        assert taken.troubles.keys() == {"texter_5"} and "no file" in taken.troubles["texter_5"]
+
+
+def test_moodle_with_folders_of_both_kinds_and_without(classroom):
+    write(
+        classroom,
+        {
+            **under("Ann Lee_101_assignsubmission_file_"),
+            **under("Ben Öz_102_assignsubmission_file/deep"),
+            "Cem O_Neil_103_assignsubmission_file_work.zip": zipped(PROGRAM),
+            "Ann Lee_101_assignsubmission_onlinetext_/onlinetext.html": "hello",
+            "Dora_104_assignsubmission_onlinetext/onlinetext.html": "see my page",
+        },
+    )
+    with opened_class(classroom) as taken:
+        assert [each.name for each in taken.found] == [
+            "Ann Lee_101",
+            "Ben Öz_102",
+            "Cem O_Neil_103",
+        ]
+        assert all(names_in(each) == sorted(PROGRAM) for each in taken.found)
+        assert taken.troubles.keys() == {"Dora_104"}
+
+
+GRADESCOPE = """\
+submission_1:
+  :submitters:
+  - :name: Ann Lee
+    :sid: '100'
+    :email: ann@school.edu
+  :created_at: 2026-05-04 21:59:01.500000000 Z
+  :score: 3.0
+  :results: !ruby/hash:ActiveSupport::HashWithIndifferentAccess
+    score: 3
+submission_2:
+  :submitters:
+  - :name: Ben
+    :sid: '200'
+    :email: ben@school.edu
+  - :name: Cem
+    :sid:
+    :email:
+  :created_at: 2026-05-05 01:00:00 +02:00
+submission_3:
+  :submitters:
+  - :name:
+    :email: dora@school.edu
+"""
+
+
+def test_gradescope_names_times_and_people_who_work_together(classroom):
+    files = {
+        "submission_metadata.yml": GRADESCOPE,
+        **under("submission_1"),
+        **under("submission_2"),
+    }
+    write(classroom / "assignment_9_export", files)
+    with opened_class(classroom) as taken:
+        found = {each.name: each for each in taken.found}
+        assert list(found) == ["Cem", "ann@school.edu", "ben@school.edu"]
+        assert found["Cem"].sources == found["ben@school.edu"].sources
+        assert found["Cem"].group == ("ben@school.edu",)
+        assert found["ben@school.edu"].group == ("Cem",)
+        assert found["Cem"].handed_in_by == "ben@school.edu"
+        at = datetime(2026, 5, 4, 21, 59, 1, 500000, UTC)
+        assert found["ann@school.edu"].handed_in == at
+        assert found["Cem"].handed_in == datetime(2026, 5, 4, 23, tzinfo=UTC)
+        assert taken.troubles.keys() == {"dora@school.edu"}
+
+
+def test_a_list_that_is_not_gradescopes_is_said(classroom):
+    for text in ("- 1\n", "submission_1: {}\n", "a: [\n", "submission_1: {':submitters': 7}\n"):
+        write(classroom, {"submission_metadata.yml": text})
+        with pytest.raises(CannotGrade, match="not as Gradescope"), opened_class(classroom):
+            pass
+
+
+@pytest.mark.parametrize("wrapper", ["", "submissions/"])
+def test_a_download_of_a_class_is_taken_as_it_is(classroom, wrapper):
+    files = {
+        f"{wrapper}doejane_1_2_a.zip": zipped(PROGRAM),
+        f"{wrapper}roebo_LATE_3_4_b.zip": zipped(under("deep/deeper")),
+        "__MACOSX/._x": "dropping",
+    }
+    (classroom / "all.zip").write_bytes(zipped(files))
+    with opened_class(classroom / "all.zip") as taken:
+        assert [each.name for each in taken.found] == ["doejane_1", "roebo_3"]
+        assert all(names_in(each) == sorted(PROGRAM) for each in taken.found)
+
+
+def test_a_folder_around_folders_is_taken_off_too(classroom):
+    (classroom / "all.zip").write_bytes(zipped(under("all/ann") | under("all/ben")))
+    with opened_class(classroom / "all.zip") as taken:
+        assert [each.name for each in taken.found] == ["ann", "ben"]
+
+
+def test_one_strange_name_in_a_download_does_not_stop_the_class(classroom):
+    files = {
+        **under("ann"),
+        "ben/integrators.py": "x = 1\n",
+        "ben/aux.py": "",
+        "../../up.py": "",
+        "/root.py": "",
+    }
+    (classroom / "all.zip").write_bytes(zipped(files))
+    with opened_class(classroom / "all.zip") as taken:
+        assert [each.name for each in taken.found] == ["ann", "ben"]
+        assert names_in(taken.found[1]) == ["_aux.py", "integrators.py"]
+    assert {path.name for path in classroom.parent.iterdir()} == {"class"}
+
+
+# ---------------------------------------------------------------- what people keep
+
+
+def test_folders_checkouts_and_system_files(classroom):
+    write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
+    write(
+        classroom, {"ann/.git/config": "", "ben/x/.DS_Store": "", ".DS_Store": "", "Thumbs.db": ""}
+    )
+    write(classroom, {"roster.csv": "", "adjustments.toml": ""})
+    (classroom / "empty").mkdir()
+    with opened_class(classroom) as taken:
+        assert [each.name for each in taken.found] == ["ann", "ben", "cem", "empty"]
+        assert all(names_in(each) == sorted(PROGRAM) for each in taken.found[:3])
+        with pytest.raises(CannotTake, match=r"nothing of the lab .* it holds no file"):
+            pack(taken.found[3])
+        assert not taken.troubles and not taken.notes
+
+
+def test_nothing_is_dropped_in_silence(classroom):
+    write(classroom, under("ann") | {"ben.rar": "Rar!", "cem.py": "x", "read me.txt": ""})
+    (classroom / "link").symlink_to(classroom / "ann")
+    with opened_class(classroom) as taken:
+        assert taken.troubles.keys() == {"cem", "link"}
+        assert "link is a link" in taken.troubles["link"]
+        assert [each.name for each in taken.found] == ["ann", "ben"]
+        with pytest.raises(CannotTake, match="broken"):
+            pack(taken.found[1])
+        assert taken.notes == ["read me.txt is no submission: left out"]
+
+
+def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
+    path = tmp_path / "ann.zip"
+    path.write_bytes(zipped(under("work")))
+    with opened_submission(path) as folder:
+        assert folder.name == "ann"
+        assert {name for name in PROGRAM if (folder / name).is_file()} == set(PROGRAM)
+    assert not folder.exists()
+    path.write_bytes(zipped({"../up.py": ""}))
+    with pytest.raises(CannotGrade, match="reaches outside"), opened_submission(path):
+        pass
+    with opened_submission(tmp_path) as folder:
+        assert folder == tmp_path
+
+
+def test_taking_in_loads_the_judge_and_no_more_of_the_grader():
+    code = "import sys; from grader.intake import listing; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    loaded = {name.split(".")[1] for name in done.stdout.split() if name.startswith("grader.")}
+    assert "classroom" in loaded and loaded <= {"classroom", "judge", "protocol", "todo_regions"}
+
+
+def test_one_submission_is_not_taken_for_a_class(classroom):
+    with pytest.raises(CannotGrade, match="leave out --class"):
+        opened_class(write(classroom, PROGRAM)).__enter__()
+
+
+def test_who_handed_in_twice_must_choose_unless_it_is_the_same(classroom):
+    write(classroom, under("ann") | {"ann.zip": zipped(PROGRAM)})
+    write(classroom, under("Ben") | {"ben.zip": zipped({"integrators.py": "other"})})
+    with opened_class(classroom) as taken:
+        assert [each.name for each in taken.found] == ["ann"]
+        assert "Ben and ben.zip" in taken.troubles["Ben"]
+        assert "ann and ann.zip are the same" in taken.notes[0]
+
+
+def test_a_folder_beside_a_file_of_that_name_is_for_a_person_to_choose(classroom):
+    write(classroom, under("ann") | {"ann.rar": "Rar!"})
+    with opened_class(classroom) as taken:
+        assert not taken.found and "as ann and ann.rar" in taken.troubles["ann"]
+
+
+def test_a_zip_in_a_zip_and_a_zip_in_a_folder(classroom):
+    write(classroom, {"ann/work.zip": zipped({"inner.zip": zipped(PROGRAM), "read.me": ""})})
+    with opened_class(classroom) as taken:
+        assert names_in(taken.found[0]) == sorted(PROGRAM)
+
+
+def test_two_programs_beside_each_other_are_for_a_person_to_choose(classroom):
+    write(classroom, under("ann/old") | under("ann/new") | {"ann/old/integrators.py": "x = 2"})
+    with pytest.raises(CannotTake, match="program integrators, in new, old: leave one"):
+        pack(Found("ann", (classroom / "ann",)))
+
+
+def test_the_same_files_have_one_digest_whoever_and_however(classroom):
+    folder = Found("ann", (write(classroom / "ann", PROGRAM),))
+    (classroom / "b.zip").write_bytes(zipped(under("x/y", dict(reversed(PROGRAM.items())))))
+    zip_ = Found("ben", (classroom / "b.zip",))
+    assert pack(folder).digest == pack(zip_).digest
+    write(classroom / "ann", {"integrators.py": "x = 2\n"})
+    assert pack(folder).digest != pack(zip_).digest
+
+
+def test_a_package_unpacks_into_what_was_packed(classroom, tmp_path):
+    package = pack(Found("ann", (write(classroom / "ann", PROGRAM),)))
+    folder = package.unpack(tmp_path)
+    assert folder.name == "ann"
+    assert {name: (folder / name).read_text() for name in PROGRAM} == PROGRAM
+
+
+# ---------------------------------------------------------------- the class list
+
+
+CANVAS_LIST = """\
+Student,ID,SIS User ID,SIS Login ID,Section
+"Doe, Jane",1234,S1,jane,A
+"Roe, Bo",77,S2,bo,A
+"Poe, Al",78,S3,al,A
+"""
+MOODLE_LIST = """\
+First name,Last name,ID number,Email address
+Ann,Lee,7,ann@school.edu
+Bo,Roe,8,bo@school.edu
+"""
+
+
+def people(tmp_path: Path, text: str) -> ClassList:
+    (tmp_path / "list.csv").write_text(text, encoding="utf-8")
+    return ClassList(read_roster(tmp_path / "list.csv"))
+
+
+def test_a_class_list_names_students_as_the_gradebook_does(classroom, tmp_path):
+    known = people(tmp_path, CANVAS_LIST)
+    write(classroom, {f"{who}_1_a.zip": zipped(PROGRAM) for who in ("doejane_1234", "roebo_77")})
+    write(classroom, under("stranger"))
+    with opened_class(classroom, known) as taken:
+        names = [each.name for each in taken.found]
+        assert names == ["bo", "jane", "stranger"]
+        assert known.absent(names) == ["al"]
+        assert known.unlisted(names) == ["stranger"]
+
+
+def test_moodles_class_list_knows_full_names(classroom, tmp_path):
+    known = people(tmp_path, MOODLE_LIST)
+    write(classroom, under("Ann Lee_5_assignsubmission_file") | under("bo"))
+    with opened_class(classroom, known) as taken:
+        names = [each.name for each in taken.found]
+        assert names == ["ann@school.edu", "bo"]
+        assert known.absent(names) == [] and known.unlisted(names) == []
+
+
+def test_of_two_with_one_name_neither_is_guessed(tmp_path):
+    known = people(tmp_path, MOODLE_LIST + "Ann,Lee,9,other@school.edu\n")
+    assert known.name_of(["name"], "Ann Lee") is None
+
+
+@pytest.mark.parametrize(
+    "words, name",
+    [
+        ("Zoë Müller", "Zoë Müller"),
+        (unicodedata.normalize("NFD", "Zoë"), "Zoë"),
+        ("../../etc/passwd", "_.._etc_passwd"),
+        ("CON", "_CON"),
+        ("aux.json", "_aux.json"),
+        ("a\x1b[2J\u202eb", "a_[2J_b"),
+        ("...", "_"),
+        ("", "_"),
+        ("ö" * 300, "ö" * 90),
+    ],
+)
+def test_names_become_file_names_of_every_system(words, name):
+    assert portable(words) == name
+
+
+# ---------------------------------------------------------------- zips that must be refused
+
+
+@pytest.mark.parametrize(
+    "name", ["../up.py", "a/../../up.py", "/etc/up.py", "C:/up.py", "..\\up.py", "\\\\host\\up.py"]
+)
+def test_no_zip_reaches_outside(classroom, name):
+    assert "outside" in refused(classroom, zipped(PROGRAM | {name: "x"}))
+
+
+@pytest.mark.parametrize("name", ["aux.py", "a/com1.txt", "what?.py", "x" * 200])
+def test_names_that_not_every_system_has_are_refused(classroom, name):
+    assert "not for every system" in refused(classroom, zipped(PROGRAM | {name: "x"}))
+
+
+def test_names_that_differ_in_case_alone_are_refused(classroom):
+    assert "case alone" in refused(classroom, zipped(PROGRAM | {"Integrators.py": "x"}))
+
+
+def test_broken_encrypted_and_unusual_zips_are_refused(classroom):
+    good = zipped(PROGRAM)
+    assert "broken" in refused(classroom, b"")
+    assert "broken" in refused(classroom, b"Rar!" + bytes(100))
+    assert "broken" in refused(classroom, good[:-30])
+    stored = zipped(PROGRAM, zipfile.ZIP_STORED)
+    assert "broken" in refused(classroom, stored.replace(b"x = 1", b"x = 2"))
+    central = good.rindex(b"PK\x01\x02")
+    locked = bytearray(good)
+    locked[central + 8] |= 1
+    assert "encrypted" in refused(classroom, bytes(locked))
+    assert "unusual" in refused(classroom, zipped(PROGRAM, zipfile.ZIP_BZIP2))
+    assert "unusual" in refused(classroom, zipped(PROGRAM, zipfile.ZIP_LZMA))
+
+
+def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypatch):
+    monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
+    assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
+
+
+def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
+    monkeypatch.setattr(archives, "MAX_ZIP", 10)
+    assert "MB" in refused(classroom, zipped(PROGRAM))
+
+
+def test_a_bomb_gives_the_program_and_no_more_than_the_bounds(classroom):
+    bomb = {f"{n:02}.bin": bytes(MAX_BYTES // 4) for n in range(8)}
+    package = pack(handed_in(classroom, zipped(bomb | PROGRAM)))
+    assert {"integrators.py", "mini_engine/__init__.py"} <= {name for name, _ in package.files}
+    assert sum(len(content) for _, content in package.files) <= MAX_BYTES
+    assert package.notes
+
+
+def test_bombs_inside_bombs_share_the_bounds(classroom):
+    inner = zipped({f"{n}.bin": bytes(MAX_BYTES // 2) for n in range(4)})
+    package = pack(handed_in(classroom, zipped({f"{n}.zip": inner for n in range(50)} | PROGRAM)))
+    assert sum(len(content) for _, content in package.files) <= MAX_BYTES
+
+
+def test_more_files_than_may_be_are_left_out_and_named(classroom):
+    many = {f"data/{n}.txt": "" for n in range(MAX_FILES + 100)}
+    package = pack(handed_in(classroom, zipped(many | PROGRAM)))
+    assert MAX_FILES - archives.SPARED <= len(package.files) <= MAX_FILES
+    (note,) = package.notes
+    assert "more files: too much" in note
+    assert {"integrators.py"} < {name for name, _ in package.files}
+
+
+def test_a_size_that_lies_gives_no_more_than_it_says(classroom):
+    content = bytearray(zipped(PROGRAM | {"z.bin": bytes(100_000)}))
+    at = content.rindex(b"PK\x01\x02") + 24
+    assert int.from_bytes(content[at : at + 4], "little") == 100_000
+    content[at : at + 4] = (10).to_bytes(4, "little")
+    assert "broken" in refused(classroom, bytes(content))
+
+
+def test_links_environments_and_system_files_in_a_zip_are_left_out(classroom):
+    content = io.BytesIO(zipped(PROGRAM))
+    with zipfile.ZipFile(content, "a") as archive:
+        link = zipfile.ZipInfo("passwords.txt")
+        link.external_attr = (stat.S_IFLNK | 0o777) << 16
+        archive.writestr(link, "/etc/passwd")
+        for name in ("env/pyvenv.cfg", "env/lib/site.py", ".git/config", "__MACOSX/._x.py"):
+            archive.writestr(name, "")
+        for name in ("mini_engine/._contacts.py", "mini_engine/._world.py", "._integrators.py"):
+            archive.writestr(name, b"\0\5\26\7\0\2\0\0Mac OS X")
+        for number in range(MAX_FILES + 1):
+            archive.writestr(f"node_modules/{number}.py", "")
+    package = pack(handed_in(classroom, content.getvalue()))
+    assert [name for name, _ in package.files] == sorted(PROGRAM) and not package.notes
+
+
+def test_what_a_mac_leaves_beside_each_file_is_no_part_of_a_folder(classroom):
+    shadows = [".DS_Store", "._mini_engine", "._integrators.py", "mini_engine/._contacts.py"]
+    write(classroom, under("ann") | under("ann", dict.fromkeys(shadows, b"\0\5\26\7")))
+    with opened_class(classroom) as taken:
+        (found,) = taken.found
+        assert names_in(found) == sorted(PROGRAM)
+
+
+@pytest.mark.parametrize("said", [True, False])
+def test_names_in_utf_8_are_read_whether_the_zip_says_so_or_not(classroom, said):
+    content = zipped(PROGRAM | {"möbius.txt": ""})
+    if not said:  # as macOS writes them
+        for sign, place in ((b"PK\x01\x02", 8), (b"PK\x03\x04", 6)):
+            at = content.rindex(sign) + place
+            flags = int.from_bytes(content[at : at + 2], "little") & ~0x800
+            content = content[:at] + flags.to_bytes(2, "little") + content[at + 2 :]
+    assert "möbius.txt" in names_in(handed_in(classroom, content))
+
+
+def test_names_in_the_old_dos_letters_are_read(classroom):
+    content = zipped(PROGRAM | {"m#bius.txt": ""}).replace(b"m#bius", b"m\x94bius")
+    assert "möbius.txt" in names_in(handed_in(classroom, content))
+
+
+def test_a_file_that_is_also_a_folder_is_refused(classroom):
+    assert "broken" in refused(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
+
+
+def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classroom):
+    rng, content = random.Random(1), zipped(PROGRAM | {"a/ö.txt": "hello" * 50})
+    outcomes = set()
+    for _ in range(150):
+        changed = bytearray(content)
+        for _ in range(rng.choice([1, 2, 20])):
+            changed[rng.randrange(len(changed))] = rng.randrange(256)
+        try:
+            outcomes.add(bool(pack(handed_in(classroom, bytes(changed))).files))
+        except CannotTake as error:
+            outcomes.add(str(error))
+    assert True in outcomes and len(outcomes) > 3
+    assert {path.name for path in classroom.parent.iterdir()} == {"class"}
+
+
+# ---------------------------------------------------------------- what would hold others up
+
+
+def test_what_has_no_end_is_for_a_person(classroom, monkeypatch):
+    folder = write(classroom / "ann", PROGRAM)
+    monkeypatch.setattr(submission, "MAX_SEEN", 30)
+    write(folder, {f"many/{number}": "" for number in range(30)})
+    with pytest.raises(CannotTake, match="more than 20000 files and folders"):
+        pack(Found("ann", (folder,)))
+
+
+def test_folders_in_each_other_without_end_are_for_a_person(classroom):
+    """Deeper than Python's own functions can go."""
+    folder = write(classroom / "ann", PROGRAM)
+    here = os.getcwd()
+    try:
+        os.chdir(folder)
+        for _ in range(1200):
+            os.mkdir("d")
+            os.chdir("d")
+    finally:
+        os.chdir(here)
+    with pytest.raises(CannotTake, match="40 folders in each other"):
+        pack(Found("ann", (folder,)))
+    deep = {"d/" * 1500 + "integrators.py": "x = 1\n"}
+    assert "40 folders in each other" in refused(classroom.parent / "class", zipped(deep))
+    subprocess.run(["rm", "-r", folder], check=True)  # pytest cannot
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pipes with names in folders")
+@pytest.mark.parametrize("name", ["ann.zip", "ann.py", "ann.7z"])
+def test_nobody_waits_at_a_pipe(classroom, name):
+    os.mkfifo(classroom / name)
+    with pytest.raises(CannotTake, match="no file to read"):
+        pack(Found("ann", (classroom / name,)))
+    with pytest.raises(CannotGrade, match="no file to read"), opened_submission(classroom / name):
+        pass
+    folder = write(classroom / "ben", PROGRAM)
+    os.mkfifo(folder / "data.py")
+    assert "data.py" not in names_in(Found("ben", (folder,)))
+
+
+@pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
+def test_a_program_a_thousand_times_takes_no_longer_than_its_files(classroom, name):
+    folder = write(classroom / "ann", {name.format(number): "" for number in range(3000)})
+    before = time.process_time()
+    with suppress(CannotTake):
+        pack(Found("ann", (folder,)))
+    assert time.process_time() - before < 3  # it was 9 where each was compared with all others
+
+
+def test_notes_of_one_submission_are_few(classroom):
+    copies = {f"integrators ({number}).py": PROGRAM["integrators.py"] for number in range(200)}
+    notes = pack(Found("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
+    assert len(notes) == 21 and notes[-1] == "and 181 notes more"

@@ -1,0 +1,564 @@
+"""Classes that nobody foresaw: nobody is lost, nobody has 0 in silence, every refusal says why."""
+
+import base64
+import bz2
+import errno
+import gzip
+import io
+import lzma
+import os
+import shutil
+import struct
+import sys
+import unicodedata
+import zipfile
+import zlib
+from datetime import datetime
+from pathlib import Path
+
+import classes
+import gradebooks
+import packed
+import pytest
+
+from grader.classroom.book import not_imported
+from grader.classroom.course_check import Files, faults_of_course
+from grader.classroom.feedback import Returned, for_moodle
+from grader.classroom.marks import Marking, Part, Parts, marks
+from grader.intake import moodle
+from grader.intake.dates import moment
+from grader.intake.found import CannotTake, Found, Intake
+from grader.intake.listing import opened_class
+from grader.intake.packing import pack
+from grader.intake.roster import CannotRead, ClassList, read_roster
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import MAX_FILES, CannotGrade, take_in
+
+SOURCE = "points = 7\n"
+WORK: packed.Files = {"integrators.py": SOURCE}
+MARKING = Marking("Physics engine", {"engine": 1}, 20)
+
+
+def taken(folder: Path, people: ClassList | None = None) -> Intake:
+    with opened_class(folder, people) as intake:
+        return intake
+
+
+def put(folder: Path, files: packed.Files) -> Path:
+    for name, content in files.items():
+        classes.put(folder / name, content)
+    return folder
+
+
+def one(folder: Path, files: packed.Files) -> Found:
+    put(folder / "ann", files)
+    return Found("ann", (folder / "ann",))
+
+
+def people_of(path: Path, text: str | bytes) -> ClassList:
+    classes.put(path, text)
+    return ClassList(read_roster(path))
+
+
+# ---------------------------------------------------------------- what is in a submission
+
+CHANGED = (
+    *("integrators (1).py", "integrators-2.py", "integrators - Copie (2).py", "INTEGRATORS.PY"),
+    *("Kopie von integrators.py", "integrators \u2013 Kopie.py", "integrators - コピー.py"),
+    *("integrators - 副本.py", "integrators — копия.py", "integrators - Cópia.py"),
+    *("integrators final.py", "integrators (final).py", "my integrators.py", "ann-integrators.py"),
+    *("integrators .py", "integrators%281%29.py", "integrators.py.txt", "integrators.txt"),
+)
+
+
+@pytest.mark.parametrize("name", CHANGED)
+def test_a_name_that_python_cannot_import_is_taken_as_what_it_was(tmp_path: Path, name: str):
+    package = pack(one(tmp_path, {name: SOURCE}))
+    assert dict(package.files)["integrators.py"] == SOURCE.encode()
+    assert package.notes == [f"{name} is taken as integrators.py"]
+
+
+OTHERS = ("integrators_final.py", "hello world.py", "integrators.py.html", "integrators.gdoc")
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_a_name_that_may_be_a_file_of_ones_own_is_for_a_person(tmp_path: Path, name: str):
+    with pytest.raises(CannotTake, match="nothing of the lab was found"):
+        pack(one(tmp_path, {name: SOURCE}))
+
+
+def test_two_drafts_of_what_nobody_asks_for_are_no_question(tmp_path: Path):
+    drafts = {
+        "integrators.py": "a = 1\n",
+        "integrators (1).py": "a = 2\n",
+        "pymunk_scene.py": "x\n",
+    }
+    package = pack(one(tmp_path, drafts | {"more.zip": b"PK broken"}), ["pymunk_scene"])
+    assert dict(package.files)["integrators.py"] == b"a = 1\n"
+    assert "of several programs integrators integrators.py is taken, none is asked for" in (
+        package.notes
+    )
+    with pytest.raises(CannotTake, match="more than one program integrators"):
+        pack(Found("ann", (tmp_path / "ann",)), ["integrators"])
+
+
+@pytest.mark.parametrize("what", ["ann/mini_engine", "ann/mini_engine/world.py"])
+def test_what_may_not_be_read_is_for_a_person_and_not_nothing(tmp_path: Path, monkeypatch, what):
+    """A folder that its owner has shut, or one of another user: somebody's work may lie in it."""
+    found = one(tmp_path, WORK | {"mini_engine/__init__.py": "", "mini_engine/world.py": ""})
+    shut(monkeypatch, tmp_path / what)
+    with pytest.raises(CannotTake, match=f"{what[4:]} cannot be read: Permission denied"):
+        pack(found)
+    with pytest.raises(CannotGrade, match=f"{what[4:]} cannot be read: Permission denied"):
+        take_in(found.sources[0], tmp_path / "copy", load_rubric(), {})
+
+
+def shut(monkeypatch, path: Path) -> None:
+    """As if a file or a folder were not ours to read, for the superuser too."""
+
+    def refusing(usual):
+        def ask(asked, *args, **options):
+            if Path(asked) == path:
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(asked))
+            return usual(asked, *args, **options)
+
+        return ask
+
+    monkeypatch.setattr(os, "scandir", refusing(os.scandir))
+    monkeypatch.setattr(shutil, "copyfile", refusing(shutil.copyfile))
+    monkeypatch.setattr(Path, "read_bytes", refusing(Path.read_bytes))
+
+
+def test_of_two_drafts_a_person_chooses_and_beside_the_right_name_it_is_left(tmp_path: Path):
+    drafts = {"integrators v1.py": SOURCE, "integrators v2.py": "points = 8\n"}
+    with pytest.raises(CannotTake, match="more than one program"):
+        pack(one(tmp_path, drafts))
+    package = pack(one(tmp_path, {"integrators.py": "points = 9\n"}))
+    assert dict(package.files)["integrators.py"] == b"points = 9\n"
+
+
+NO_PROGRAMS = {
+    "a web page": b"<!DOCTYPE html><html>Sign in</html>",
+    "a text of a word processor": b"{\\rtf1\\ansi def x}",
+    "a zip or an Office document": packed.as_zip(WORK),
+    "text in UTF-16": SOURCE.encode("utf-16"),
+    "no text": b"def x\0\0",
+    "a notebook": b'{"cells": []}',
+}
+
+
+@pytest.mark.parametrize("words", NO_PROGRAMS)
+def test_what_is_no_program_under_its_name_is_for_a_person(tmp_path: Path, words: str):
+    with pytest.raises(CannotTake, match=f"integrators.py is {words}"):
+        pack(one(tmp_path, {"integrators.py": NO_PROGRAMS[words]}))
+
+
+def test_an_empty_file_is_for_a_person_or_said_beside_others(tmp_path: Path):
+    with pytest.raises(CannotTake, match="there is nothing in what was handed in"):
+        pack(one(tmp_path, {"integrators.py": b"", "mini_engine/__init__.py": b"\n"}))
+    package = pack(one(tmp_path, {"integrators.py": b"", "pymunk_scene.py": SOURCE}))
+    assert package.notes == ["integrators.py is empty"]
+
+
+def test_what_the_course_does_not_ask_for_is_no_work(tmp_path: Path):
+    found = one(tmp_path, {"pymunk_scene.py": SOURCE})
+    assert pack(found).files
+    with pytest.raises(CannotTake, match=r"nothing of the lab was found \(integrators\): it holds"):
+        pack(found, ["integrators"])
+
+
+def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: Path):
+    many: packed.Files = {f"aaa/m{n}.py": "x = 1\n" for n in range(MAX_FILES + 100)}
+    lab: packed.Files = {"mini_engine/__init__.py": "x = 1\n", **WORK}
+    for files in (many | lab, {f"deep/{name}": content for name, content in (many | lab).items()}):
+        for found in (one(tmp_path / "folder", files), zipped(tmp_path, files)):
+            package = pack(found)
+            assert lab.keys() <= {name for name, _ in package.files}
+            assert any("files: too much" in note for note in package.notes)
+    inner = many | {"zzz/work.zip": packed.as_zip(WORK)}
+    assert dict(pack(zipped(tmp_path, inner)).files)["integrators.py"] == SOURCE.encode()
+    submission = take_in(put(tmp_path / "plain", many | lab), tmp_path / "copy", load_rubric(), {})
+    assert (tmp_path / "copy" / "integrators.py").is_file() and submission.left_out
+
+
+def zipped(folder: Path, files: packed.Files) -> Found:
+    classes.put(folder / "work.zip", packed.as_zip(files))
+    return Found("ann", (folder / "work.zip",))
+
+
+# ---------------------------------------------------------------- archives
+
+
+def test_a_single_file_made_smaller_is_read_whatever_it_is_called(tmp_path: Path):
+    for at, pressed in enumerate((gzip.compress, bz2.compress, lzma.compress)):
+        suffix = ("gz", "bz2", "xz")[at]
+        found = one(tmp_path / suffix, {f"integrators.py.{suffix}": pressed(SOURCE.encode())})
+        assert dict(pack(found).files)["integrators.py"] == SOURCE.encode()
+    found = one(tmp_path / "plain", {"work": packed.as_zip(WORK)})
+    assert dict(pack(found).files)["integrators.py"] == SOURCE.encode()
+
+
+def raw_zip(name: bytes) -> bytes:
+    """A zip whose name is in letters of its own time, without a word of which."""
+    content = SOURCE.encode()
+    crc, size = zlib.crc32(content), len(content)
+    head = struct.pack("<HHHHHIIIHH", 20, 0, 0, 0, 0, crc, size, size, len(name), 0)
+    body = b"PK\3\4" + head + name + content
+    listed = b"PK\1\2" + struct.pack("<H", 20) + head + struct.pack("<HHHII", 0, 0, 0, 0, 0) + name
+    end = struct.pack("<4sHHHHIIH", b"PK\5\6", 0, 0, 1, 1, len(listed), len(body), 0)
+    return body + listed + end
+
+
+@pytest.mark.parametrize(
+    ("name", "letters"),
+    [("課題/", "shift-jis"), ("ソ表/", "shift-jis"), ("作业/", "gbk"), ("Übung/", "cp437")],
+)
+def test_names_in_old_letters_hide_no_program(tmp_path: Path, name: str, letters: str):
+    classes.put(tmp_path / "work.zip", raw_zip(name.encode(letters) + b"integrators.py"))
+    package = pack(Found("ann", (tmp_path / "work.zip",)))
+    assert dict(package.files)["integrators.py"] == SOURCE.encode()
+
+
+def test_too_deep_or_in_parts_is_said(tmp_path: Path):
+    deep = packed.as_zip(WORK)
+    for name in "dcba":
+        deep = packed.as_zip({f"{name}.zip": deep})
+    classes.put(tmp_path / "work.zip", deep)
+    with pytest.raises(CannotTake, match="archives are opened 3 deep"):
+        pack(Found("ann", (tmp_path / "work.zip",)))
+    for content, words in ((b"", "it has no bytes"), (packed.as_zip(WORK)[:-30], "cut off")):
+        classes.put(tmp_path / "cut.zip", content)
+        with pytest.raises(CannotTake, match=words):
+            pack(Found("ann", (tmp_path / "cut.zip",)))
+
+
+def test_no_reason_names_a_folder_of_this_machine(tmp_path: Path):
+    (tmp_path / "gone").mkdir()
+    found = Found("ann", (tmp_path / "gone" / "work.zip",))
+    with pytest.raises(CannotTake) as caught:
+        pack(found)
+    assert str(tmp_path) not in str(caught.value)
+
+
+# ---------------------------------------------------------------- whose it is
+
+
+def test_links_and_what_is_packed_unreadably_are_for_a_person(tmp_path: Path):
+    folder = put(tmp_path / "class", {"ann/integrators.py": SOURCE, "ben.tar.zst": b"(\xb5/\xfd"})
+    (folder / "cem").symlink_to(folder / "ann")
+    troubles = taken(folder).troubles
+    assert "links are not followed" in troubles["cem"] and "not read" in troubles["ben.tar"]
+
+
+def test_a_loose_file_of_who_is_listed_is_theirs(tmp_path: Path):
+    people = people_of(
+        tmp_path / "list.csv", "ID number,Email address\nann,ann@x.edu\nbo,b@x.edu\n"
+    )
+    folder = put(tmp_path / "class", {"ann@x.edu.docx": "words", "bo/integrators.py": SOURCE})
+    intake = taken(put(folder, {"notes.docx": "mine"}), people)
+    assert intake.troubles.keys() == {"ann@x.edu"} and intake.notes == [
+        "notes.docx is no submission: left out"
+    ]
+
+
+def test_names_that_look_the_same_are_told_apart(tmp_path: Path):
+    first, second = (unicodedata.normalize(form, "José") for form in ("NFC", "NFD"))
+    put(tmp_path, {f"{first}/integrators.py": SOURCE, f"{second}/integrators.py": "other = 1\n"})
+    put(tmp_path, {"Ann/integrators.py": SOURCE, "ann/integrators.py": "other = 1\n"})
+    troubles = taken(tmp_path).troubles
+    assert r"'Jose\u0301' and 'Jos\xe9'" in troubles[first]
+    assert "rename one where they are two students'" in troubles["Ann"]
+
+
+@pytest.mark.parametrize("name", ["núñezana", "कुमारराज", "สมชาย", "שרהכהן", "李伟"])
+def test_canvas_names_in_every_script_have_their_owner(tmp_path: Path, name: str):
+    for at, form in enumerate(("NFC", "NFD")):
+        file = f"{unicodedata.normalize(form, name)}_{at + 1}_50{at}_work.zip"
+        classes.put(tmp_path / "class" / file, packed.as_zip({"integrators.py": f"x = {at}\n"}))
+    rows = 'Student,ID,SIS Login ID,Section\n"A, B",1,ann,x\n"C, D",2,ben,x\n'
+    people = people_of(tmp_path / "list.csv", rows)
+    assert [each.name for each in taken(tmp_path / "class", people).found] == ["ann", "ben"]
+
+
+def test_the_same_upload_twice_is_one(tmp_path: Path):
+    content = packed.as_zip(WORK)
+    put(tmp_path, {"leeann_1_10_work.zip": content, "leeann_1_11_work-1.zip": content})
+    (found,) = taken(tmp_path).found
+    assert dict(pack(found).files)["integrators.py"] == SOURCE.encode()
+
+
+def test_a_blackboard_user_with_an_underscore_is_known_without_a_receipt(tmp_path: Path):
+    people = people_of(
+        tmp_path / "list.csv", "Last Name,First Name,Username\nSix,Kay,kl_6\nSeven,Lea,6\n"
+    )
+    name = "Lab_1_kl_6_attempt_2026-05-04-23-59-00_integrators.py"
+    assert [each.name for each in taken(put(tmp_path / "class", {name: SOURCE}), people).found] == [
+        "kl_6"
+    ]
+
+
+def test_of_attempts_at_unread_times_none_is_the_last(tmp_path: Path):
+    start = "1001-77 - Jane Doe - "
+    put(tmp_path / "a", {f"{start}4 mai 2026 0930/integrators.py": "x = 1\n"})
+    put(tmp_path / "a", {f"{start}15 mai 2026 0930/integrators.py": SOURCE})
+    (found,) = taken(tmp_path / "a").found
+    assert dict(pack(found).files)["integrators.py"] == SOURCE.encode()
+    put(tmp_path / "b", {f"{start}4 kvetna 2026 0930/integrators.py": "x = 1\n"})
+    put(tmp_path / "b", {f"{start}15 kvetna 2026 0930/integrators.py": SOURCE})
+    intake = taken(tmp_path / "b")
+    assert not intake.found and "when is not read" in intake.troubles["Jane Doe_1001-77"]
+
+
+def test_a_groups_folder_is_its_members(tmp_path: Path):
+    people = people_of(
+        tmp_path / "list.csv",
+        "Username,Last Name,First Name,Group\nu1,Lee,Ann,Group 3\nu2,Poe,Ben,Group 3\n",
+    )
+    name = "1006-77 - Group 3 - May 4, 2026 1159 PM/integrators.py"
+    found = taken(put(tmp_path / "class", {name: SOURCE}), people).found
+    assert [each.name for each in found] == ["u1", "u2"]
+
+
+MOMENTS = {
+    "Monday, 4 May 2026, 11:59 PM": (23, 59),
+    "Monday, May 4, 2026, 11:59 PM": (23, 59),
+    "Montag, 4. Mai 2026, 23:59": (23, 59),
+    "lundi 4 mai 2026, 23:59": (23, 59),
+    "lunes, 4 de mayo de 2026, 23:59": (23, 59),
+    "lunedì, 4 maggio 2026, 23:59": (23, 59),
+    "maandag, 4 mei 2026, 23:59": (23, 59),
+    "segunda-feira, 4 de maio de 2026 às 23:59": (23, 59),
+    "May 4, 2026 1159 PM": (23, 59),
+    "4 May, 2026 1205 AM": (0, 5),
+    "May 4, 2026 905 AM": (9, 5),
+    "2026 May 4 2359": (23, 59),
+    "2026-05-04 23:59": (23, 59),
+}
+
+
+@pytest.mark.parametrize("words", MOMENTS)
+def test_times_are_read_in_the_language_of_the_reader(words: str):
+    assert moment(words) == datetime(2026, 5, 4, *MOMENTS[words])
+
+
+def test_no_time_is_guessed():
+    for words in ("", "-", "4/5/2026 23:59", "30 February 2026, 11:59 PM", "May 4, 2026"):
+        assert moment(words) is None
+    assert moment("4 May 2026, 13:59 PM") is None and moment("4 foo 2026, 13:59") is None
+    told = [moment(f"3 {month} 2026, 10:00") for month in ("juin", "juillet", "mars", "août")]
+    assert [each.month for each in told if each] == [6, 7, 3, 8]
+
+
+# ---------------------------------------------------------------- class lists and marks
+
+GERMAN = (
+    "ID,Vollständiger Name,E-Mail-Adresse,Status,Bewertung,Bestwertung,"
+    "Bewertung kann geändert werden,Zuletzt geändert (Abgabe),Zuletzt geändert (Bewertung),"
+    "Feedback als Kommentar\n"
+    'Teilnehmer/in401,Jörg Müller,j@x.de,,,"20,00",Ja,"Montag, 4. Mai 2026, 23:59",-,\n'
+    'Teilnehmer/in402,Hans_Peter Groß,h@x.de,,,"20,00",Ja,-,-,\n'
+)
+
+
+def scores(**points: int) -> dict[str, Parts]:
+    return {name.replace("__", "@"): {"engine": Part(each, 20)} for name, each in points.items()}
+
+
+@pytest.mark.parametrize("letters", ["utf-8", "utf-8-sig", "cp1252", "utf-16"])
+def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters: str):
+    classes.put(tmp_path / "list.csv", GERMAN.encode(letters))
+    roster = read_roster(tmp_path / "list.csv")
+    people = ClassList(roster)
+    put(tmp_path / "class", {"Jörg Müller_401_assignsubmission_file_/integrators.py": SOURCE})
+    (found,) = taken(tmp_path / "class", people).found
+    assert (found.name, found.handed_in) == ("j@x.de", datetime(2026, 5, 4, 23, 59))
+    made = marks(roster, roster.key(), {"j@x.de": {"engine": Part(12, 20)}}, MARKING)
+    content = made.text.encode(made.encoding)
+    assert content.decode("utf-8-sig").splitlines()[0] == GERMAN.splitlines()[0]
+    first, second = gradebooks.rows_of(content)
+    assert (first["ID"], first["Bewertung"], second["Bewertung"]) == (
+        "Teilnehmer/in401",
+        "12.0",
+        "0",
+    )
+    assert first["Zuletzt geändert (Bewertung)"] == "-"
+
+
+def test_windows_letters_are_asked_about(tmp_path: Path):
+    classes.put(tmp_path / "list.csv", GERMAN.encode("cp1252"))
+    (fault,) = faults_of_course(Files(roster=tmp_path / "list.csv"))
+    assert "is not UTF-8" in fault and "Vollständiger" in fault
+
+
+def test_semicolons_and_the_line_that_names_them(tmp_path: Path):
+    text = 'sep=;\r\n"Lab, all";Username;Last Name;First Name\r\n;ann;Lee;Ann\r\n'
+    classes.put(tmp_path / "list.csv", text)
+    assert read_roster(tmp_path / "list.csv").columns[1:] == ["Username", "Last Name", "First Name"]
+
+
+@pytest.mark.parametrize("number", ["1.23E+05", "1,23457E+11"])
+def test_identifiers_that_a_spreadsheet_destroyed_are_refused(tmp_path: Path, number: str):
+    classes.put(tmp_path / "list.csv", f'Email address,ID number\na@x.edu,"{number}"\n')
+    with pytest.raises(CannotRead, match="which a spreadsheet made of a number"):
+        read_roster(tmp_path / "list.csv")
+
+
+@pytest.mark.parametrize("start", [b"PK\x03\x04", b"\xd0\xcf\x11\xe0"])
+def test_a_workbook_is_called_so_whatever_its_name(tmp_path: Path, start: bytes):
+    (tmp_path / "list.csv").write_bytes(start + b"\0" * 50)
+    with pytest.raises(CannotRead, match="is a spreadsheet's own file: export"):
+        read_roster(tmp_path / "list.csv")
+
+
+def test_zeros_that_a_spreadsheet_took_are_no_other_student(tmp_path: Path):
+    classes.put(tmp_path / "list.csv", "ID number,Last name,First name\n123,Lee,Ann\n7,Poe,Bo\n")
+    roster = read_roster(tmp_path / "list.csv")
+    assert ClassList(roster).name_of(["ID number"], "00123") == "123"
+    made = marks(roster, "ID number", {"00123": {"engine": Part(12, 20)}}, MARKING)
+    assert [line.split(",")[3] for line in made.text.splitlines()[1:]] == ["12.0", "0"]
+    classes.put(tmp_path / "two.csv", "ID number,Last name,First name\n123,L,A\n0123,P,B\n")
+    two = ClassList(read_roster(tmp_path / "two.csv"))
+    assert two.name_of(["ID number"], "0123") == "0123" and not two.name_of(["ID number"], "00123")
+
+
+def test_a_list_in_no_known_language_is_known_by_its_addresses(tmp_path: Path):
+    classes.put(
+        tmp_path / "list.csv", "Imię,Nazwisko,Adres e-mail\nAnna,Lis,a@x.pl\nJan,Kot,j@x.pl\n"
+    )
+    assert read_roster(tmp_path / "list.csv").key() == "Adres e-mail"
+    classes.put(tmp_path / "none.csv", "Imię,Nazwisko\nAnna,Lis\nJan,Kot\n")
+    with pytest.raises(CannotRead, match="call the column that identifies students"):
+        read_roster(tmp_path / "none.csv").key()
+
+
+def test_canvas_with_names_in_two_columns(tmp_path: Path):
+    head = "LastName,FirstName,ID,SIS Login ID,Section,Physics engine (77)\n"
+    rows = ",,,,,Manual Posting\n    Points Possible,,,,,20\nLee,Ann,1,ann,A,\n"
+    classes.put(tmp_path / "list.csv", head + rows + "Student,Test,99,,A,\n")
+    roster = read_roster(tmp_path / "list.csv")
+    assert (roster.kind, roster.possible) == ("canvas", True)
+    assert [row["SIS Login ID"] for row in roster.rows] == ["ann"]
+    made = marks(roster, "SIS Login ID", scores(ann=12), MARKING)
+    title, possible, ann = made.text.splitlines()
+    assert (title, possible) == (head.strip(), "    Points Possible,,,,,20")
+    assert ann == "Lee,Ann,1,ann,A,12.0"
+
+
+@pytest.mark.parametrize("most", ["20,00", "20.00"])
+def test_marks_that_moodle_would_leave_out_are_told(tmp_path: Path, most: str):
+    """Its worksheet takes none above the assignment's maximum, and does not say so."""
+    head = "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Feedback comments\n"
+    rows = (
+        f'Participant 1,Ann Lee,ann@x.de,,,"{most}",\nParticipant 2,Ben Öz,ben@x.de,,,"{most}",\n'
+    )
+    classes.put(tmp_path / "list.csv", head + rows)
+    roster = read_roster(tmp_path / "list.csv")
+    given = {"ann@x.de": {"engine": Part(21, 20)}, "ben@x.de": {"engine": Part(20, 20)}}
+    (note,) = marks(roster, roster.key(), given, MARKING).notes
+    assert note.startswith("ann@x.de: above 20, which Moodle's worksheet leaves out")
+    more = marks(roster, roster.key(), given, Marking("Physics engine", {"engine": 1}, 30)).notes
+    assert any("counts to 20 there" in each for each in more)
+
+
+def test_nobody_has_handed_in_nothing_while_some_work_has_no_owner(tmp_path: Path):
+    classes.put(tmp_path / "list.csv", "Username,Last Name,First Name\nann,L,A\nkl_6,S,K\n")
+    roster = read_roster(tmp_path / "list.csv")
+    stranger = scores(ann=12) | {"6": {"engine": Part(20, 20)}}
+    made = marks(roster, "Username", stranger, MARKING)
+    assert made.given == 1 and any("kl_6: no mark, as that may be" in note for note in made.notes)
+    assert [line.split(",")[3] for line in made.text.splitlines()[1:]] == ["12.0", ""]
+    sure = marks(roster, "Username", stranger, MARKING, others_known=True)
+    assert sure.given == 2 and "kl_6: nothing handed in" in sure.notes
+
+
+def test_moodle_reads_the_number_behind_a_name_with_an_underscore():
+    source = Path("Hans_Peter Groß_402_assignsubmission_file_")
+    assert moodle.NAME.fullmatch(source.name)
+    returned = Returned(Found("h", (source,)), None, b"page")  # type: ignore[arg-type]
+    ((name, page),) = for_moodle(source, [returned])
+    parts = name.split("_", 4)  # as Moodle's own importer takes a name apart
+    assert (parts[1:4], parts[4], page) == (
+        ["402", "assignsubmission", "file"],
+        "feedback.html",
+        b"page",
+    )
+
+
+def test_a_program_that_cannot_be_imported_is_said_in_the_table():
+    words = ("error", 0, 2, "import integrators", "an answer", "SyntaxError: y")
+    check = CheckResult("a", "a", "unit", *words)
+    todo = TodoResult("8a", "a", "error", 0, 4, None, [check, check])
+    result = Result(1, "ann", 0, 4, 0, [], [todo])
+    assert not_imported(result) == ["import integrators fails: SyntaxError: y"]
+
+
+def test_two_hundred_students_and_nobody_is_lost(tmp_path: Path):
+    rows = ["Email address,Last name,First name"]
+    for number in range(200):
+        rows.append(f"s{number}@x.edu,Lee{number % 50},Ann")  # four of each name
+        work = io.BytesIO()
+        with zipfile.ZipFile(work, "w") as archive:
+            archive.writestr("integrators.py", f"points = {number}\n")
+        if number % 10:
+            classes.put(tmp_path / "class" / f"s{number}@x.edu.zip", work.getvalue())
+    people = people_of(tmp_path / "list.csv", "\n".join(rows))
+    intake = taken(tmp_path / "class", people)
+    names = [each.name for each in intake.found]
+    assert len(names) == 180 and len(people.absent(names)) == 20 and not intake.troubles
+    assert not people.unlisted(names)
+
+
+# ---------------------------------------------------------------- a .rar as its makers pack it
+
+RAR = (  # 1,271 bytes of integrators.py in 156, by their own program
+    "UmFyIRoHAQDz4YLrCwEFBwAGAQGAgIAALbmmaCQCAtMABvcJpIMCgA6Aab4xLEWABQEOaW50ZWdyYXRv"
+    "cnMucHnEzlA1RDQvdQM5yimkSk5EUw0LkDQd8IbhL/FnFLdQGpbmbtVZDknl71P2q1IdNk1yzSOZI6zk"
+    "nYQia09BMWfQLW7Fj/XglnuAOUN8fBVl36xWcB13VlEDBQQA"
+)
+LINE = b"# the same line many times, so that there is something to pack\n"
+UNPACKER = """\
+#!{python}
+import sys
+if "--version" in sys.argv or "i" in sys.argv[1:2]:
+    sys.exit(0)
+assert sys.argv[-1 - (not sys.argv[-1].endswith(".rar"))].endswith(".rar") and "--" not in sys.argv
+sys.stdout.buffer.write({content!r})
+"""
+
+
+def tools_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, **tools: bytes) -> Found:
+    """A packed .rar, on a machine whose unpackers give these bytes."""
+    (tmp_path / "bin").mkdir()
+    for name, content in tools.items():
+        path = tmp_path / "bin" / name
+        path.write_text(UNPACKER.format(python=sys.executable, content=content), encoding="utf-8")
+        path.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
+    return Found("ann", (tmp_path / "work.rar",))
+
+
+def test_a_packed_rar_without_a_tool_names_what_is_missing(tmp_path: Path, monkeypatch):
+    with pytest.raises(CannotTake, match="install one of unrar, unar, 7z and bsdtar"):
+        pack(tools_alone(tmp_path, monkeypatch))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="scripts are no programs there")
+def test_a_tool_that_cannot_leaves_it_to_the_next_one(tmp_path: Path, monkeypatch):
+    content = SOURCE.encode() + 20 * LINE
+    found = tools_alone(tmp_path, monkeypatch, **{"7z": b"Cannot open", "bsdtar": content})
+    assert dict(pack(found).files)["integrators.py"] == content
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="scripts are no programs there")
+def test_what_no_tool_unpacks_is_not_laid_to_the_student(tmp_path: Path, monkeypatch):
+    with pytest.raises(CannotTake, match="broken, or 7z cannot unpack it here"):
+        pack(tools_alone(tmp_path, monkeypatch, **{"7z": b"Cannot open"}))
+
+
+@pytest.mark.skipif(not shutil.which("unrar") and not shutil.which("bsdtar"), reason="no tool here")
+def test_a_packed_rar_is_read(tmp_path: Path):
+    classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
+    package = pack(Found("ann", (tmp_path / "work.rar",)))
+    assert dict(package.files)["integrators.py"] == SOURCE.encode() + 20 * LINE

@@ -1,0 +1,327 @@
+"""What is of the lab in what was handed in: in archives of all kinds, anywhere, under any name."""
+
+import tarfile
+from pathlib import Path
+
+import packed
+import pytest
+
+from grader.bank.members import members
+from grader.intake import repack
+from grader.intake.found import CannotTake, Found, Package
+from grader.intake.listing import opened_class
+from grader.intake.packing import opened_submission, pack
+from grader.intake.pieces import original
+from grader.judge.grade import KIT
+from grader.judge.submission import CannotGrade, plain_files
+
+PROGRAM: packed.Files = {
+    "mini_engine/__init__.py": "from mini_engine.solver import *\n",
+    "mini_engine/solver.py": "# mine\n",
+    "integrators.py": "x = 1\n",
+    "pymunk_scene.py": "y = 1\n",
+}
+ALL = sorted(PROGRAM)
+
+
+def write(folder: Path, files: packed.Files) -> Found:
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(packed.as_bytes(content))
+    return Found("ann", (folder,))
+
+
+def one(tmp_path: Path, name: str, content: bytes) -> Found:
+    (tmp_path / name).write_bytes(content)
+    return Found("ann", (tmp_path / name,))
+
+
+def names(package: Package) -> list[str]:
+    return [name for name, _ in package.files]
+
+
+def under(folder: str, files: packed.Files = PROGRAM) -> packed.Files:
+    return {f"{folder}/{name}": content for name, content in files.items()}
+
+
+# ---------------------------------------------------------------- archives
+
+KINDS = {
+    "zip": packed.as_zip,
+    "tar": lambda files: packed.as_tar(files, ""),
+    "tar.gz": packed.as_tar,
+    "tgz": packed.as_tar,
+    "tar.bz2": lambda files: packed.as_tar(files, "bz2"),
+    "tar.xz": lambda files: packed.as_tar(files, "xz"),
+    "7z": packed.as_7z,
+    "rar": packed.as_rar,
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_archives_of_all_kinds_are_read(tmp_path, kind):
+    found = one(tmp_path, f"ann.{kind}", KINDS[kind](under("work")))
+    assert {name: content.decode() for name, content in pack(found).files} == PROGRAM
+
+
+def test_an_archive_is_what_it_is_whatever_its_name_says(tmp_path):
+    assert names(pack(one(tmp_path, "a.zip", packed.as_rar(PROGRAM)))) == ALL
+    assert names(pack(one(tmp_path, "b.zip", packed.as_7z(PROGRAM)))) == ALL
+    assert names(pack(one(tmp_path, "c.rar", packed.as_tar(PROGRAM)))) == ALL
+
+
+def test_a_class_of_archives_is_a_class(tmp_path):
+    kinds = {f"{kind.replace('.', '')}.{kind}": make(PROGRAM) for kind, make in KINDS.items()}
+    write(tmp_path / "class", kinds)
+    with opened_class(tmp_path / "class") as taken:
+        assert [each.name for each in taken.found] == sorted(k.replace(".", "") for k in KINDS)
+        assert not taken.troubles
+
+
+@pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])
+def test_no_archive_reaches_outside(tmp_path, kind):
+    for name in ("../up.py", "a/../../up.py"):
+        found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {name: "x"}))
+        with pytest.raises(CannotTake, match=r"outside|broken"):
+            pack(found)
+    assert [path.name for path in tmp_path.iterdir()] == [f"ann.{kind}"]
+
+
+@pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])
+def test_what_is_no_archive_is_a_sentence(tmp_path, kind):
+    good = KINDS[kind](PROGRAM)
+    for content in (b"", b"hello", good[: len(good) // 2], good[:20] + bytes(200)):
+        with pytest.raises(CannotTake, match=r"broken|holds no file"):
+            pack(one(tmp_path, f"ann.{kind}", content))
+
+
+def test_an_encrypted_archive_asks_for_one_without_a_password(tmp_path):
+    with pytest.raises(CannotTake, match="password"):
+        pack(one(tmp_path, "ann.7z", packed.as_7z(PROGRAM, password="secret")))
+
+
+def test_links_in_a_tar_are_left_out(tmp_path):
+    links = []
+    for name, kind, to in (
+        ("passwords.txt", tarfile.SYMTYPE, "/etc/passwd"),
+        ("shadow.txt", tarfile.LNKTYPE, "/etc/shadow"),
+        ("pipe", tarfile.FIFOTYPE, ""),
+    ):
+        link = tarfile.TarInfo(name)
+        link.type, link.linkname = kind, to
+        links.append(link)
+    assert names(pack(one(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links)))) == ALL
+
+
+@pytest.mark.parametrize("kind", ["tar.xz", "7z"])
+def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
+    bomb = bytes(repack.MAX_FILE + 1)
+    found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
+    package = pack(found)
+    assert names(package) == ALL and package.notes == ["left out big.bin: too much"]
+
+
+def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
+    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(repack.MAX_FILE + 1)}
+    (tmp_path / "class.tgz").write_bytes(packed.as_tar(large))
+    with pytest.raises(CannotGrade, match=r"ben\.zip is too large: unpack it"):
+        opened_class(tmp_path / "class.tgz").__enter__()
+
+
+@pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])
+def test_a_bomb_of_many_files_is_refused(tmp_path, kind, monkeypatch, capsys):
+    path = tmp_path / "ann"
+    path.write_bytes(KINDS[kind]({f"{number}.bin": bytes(300) for number in range(4)}))
+    monkeypatch.setattr(repack, "limit", lambda: None)
+    for bound in ("MAX_BYTES", "MAX_FILES"):
+        with monkeypatch.context() as patch:
+            patch.setattr(repack, bound, 1000 if bound == "MAX_BYTES" else 3)
+            assert repack.main(str(path), str(tmp_path / "out")) == repack.REFUSED
+        assert "too much" in capsys.readouterr().out
+
+
+def test_a_library_that_is_not_here_is_named(monkeypatch):
+    with pytest.raises(repack.Refused, match=r"\.7z needs no_such_library.*pip install"):
+        repack.library("no_such_library", ".7z")
+
+
+# ---------------------------------------------------------------- at any depth
+
+
+def test_the_programs_may_lie_anywhere(tmp_path):
+    deep = write(tmp_path, under("a/b/c/d/e/f"))
+    assert names(pack(deep)) == ALL and not pack(deep).notes
+
+
+def test_a_folder_for_each_program_is_put_together_and_said(tmp_path):
+    package = pack(
+        write(
+            tmp_path,
+            {
+                "1-6/mini_engine/__init__.py": "",
+                "task 7/pymunk_scene.py": "",
+                "task 7/helper.py": "",
+                "task 8/integrators.zip": packed.as_zip({"integrators.py": "x = 1"}),
+            },
+        )
+    )
+    wanted = ["helper.py", "integrators.py", "mini_engine/__init__.py", "pymunk_scene.py"]
+    assert names(package) == wanted
+    assert any("task 7/pymunk_scene.py is taken as pymunk_scene.py" in n for n in package.notes)
+
+
+def test_one_program_beside_an_archive_of_the_others(tmp_path):
+    others = {name: text for name, text in PROGRAM.items() if name != "integrators.py"}
+    for number, kind in enumerate(("zip", "7z", "rar")):
+        found = write(
+            tmp_path / str(number),
+            {"integrators.py": "x = 1\n", f"engine.{kind}": KINDS[kind](others)},
+        )
+        assert names(pack(found)) == ALL
+
+
+def test_an_archive_that_cannot_be_read_is_not_passed_over(tmp_path):
+    found = write(tmp_path, {"integrators.py": "x = 1\n", "engine.rar": "Rar!\x1a\x07\x01\x00"})
+    with pytest.raises(CannotTake, match=r"engine\.rar: the archive"):
+        pack(found)
+
+
+def test_beside_all_programs_an_archive_is_mentioned_and_not_opened(tmp_path):
+    package = pack(write(tmp_path, PROGRAM | {"old.zip": "no zip"}))
+    assert "old.zip was not opened: all programs lie beside it" in package.notes
+
+
+def test_a_folder_around_the_work_may_bear_a_programs_name(tmp_path):
+    package = pack(write(tmp_path, under("mini_engine")))
+    assert names(package) == ALL
+
+
+def test_the_nearer_of_two_counts_and_the_other_is_said(tmp_path):
+    package = pack(write(tmp_path, PROGRAM | {"old/integrators.py": "x = 0\n"}))
+    assert dict(package.files)["integrators.py"] == b"x = 1\n"
+    assert any("old/integrators.py was left out" in note for note in package.notes)
+
+
+# ---------------------------------------------------------------- names that others changed
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "integrators (1).py",
+        "integrators(2).py",
+        "integrators-2.py",
+        "integrators-12.py",
+        "integrators - Copy.py",
+        "integrators - Copy (2).py",
+        "integrators - Kopie.py",
+        "integrators copy.py",
+        "integrators copy 2.py",
+        "integrators 2.py",
+        "Copy of integrators.py",
+        "integrators%20(1).py",
+        "integrators.py.txt",
+        "Integrators.py",
+    ],
+)
+def test_a_changed_name_is_taken_as_what_it_was_and_said(tmp_path, name):
+    changed = {key: text for key, text in PROGRAM.items() if key != "integrators.py"}
+    package = pack(write(tmp_path, changed | {name: "x = 1\n"}))
+    assert names(package) == ALL
+    assert f"{name} is taken as integrators.py" in package.notes
+
+
+@pytest.mark.parametrize(
+    "name", ["integrators2.py", "integrators_1.py", "my integrators.py", "integrators-old.py"]
+)
+def test_a_name_of_ones_own_stays(name):
+    assert original(name) == name
+
+
+def test_a_changed_name_inside_the_package(tmp_path):
+    changed = {key: text for key, text in PROGRAM.items() if "solver" not in key}
+    package = pack(write(tmp_path, changed | {"mini_engine/solver (1).py": "# mine\n"}))
+    assert {name: content.decode() for name, content in package.files} == PROGRAM
+
+
+@pytest.mark.parametrize("second", ["integrators (1).py", "mini_engine/solver-2.py"])
+def test_where_two_fit_a_person_must_choose_unless_they_are_the_same(tmp_path, second):
+    with pytest.raises(CannotTake, match="more than one program"):
+        pack(write(tmp_path / "two", PROGRAM | {second: "other\n"}))
+    first = second.replace(" (1)", "").replace("-2", "")
+    assert set(ALL) <= set(
+        names(pack(write(tmp_path / "same", PROGRAM | {second: PROGRAM[first]})))
+    )
+
+
+def test_the_packages_files_without_their_folder(tmp_path):
+    loose = {name.removeprefix("mini_engine/"): text for name, text in PROGRAM.items()}
+    del loose["__init__.py"]
+    package = pack(write(tmp_path, loose))
+    assert names(package) == [name for name in ALL if "__init__" not in name]
+    assert any("mini_engine" in note for note in package.notes)
+
+
+def test_the_package_in_a_folder_of_another_name(tmp_path):
+    other = {name.replace("mini_engine/", "mini_engine (1)/"): t for name, t in PROGRAM.items()}
+    assert names(pack(write(tmp_path / "a", other))) == ALL
+    other = {name.replace("mini_engine/", "my engine/"): t for name, t in PROGRAM.items()}
+    assert names(pack(write(tmp_path / "b", other))) == ALL
+
+
+def test_canvas_loose_files_of_one_name_are_for_a_person(tmp_path):
+    files = {"roebo_7_1_integrators.py": "a", "roebo_7_2_integrators.py": "b"}
+    write(tmp_path / "class", files)
+    with (
+        opened_class(tmp_path / "class") as taken,
+        pytest.raises(CannotTake, match="more than one"),
+    ):
+        pack(taken.found[0])
+
+
+def test_a_second_of_an_lms_is_known_again(tmp_path):
+    write(tmp_path / "class", {"roebo_7_1_integrators-3.py": "a", "roebo_7_2_helper-1.py": ""})
+    with opened_class(tmp_path / "class") as taken:
+        package = pack(taken.found[0])
+    assert names(package) == ["helper.py", "integrators.py"]
+    assert package.notes == ["integrators-3.py is taken as integrators.py"]
+
+
+# ---------------------------------------------------------------- the bank
+
+
+def test_what_deserves_points_is_taken_in_whole(tmp_path):
+    """No right submission of the bank loses a file or meets a doubt on its way in."""
+    for member in members(KIT):
+        if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
+            member.build(KIT, tmp_path / member.name)
+            package = pack(Found("ann", (tmp_path / member.name,)))
+            there = {
+                path.relative_to(tmp_path / member.name).as_posix()
+                for path in plain_files(tmp_path / member.name)
+            }
+            assert {name for name, _ in package.files} >= there - backups(there), member.name
+
+
+def backups(names: set[str]) -> set[str]:
+    return {name for name in names if " copy" in name or "Copy" in name}
+
+
+# ---------------------------------------------------------------- one submission
+
+
+def test_one_folder_is_laid_out_as_one_of_a_class_is(tmp_path):
+    write(tmp_path / "well", PROGRAM | {"old/integrators.py": "x = 0\n"})
+    write(tmp_path / "deep", under("work", {"integrators (1).py": "x = 1\n"}))
+    write(tmp_path / "two", PROGRAM | {"integrators (1).py": "x = 2\n"})
+    write(tmp_path / "none", {"notes.txt": ""})
+    said: list[str] = []
+    for name in ("well", "none"):
+        with opened_submission(tmp_path / name, said.append) as folder:
+            assert folder == tmp_path / name and not said
+    with opened_submission(tmp_path / "deep", said.append) as folder:
+        assert folder.name == "deep" and (folder / "integrators.py").read_text() == "x = 1\n"
+    assert said == ["work/integrators (1).py is taken as integrators.py"]
+    with pytest.raises(CannotGrade, match="more than one"), opened_submission(tmp_path / "two"):
+        pass

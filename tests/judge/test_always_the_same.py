@@ -1,0 +1,169 @@
+"""The same submission gives the same JSON, whatever the machine is like (most in `make soak`)."""
+
+import multiprocessing
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grader.bank.members import Member, members
+from grader.judge.drawing import EXAMPLES, judge_settings, seeded
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.report.files import as_json
+
+
+@contextmanager
+def busy_machine() -> Iterator[None]:
+    """Every core has something else to do."""
+    context = multiprocessing.get_context("spawn")
+    hogs = [context.Process(target=count_for_ever) for _ in range(multiprocessing.cpu_count())]
+    for hog in hogs:
+        hog.start()
+    try:
+        yield
+    finally:
+        for hog in hogs:
+            hog.kill()
+            hog.join()
+
+
+def count_for_ever() -> None:
+    while True:
+        pass
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("tree", ["solution", "starter"])
+def test_twenty_grades_are_one(tree: str):
+    options = Options(shipped_reference())
+    idle = {as_json(grade(KIT / tree, options)) for _ in range(10)}
+    with busy_machine():
+        busy = {as_json(grade(KIT / tree, options)) for _ in range(10)}
+    assert len(idle | busy) == 1
+
+
+def drawn(seed: int | None = None) -> list[tuple[float, int]]:
+    """What a property of the judge's would be tried on."""
+    examples = []
+    with judge_settings(), seeded(a_property, seed):
+        a_property(note=lambda *example: examples.append(example))
+    return examples
+
+
+@given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))  # under the settings of this test run
+def a_property(note, x: float, n: int) -> None:
+    note(x, n)
+
+
+def test_a_property_draws_by_the_judges_settings_whoever_loaded_it():
+    usual = drawn()
+    assert len(usual) == EXAMPLES and drawn() == usual
+
+
+def test_a_seed_is_forgotten_after_the_grade():
+    usual = drawn()
+    assert drawn(seed=3) == drawn(seed=3) != usual
+    assert drawn() == usual
+
+
+def test_what_hypothesis_did_before_in_this_process_changes_no_example(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Hypothesis likes the numbers it finds in modules; ours must not depend on who loaded them."""
+    usual = drawn()
+    numbers = ", ".join(f"{n}, {n}.125" for n in range(70000, 70400))
+    (tmp_path / "numbers_of_a_neighbour.py").write_text(f"NUMBERS = [{numbers}]")
+    monkeypatch.syspath_prepend(tmp_path)
+    import numbers_of_a_neighbour  # noqa: F401
+
+    another = given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))(lambda x, n: None)
+    settings(max_examples=20, database=None)(another)()
+    assert drawn() == usual
+
+
+@pytest.fixture(scope="module")
+def submission(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One that gets some of the points, with words about the others."""
+    return built("4-clamps-the-increment", tmp_path_factory.mktemp("bank") / "submission")
+
+
+def built(name: str, folder: Path) -> Path:
+    member: Member = next(each for each in members(KIT) if each.name == name)
+    member.build(KIT, folder)
+    return folder
+
+
+def graded(submission: Path, python: str = sys.executable, **environment: str) -> bytes:
+    """The JSON of a grader of its own, in another environment."""
+    target = submission.parent / "result.json"
+    command = [python, "-m", "grader", "grade", str(submission), "--json", str(target)]
+    environment = {**os.environ, "PYTHONPATH": str(KIT), **environment}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 1, done.stdout + done.stderr
+    return target.read_bytes()
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    "environment",
+    [
+        {"COLUMNS": "20"},
+        {"COLUMNS": "400", "NO_COLOR": "1", "TERM": "dumb"},
+        {"TZ": "Pacific/Kiritimati"},
+        {"LC_ALL": "tr_TR.UTF-8", "LANG": "tr_TR.UTF-8"},
+        {"PYTHONUTF8": "0", "LC_ALL": "C"},
+        {"PYTHONHASHSEED": "4711"},
+        {
+            "SDL_VIDEODRIVER": "x11",
+            "HYPOTHESIS_PROFILE": "ci",
+            "PYTEST_ADDOPTS": "-x --collect-only",
+        },
+    ],
+    ids=lambda names: ",".join(names),
+)
+def test_the_environment_changes_nothing(submission: Path, environment: dict[str, str]):
+    assert graded(submission, **environment) == graded(submission)
+
+
+@pytest.mark.soak
+def test_the_order_of_files_changes_nothing(submission: Path, tmp_path: Path):
+    backwards = tmp_path / "submission"
+    for path in sorted(submission.rglob("*"), reverse=True):
+        if path.is_file():
+            target = backwards / path.relative_to(submission)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, target)
+    assert graded(backwards) == graded(submission)
+
+
+@pytest.mark.soak
+@pytest.mark.skipif(
+    not shutil.which("taskset"), reason="only taskset, of Linux, gives a command a single core"
+)
+def test_the_number_of_cores_changes_nothing(submission: Path):
+    program = ["taskset", "-c", "0"]
+    target = submission.parent / "one-core.json"
+    command = [*program, sys.executable, "-m", "grader", "grade", str(submission), "--json", target]
+    subprocess.run(command, env=os.environ | {"PYTHONPATH": str(KIT)}, capture_output=True)
+    assert target.read_bytes() == graded(submission)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14"])
+def test_the_version_of_python_changes_nothing(submission: Path, tmp_path: Path, version: str):
+    found = shutil.which(f"python{version}")
+    if found is None or subprocess.run([found, "-c", ""], capture_output=True).returncode:
+        pytest.skip(f"Python {version} is not installed; it is compared where it is")
+    subprocess.run([found, "-m", "venv", tmp_path / "venv"], check=True)
+    folder = "Scripts" if sys.platform == "win32" else "bin"
+    python = str(tmp_path / "venv" / folder / "python")
+    install = [python, "-m", "pip", "install", "--quiet", "-r", str(KIT / "requirements.txt")]
+    subprocess.run(install, check=True)
+    assert graded(submission, python) == graded(submission)

@@ -1,0 +1,266 @@
+"""What a submission costs the judge is bounded: the memory of its children, of its answers, texts,
+sources and results. Thresholds are far above what honest work takes and far below what hurts.
+"""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.bank.members import members
+from grader.bank.verify import shared_worker
+from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.names import MOST, Names
+from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import Submission, find_todos
+from grader.player.replay import grade_with_replays
+from grader.protocol import MAX_MESSAGE, Answered, Limits, Ready, cut
+from grader.source import definitions
+from grader.source.definitions import MAX_READ, Program
+from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parsed, shape_of
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the most memory")
+
+# ---------------------------------------------------------------- answers
+
+
+def texts_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.StrType]:
+    """All types of text in a type of message."""
+    if isinstance(kind, msgspec.inspect.StrType):
+        yield kind
+    if not isinstance(kind, msgspec.inspect.Type) or getattr(kind, "cls", None) in seen:
+        return
+    if isinstance(kind, msgspec.inspect.StructType):
+        seen.add(kind.cls)
+    inner = [getattr(kind, name, None) for name in ("item_type", "key_type", "value_type")]
+    inner += getattr(kind, "types", ()) or ()
+    inner += getattr(kind, "item_types", ()) or ()
+    inner += [field.type for field in getattr(kind, "fields", ())]
+    for each in inner:
+        yield from texts_in(each, seen)
+
+
+@pytest.mark.parametrize("message", [Answered, Ready])
+def test_every_text_that_a_child_sends_has_a_greatest_length(message: type):
+    found = list(texts_in(msgspec.inspect.type_info(message), set()))
+    assert found and all(each.max_length for each in found)
+
+
+def test_a_text_that_is_cut_says_so():
+    assert cut("abc", 3) == "abc" and cut("abcd", 3) == "ab…"
+
+
+def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path):
+    """So its memory is at most that of one: RLIMIT_AS, and the scratch folder in memory."""
+    member = next(each for each in members(KIT) if each.todos == {"8a"} and each.kind == "wrong")
+    tree = tmp_path / "tree"
+    member.build(KIT, tree)
+    worker = shared_worker()
+    most, now = 0, 0
+
+    class Counting:
+        layers = worker.layers
+        pid_of = staticmethod(worker.pid_of)
+
+        def open(self, setup):
+            nonlocal most, now
+            child = worker.open(setup)
+            child.worker = self
+            now += 1
+            most = max(most, now)
+            return child
+
+        def end(self, child, gone):
+            nonlocal now
+            now -= 1
+            return worker.end(child, gone)
+
+    options = Options(shipped_reference(), only=frozenset({"8a"}))
+    replays = tmp_path / "replays"
+    result = grade_with_replays(tree, options, replays, Counting())
+    assert result.points < result.max_points and any(replays.iterdir())
+    assert (most, now) == (1, 0)
+    assert Limits().memory_mb + Limits().scratch_mb <= 1100
+
+
+# ---------------------------------------------------------------- sources
+
+LONG = "0;" * (MAX_SOURCE // 2)
+
+
+def test_what_is_longer_than_a_program_is_not_parsed():
+    assert parsed(LONG) is not None
+    assert parsed(LONG + "0") is None
+    assert shape_of("0;" * MAX_SHAPE) == ("0;" * MAX_SHAPE)
+
+
+def program_of(**files: str) -> Program:
+    return Program({Path(f"{name}.py"): text for name, text in files.items()})
+
+
+CIRCLES = {
+    "stars": {f"m{n}": f"from m{n + 1} import *\nfrom m{n + 2} import *\n" for n in range(200)},
+    "names": {"m0": "f = f0\n" + "".join(f"f{n} = f{n + 1}\n" for n in range(5000))},
+    "modules": {f"m{n}": f"from m{n + 1} import f" for n in range(400)},
+    "classes": {"m0": "".join(f"class C{n}(C{n + 1}): pass\n" for n in range(3000)) + "f = C0.f"},
+    "elif": {"m0": "if a: pass\n" + "elif a: pass\n" * 1200},
+    "dots": {"m0": f"import {'.'.join('a' * 60_000)}"},
+    "number": {"m0": f"a[0x{'f' * 50_000}] = f"},
+    "operators": {"m0": f"{'-' * 900}a.b = f\na{'.b' * 900} = f\nclass A(a{'.b' * 900}): pass"},
+}
+
+
+@pytest.mark.parametrize("name", CIRCLES)
+def test_a_name_that_leads_far_is_not_followed_for_ever(name: str):
+    """Each of these took hours, gigabytes or ended the judge."""
+    program = program_of(**CIRCLES[name])
+    for path in ("f", "World.f", "A.f"):
+        found = program.definition("m0", path)
+        assert found is None or found.function is None
+        assert len(program.found) <= 10_000
+
+
+def test_files_are_read_up_to_a_sum(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(definitions, "MAX_READ", 30)
+    program = program_of(a="from b import f", b="from c import f", c="def f(): pass  # far")
+    assert program.definition("a", "f") is not None
+    assert program.unread == [Path("c.py")]
+    assert program.read <= 30
+
+
+def test_who_has_a_file_too_long_is_told(tmp_path: Path):
+    (tmp_path / "integrators.py").write_text("#" * (MAX_SOURCE + 1), encoding="utf-8")
+    submission = Submission("x", tmp_path)
+    find_todos(submission, load_rubric(), {})
+    (said,) = submission.unread
+    assert said.startswith("integrators.py has 129 KB and was not looked into")
+
+
+def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
+    """A name like the one that is missing is told; a million of them are not gone through."""
+    package = tmp_path / "mini_engine"
+    package.mkdir()
+    few = "".join(f"def effective_mas{number}(a): pass\n" for number in range(50))
+    (package / "solver.py").write_text(few, encoding="utf-8")
+    todo = next(each for each in load_rubric().todos if each.id == "2")
+    check = CheckResult("x", "x", "unit", "not yet", 0, 1, got="there is no effective_mass")
+    assert "renamed?" in Names(tmp_path).hint(todo, "mini_engine", check)
+    for file in range(20):
+        many = "".join(f"def effective_mas{file}x{n}(): pass\n" for n in range(2_000))
+        (package / f"more_{file}.py").write_text(many, encoding="utf-8")
+    names = Names(tmp_path)
+    assert "renamed?" in names.hint(todo, "mini_engine", check)
+    assert len(names.of("mini_engine")) <= MOST
+    assert names.changed("mini_engine") is names.changed("mini_engine")
+
+
+# ---------------------------------------------------------------- results
+
+
+@pytest.mark.parametrize("letter", ["x", "\x01", "\U0001f600", '"'])
+def test_a_result_is_never_longer_than_a_megabyte(letter: str):
+    words = letter * 10**5
+    check = CheckResult("c", "A check", "unit", "not yet", 0, 1, words, words, words, words)
+    there = msgspec.structs.replace(check, where=Where(letter * 4000, 1))
+    todos = [TodoResult("1", "One", "not yet", 0, 60, None, [check, there] * 60)] * 2
+    result = Result(1, "n" * 255, 0, 120, 0, [], todos).in_bounds()
+    assert len(msgspec.json.encode(result)) <= MAX_JSON
+
+
+def test_a_result_of_usual_length_stays_as_it_is():
+    check = CheckResult("c", "A check", "unit", "not yet", 0, 1, "x" * 2000, where=Where("a.py", 1))
+    result = Result(1, "n", 0, 1, 0, [], [TodoResult("1", "One", "not yet", 0, 1, None, [check])])
+    assert result.in_bounds() == result
+
+
+# ---------------------------------------------------------------- the judge's own process
+
+MEASURE = """
+import resource, sys
+import msgspec
+from pathlib import Path
+from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.result import MAX_JSON
+only = frozenset(sys.argv[1].split(","))
+for tree in map(Path, sys.argv[2:]):
+    result = grade(tree, Options(shipped_reference(), only=only, trusted=True))
+    assert len(msgspec.json.encode(result)) <= MAX_JSON
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    print(used.ru_maxrss // 1024, used.ru_utime + used.ru_stime)
+"""
+
+
+def cost(todos: str, *trees: Path) -> list[tuple[int, float]]:
+    """After each of these grades, the most memory of the judge so far (MB), and its seconds."""
+    command = [sys.executable, "-c", MEASURE, todos, *map(str, trees)]
+    told = subprocess.run(command, capture_output=True, text=True, check=True, cwd=KIT)
+    lines = [line.split() for line in told.stdout.splitlines()]
+    return [(int(memory), float(seconds)) for memory, seconds in lines]
+
+
+def tree_with(folder: Path, files: dict[str, str]) -> Path:
+    folder.mkdir()
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.soak
+@LINUX
+def test_sources_cost_the_judge_little(tmp_path: Path):
+    """Six megabytes at once, many files of what may be parsed, and f-strings that parse slowly."""
+    solved = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    inside = "0;" * (MAX_SOURCE // 2 - 50)
+    fields = f'f"{"{0}" * (MAX_SOURCE // 3 - 50)}"'
+    all_of = "".join(f"import part{number}\n" for number in range(100))
+    trees = [
+        tree_with(tmp_path / "plain", {"integrators.py": solved}),
+        tree_with(tmp_path / "large", {"integrators.py": solved, "notes.py": "0;" * 3 * 10**6}),
+        tree_with(
+            tmp_path / "many",
+            {"integrators.py": f"{solved}\nif 0:\n    from part0 import *\n" + all_of}
+            | {f"part{number}.py": inside for number in range(100)},
+        ),
+        tree_with(
+            tmp_path / "slow",
+            {"integrators.py": solved.replace("import", f"{all_of}import", 1)}
+            | {f"part{number}.py": fields for number in range(100)},
+        ),
+    ]
+    (plain, before), *others = cost("8a", *trees)
+    for memory, seconds in others:
+        assert memory - plain < 300
+        assert seconds - before < 30
+        before = seconds
+
+
+@pytest.mark.soak
+@LINUX
+def test_answers_cost_the_judge_little(tmp_path: Path):
+    names = {
+        *("sends-a-million-lists", "sends-long-words", "answers-by-the-megabyte"),
+        *("names-things-by-the-megabyte", "raises-megabytes", "floods-the-output"),
+    }
+    trees = [tmp_path / "0-solution"]
+    tree_with(trees[0], {"integrators.py": (KIT / "solution" / "integrators.py").read_text()})
+    for member in members(KIT):
+        if member.name in names:
+            names.remove(member.name)
+            member.build(KIT, tmp_path / member.name)
+            trees.append(tmp_path / member.name)
+    assert not names
+    (plain, before), *others = cost("8a,8b", *trees)
+    for memory, seconds in others:
+        assert memory - plain < 400
+        assert seconds - before < 30
+        before = seconds
+
+
+def test_the_bounds_are_what_the_page_says():
+    page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
+    assert f"a message of {MAX_MESSAGE >> 20} MB and" in page
+    assert f"{MAX_SOURCE >> 10} KB" in page and f"{MAX_READ >> 20} MB of sources" in page

@@ -1,0 +1,201 @@
+"""What a submission may use up in all: little is left for who has used much, and then nothing."""
+
+import os
+import shutil
+import signal
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from grader.judge import children
+from grader.judge.budget import (
+    END_CPU,
+    END_REST,
+    LITTLE_CPU,
+    LITTLE_REST,
+    REST,
+    SUBMISSION_CPU,
+    SUBMISSION_REST,
+    TODO_CPU,
+    TODO_REST,
+    WORDS_CPU,
+    WORDS_REST,
+    Budget,
+)
+from grader.judge.children import busy_seconds
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.rubric import load_rubric
+from grader.player.replay import grade_with_replays
+
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of queues")
+
+
+@dataclass
+class Used:
+    """Stands in for a connection that has ended."""
+
+    cpu: float = 0.0
+    rested: float = 0.0
+    heard: int = 0
+
+
+def test_who_has_used_nothing_has_what_is_usual():
+    budget = Budget()
+    budget.charge("1", Used(0.3, 0.1))
+    assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST)
+    assert not budget.cut and not budget.why_little("1")
+
+
+def test_a_todo_that_used_much_has_little_left_and_the_others_all():
+    budget = Budget()
+    budget.charge("1", Used(cpu=TODO_CPU))
+    assert budget.cpu_for("1", 20) == LITTLE_CPU and budget.cpu_for("2", 20) == 20
+    budget.charge("2", Used(rested=TODO_REST))
+    assert budget.rest_for("2") == LITTLE_REST and budget.rest_for("3") == REST
+    assert "this TODO" in budget.why_little("1") and not budget.why_little("3")
+
+
+def test_a_submission_that_used_much_has_little_left_and_then_nothing():
+    budget = Budget()
+    for todo in range(4):
+        budget.charge(str(todo), Used(cpu=SUBMISSION_CPU / 4))
+    assert budget.cpu_for("8a", 5) == LITTLE_CPU and not budget.cut
+    budget.charge("4", Used(cpu=END_CPU - SUBMISSION_CPU))
+    assert "90 s of processor time" in budget.cut
+    resting = Budget()
+    resting.charge("1", Used(rested=SUBMISSION_REST))
+    assert resting.rest_for("8a") == LITTLE_REST and not resting.cut
+    resting.charge("2", Used(rested=END_REST - SUBMISSION_REST))
+    assert "rested for 32 s" in resting.cut
+
+
+def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
+    rubric = load_rubric()
+    last = max(check.cpu_seconds for todo in rubric.todos for check in todo.checks)
+    assert END_CPU + last + 10 <= 120  # s; ten for the judge, which needs two
+    checks = sum(len(todo.checks) for todo in rubric.todos)
+    assert min(END_REST + REST, SUBMISSION_REST + REST + checks * LITTLE_REST) + 10 <= 60
+
+
+@LINUX
+def test_a_process_that_waits_for_a_processor_is_busy():
+    """Two loops on one processor: each has worked or queued all the time, a sleeper has not."""
+    one = min(os.sched_getaffinity(0))
+    loops = [spawned(one, "while True: pass") for _ in range(2)]
+    sleeper = spawned(one, "import time; time.sleep(60)")
+    try:
+        before = [busy_seconds(pid) for pid in (*loops, sleeper)]
+        signal.sigtimedwait([], 1.5)
+        after = [busy_seconds(pid) for pid in (*loops, sleeper)]
+        worked = [b - a for a, b in zip(before, after, strict=True)]
+        assert min(worked[:2]) > 1.2 and worked[2] < 0.75
+    finally:
+        for pid in (*loops, sleeper):
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+
+
+def spawned(processor: int, code: str) -> int:
+    pin = f"import os; os.sched_setaffinity(0, [{processor}])\n"
+    return os.posix_spawn(sys.executable, [sys.executable, "-c", pin + code], os.environ)
+
+
+@pytest.mark.soak  # ten seconds of it
+@LINUX
+def test_a_todo_that_runs_in_circles_leaves_the_others_their_points(tmp_path: Path):
+    """Two checks of 8a are cut; the third of their program is none of its business."""
+    tree = tmp_path / "tree"
+    shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks"))
+    path = tree / "integrators.py"
+    text = path.read_text(encoding="utf-8")
+    begun = "    v = v + accel(x) * dt\n"
+    assert text.count(begun) == 1
+    path.write_text(text.replace(begun, "    while True:\n        pass\n"), encoding="utf-8")
+    only = frozenset({"8a", "8b"})
+    result = grade(tree, Options(shipped_reference(), only=only))
+    assert [todo.points for todo in result.todos] == [0, 2]
+    assert all("processor time" in check.got for check in result.todos[0].checks)
+
+
+def test_time_in_which_the_judge_itself_waits_for_a_processor_is_nobodys_rest(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    """On a busy machine an answer lies there until the judge's turn comes."""
+    queued = {os.getpid(): 2.0}
+    monkeypatch.setattr(children, "seconds_in_queue", lambda pid: queued[pid])
+    monkeypatch.setattr(children, "busy_seconds", lambda pid: 1.0)
+    child = object.__new__(children.Child)
+    child.worker = SimpleNamespace(pid_of=lambda child: 1)
+    child.began, child.waited, child.rested, child.looked = 2.0, 10.0, 0.0, 0.0
+    queued[os.getpid()] = 9.5
+    child._look()
+    assert child.rested == pytest.approx(1.5)
+
+
+@LINUX
+def test_a_thread_that_ends_while_it_is_looked_at_is_passed_over(monkeypatch: pytest.MonkeyPatch):
+    """Others of the process are still told of; of a process that is gone, nothing is."""
+    usual = os.listdir
+    monkeypatch.setattr(os, "listdir", lambda path: ["999999999", *usual(path)])
+    assert children.seconds_in_queue(os.getpid()) >= 0
+    assert children.worked_seconds(os.getpid()) > 0
+    with pytest.raises(OSError):
+        children.seconds_in_queue(999_999_999)
+
+
+@LINUX
+def test_many_threads_that_wait_at_once_wait_once(monkeypatch: pytest.MonkeyPatch):
+    """Otherwise a hundred that queue for a second would pay for a rest of a hundred."""
+    monkeypatch.setattr(children, "schedule_of", lambda pid, what: [1.0] * 100)
+    assert children.seconds_in_queue(os.getpid()) == 1.0
+    monkeypatch.setattr(children, "schedule_of", lambda pid, what: [])
+    assert children.seconds_in_queue(os.getpid()) == 0.0
+
+
+def test_words_and_pictures_have_a_time_of_their_own():
+    budget = Budget()
+    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
+    assert budget.has_more
+    budget.charge_for_words(Used(cpu=WORDS_CPU / 2))
+    assert not budget.has_more and not budget.cut and budget.cpu_for("1", 20) == 20
+    budget = Budget()
+    budget.charge_for_words(Used(rested=WORDS_REST))
+    assert not budget.has_more and budget.rest_for("1") == REST
+
+
+SLOW = """
+    import sys, time, ctypes
+    frame = sys._getframe()
+    while frame is not None:
+        camera = frame.f_locals.get("camera")
+        if {where} and not getattr(sys, "rested", False):
+            sys.rested = True
+            ctypes.CDLL(None).usleep(1_900_000)
+        frame = frame.f_back
+    return x + 1, v
+"""
+
+
+@pytest.mark.soak
+@LINUX
+def test_who_rests_only_in_pictures_rests_a_few_times(tmp_path: Path):
+    """The marks are decided by then, and nobody's time is charged for them."""
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    for todo in ("8a", "8b", "8c"):
+        begin, end = text.index(f"    # TODO {todo}"), text.index(f"    # END TODO {todo}")
+        text = (
+            text[:begin]
+            + f"    # TODO {todo}: x"
+            + SLOW.format(where="getattr(camera, 'film', None)")
+            + text[end:]
+        )
+    tree = tmp_path / "tree"
+    tree.mkdir()
+    (tree / "integrators.py").write_text(text, encoding="utf-8")
+    only = frozenset({"8a", "8b", "8c"})
+    result = grade_with_replays(tree, Options(shipped_reference(), only=only), tmp_path / "pages")
+    replays = [check.replay for todo in result.todos for check in todo.checks]
+    assert result.points == 0 and None in replays and any(replays)

@@ -1,0 +1,573 @@
+"""A course of one's own: what it takes, what follows from it, and what is wrong in its file."""
+
+import importlib
+import io
+import json
+import re
+import shutil
+import zipfile
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import msgspec
+import pytest
+import typer
+from conftest import KIT
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.console import Console
+from typer.testing import CliRunner
+
+from grader.bank.members import every_member, members
+from grader.bank.verify import grade_member, shared_worker, verify
+from grader.classroom.adjustments import load_adjustments
+from grader.classroom.batch import Run
+from grader.classroom.book import Book, Outcome, as_table
+from grader.classroom.fingerprint import key_of
+from grader.classroom.gradescope import write_autograder
+from grader.classroom.gradescope.autograder import Settings
+from grader.classroom.marks import load_marking
+from grader.cli import student
+from grader.cli.hand_in import PROGRAMS
+from grader.cli.main import app
+from grader.intake.found import Found, Intake
+from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread
+from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import CannotGrade
+from grader.judge.wording import told
+from grader.release.build import build, wrong_submissions
+from grader.release.handed_out import students_tree, write_tree
+from grader.release.handouts import handouts_of
+from grader.release.leaks import leaks_in_text, secrets_of
+from grader.release.nbgrader_course import make_course
+from grader.release.notebooks import notebooks_of
+from grader.release.pages import anchor
+from grader.report.sinks.gradescope import gradescope
+from grader.source.regions import regions_in
+
+COURSES = {path.stem: read_course(path) for path in (KIT / "tests" / "courses").glob("*.toml")}
+EVERY = typer.Typer()
+for each in (app, student.app):
+    EVERY.add_typer(each)
+CHEAP = "integrators"
+EACH = [
+    pytest.param(course, id=name, marks=[pytest.mark.soak] if name != CHEAP else [])
+    for name, course in COURSES.items()
+]
+
+
+def graded(path: Path, course: Course) -> Result:
+    return grade(path, Options(shipped_reference(), course=course), shared_worker())
+
+
+# ---------------------------------------------------------------- what it takes
+
+
+def test_the_shipped_course_is_all_there_is():
+    shipped = read_course(KIT / "course.toml")
+    assert shipped.rubric == load_rubric() == FULL.rubric
+    assert (shipped.out_of, shipped.bonus, shipped.due, shipped.visible) == (
+        100,
+        "apart",
+        None,
+        None,
+    )
+    assert shipped.given == []
+
+
+def test_an_empty_file_is_all_there_is(tmp_path: Path):
+    (tmp_path / "course.toml").touch()
+    assert read_course(tmp_path / "course.toml").rubric == load_rubric()
+
+
+@pytest.mark.parametrize(
+    ("written", "due"),
+    [
+        ("2027-05-04", "2027-05-04T23:59:59-12:00"),
+        ("2027-05-04T18:00:00", "2027-05-04T18:00:00-12:00"),
+        ("2027-05-04T18:00:00+02:00", "2027-05-04T18:00:00+02:00"),
+    ],
+)
+def test_a_date_without_a_zone_is_over_where_it_is_over_last(
+    tmp_path: Path, written: str, due: str
+):
+    (tmp_path / "course.toml").write_text(f"due = {written}\n")
+    assert read_course(tmp_path / "course.toml").due == datetime.fromisoformat(due)
+
+
+@given(st.lists(st.integers(1, 9), min_size=1, max_size=12), st.integers(1, 60))
+def test_points_are_spread_in_whole_numbers(weights: list[int], points: int):
+    shares = spread(points, weights)
+    assert sum(shares) == points and min(shares) >= 0
+    assert 0 not in shares or points < len(weights)
+    assert spread(sum(weights), weights) == weights
+
+
+def test_points_follow_the_proportions_of_the_rubric():
+    assert spread(20, [2, 2, 1]) == [8, 8, 4]
+    assert spread(3, [3, 1, 1, 1, 1]) == [1, 1, 1, 0, 0]
+    assert spread(7, [9, 1, 1]) == [5, 1, 1]
+
+
+def test_todos_stand_in_the_order_of_the_rubric_and_points_add_up():
+    course = Course(todos=("8c", "1", "B2", "4"), points={"1": 20, "8c": 1})
+    assert [(todo.id, todo.max_points) for todo in course.rubric.todos] == [
+        ("1", 20),
+        ("4", 10),
+        ("8c", 1),
+        ("B2", 3),
+    ]
+    assert course.rubric.max_points == 31
+
+
+def test_the_whole_program_has_the_checks_of_its_programs():
+    course = COURSES["without-pymunk"]
+    whole = next(todo for todo in course.rubric.todos if todo.id == "whole")
+    assert whole.max_points == 10
+    assert {check.module or whole.module for check in whole.checks} == {"mini_engine"}
+    few = next(t for t in Course(todos=("6", "whole")).rubric.todos if t.id == "whole")
+    assert {need for check in few.checks for need in check.needs} == {"6"}
+    stages = next(check for check in few.checks if check.id.startswith("a_step_keeps"))
+    assert stages.guard, "its TODOs are given: alone it is worth nothing"
+
+
+def test_bonus_tasks_are_left_out_or_added():
+    assert not any(todo.bonus for todo in Course(bonus="left out").rubric.todos)
+    assert [Course(bonus=5).added(points) for points in (0, 4, 9)] == [0, 4, 5]
+    assert Course().added(9) == 0
+
+
+# ---------------------------------------------------------------- what is wrong in its file
+
+WRONG = {
+    "todos = []": "todos = [] must name TODOs",
+    'todos = "1"': "must name TODOs",
+    'todos = ["9"]': "there is no TODO '9'",
+    "todos = [4]": "there is no TODO 4; write in quotes",
+    'todos = [["1"]]': "there is no TODO",
+    'todos = ["1", "1"]': "1 stands there 2 times",
+    'todos = ["B1", "whole"]': "add one of TODO 1 to 8c",
+    'todos = ["8a", "whole"]': 'leave "whole" out',
+    "points = [1]": "must be a table",
+    "points = { 9 = 3 }": "9 is no TODO",
+    'todos = ["1"]\npoints = { 4 = 3 }': "4 is not among the todos",
+    "points = { 4 = 0 }": "4 = 0 must be a whole number",
+    "points = { 4 = 2.5 }": "4 = 2.5 must be a whole number",
+    "points = { 4 = true }": "4 = True must be a whole number",
+    "[points]\nout_of = 20": "out_of stands below [points]",
+    "out_of = 0": "out_of = 0 must be a number above 0",
+    "out_of = nan": "out_of = nan must be a number above 0",
+    'bonus = "some"': "bonus = 'some' must be",
+    "bonus = true": "bonus = True must be",
+    'due = "tomorrow"': "must be a date without quotes",
+    "due = 12:30:00": "must be a date without quotes",
+    "due = 2027-05-04T12:00:00Z\nvisible = 2027-05-03T12:00:00Z": "is before due",
+    "due = 2027-05-04\nvisible = 2027-05-04": "is before due",  # its end, and its beginning
+    "late = 5": "must be a table",
+    "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
+    "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
+    "late = { per_day = -5 }": "per_day = -5 must be a whole number",
+    'late = { per_day = "5" }': 'must be points, or a share as "10%"',
+    "late = { cap = 80.5 }": "cap = 80.5 must be a whole number",
+    "late = { grace = 5 }": "must be a table",
+    "[late]\nper_day = 5\ndue = 2027-05-04T12:00:00Z": "write it above that line",
+    "colour = 1": "there is no key colour; there are title, todos",
+    "title = 3": "title = 3 is no title",
+    "title =": "is no TOML",
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_what_is_wrong_is_said_in_one_sentence_that_names_the_file(text: str, tmp_path: Path):
+    path = tmp_path / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(WrongCourse) as wrong:
+        read_course(path)
+    said = str(wrong.value)
+    assert str(path) in said and WRONG[text] in said and "\n" not in said
+
+
+def test_a_course_that_is_not_there_or_no_text_is_refused(tmp_path: Path):
+    with pytest.raises(WrongCourse, match="there is no course at"):
+        read_course(tmp_path / "none.toml")
+    (tmp_path / "bytes.toml").write_bytes(b'title = "\xff"')
+    with pytest.raises(WrongCourse, match="is no TOML"):
+        read_course(tmp_path / "bytes.toml")
+
+
+@pytest.mark.parametrize("command", ["grade solution", "check starter", "hint --todo 1"])
+def test_a_wrong_course_stops_a_command_before_it_does_anything(command: str, tmp_path: Path):
+    (tmp_path / "mine.toml").write_text('todos = ["9"]', encoding="utf-8")
+    words = command.replace("solution", str(KIT / "solution")).split()
+    done = CliRunner().invoke(EVERY, [*words, "--course", str(tmp_path / "mine.toml")])
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "there is no TODO '9'" in " ".join(done.stderr.split())
+
+
+def test_the_course_comes_from_the_environment_as_make_gives_it(tmp_path: Path):
+    words = ["grade", str(KIT / "starter"), "--json", str(tmp_path / "r.json")]
+    done = CliRunner().invoke(
+        EVERY, words, env={"COURSE_FILE": str(KIT / "tests" / "courses" / f"{CHEAP}.toml")}
+    )
+    assert done.exit_code == 1
+    result = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
+    assert (result["points"], result["max_points"]) == (0, 40)
+    assert [todo["id"] for todo in result["todos"]] == ["8a", "8b", "8c"]
+
+
+# ---------------------------------------------------------------- marks
+
+
+@pytest.mark.parametrize("course", EACH)
+def test_the_solution_earns_all_and_what_is_handed_out_nothing(course: Course, tmp_path: Path):
+    write_tree(students_tree(KIT, course), tmp_path / "handed-out")
+    most = course.rubric.max_points
+    full = graded(KIT / "solution", course)
+    assert (full.points, full.max_points) == (most, most)
+    assert full.bonus == sum(todo.max_points for todo in course.rubric.todos if todo.bonus)
+    assert [todo.id for todo in full.todos] == [todo.id for todo in course.rubric.todos]
+    for tree in (KIT / "starter", tmp_path / "handed-out"):
+        nothing = graded(tree, course)
+        assert (nothing.points, nothing.bonus, nothing.max_points) == (0, 0, most)
+        assert {todo.state for todo in nothing.todos} == {"not started"}
+
+
+@pytest.mark.soak
+def test_a_stub_of_what_is_given_takes_nothing_from_the_whole_program(hand_in):
+    """A starter of another course, in which only what this one asks for was done."""
+    course = Course(todos=("6", "whole"))
+    done = {"mini_engine__game_loop_py": (KIT / "solution/mini_engine/game_loop.py").read_text()}
+    result = graded(hand_in("starter", **done), course)
+    assert (result.points, result.max_points) == (20, 20)
+
+
+def test_the_points_of_the_class_follow_from_the_course():
+    outcome = Outcome("ann", points=30, max_points=40, todos={"8a": 10, "8b": 20, "B1": 4})
+    found = Found("ann", (), handed_in=datetime(2027, 5, 6, tzinfo=UTC))
+    due = datetime(2027, 5, 5, tzinfo=UTC)
+    course = Course(todos=("8a", "8b", "8c", "B1"), bonus=3, due=due)
+    run = Run(Intake([found]), Book(Path("x")), "", load_adjustments(None, course), course)
+    run.record("graded", found, outcome)
+    assert (run.outcomes[0].final, run.outcomes[0].reasons) == (33, ["bonus: +3", "1 day late: 0"])
+    head = as_table(run.outcomes, course).splitlines()[0]
+    assert head.endswith("trouble,notes,group,8a,8b,8c,B1")
+
+
+def test_a_decision_goes_before_the_courses_rules_line_by_line(tmp_path: Path):
+    due = datetime(2027, 5, 5, tzinfo=UTC)
+    course = Course(due=due, late=Late(10, 50, cap=80))
+    assert load_adjustments(None, course).late == Late(10, 50, cap=80, due=due)
+
+    def decided(text: str) -> Late | None:
+        (tmp_path / "adjustments.toml").write_text(text, encoding="utf-8")
+        return load_adjustments(tmp_path / "adjustments.toml", course).late
+
+    later = due + timedelta(days=2)
+    moved = decided("[late]\ndue = 2027-05-07T00:00:00Z")
+    assert moved == Late(10, 50, cap=80, due=later)
+    assert decided('[late]\nper_day = "5%"\ngrace = 9') == Late("5%", 50, 9, cap=80, due=due)
+    assert decided("[late]\nper_day = 0") == Late(0, 50, cap=80, due=due)
+    assert decided('zone = "Europe/Berlin"') == Late(10, 50, cap=80, due=due)
+
+
+def test_the_courses_due_date_can_be_extended(tmp_path: Path):
+    due = datetime(2027, 5, 5, tzinfo=UTC)
+    path = tmp_path / "adjustments.toml"
+    decision = "[[adjust]]\nstudent = 'ann'\nreason = 'ill'\ndue = 2027-05-0{}T00:00:00Z\n"
+    found = Found("ann", (), handed_in=due + timedelta(days=3))
+    path.write_text(decision.format(8), encoding="utf-8")
+    course = Course(due=due, late=Late("10%"))
+    assert load_adjustments(path, course).final(found, 80).points == 80
+    assert load_adjustments(None, course).final(found, 80).points == 80 - 24
+    with pytest.raises(CannotGrade, match="has a due to extend"):
+        load_adjustments(path)
+    path.write_text(decision.format(4), encoding="utf-8")
+    with pytest.raises(CannotGrade, match="is before the others'"):
+        load_adjustments(path, course)
+
+
+def test_a_bonus_by_hand_counts_as_the_course_counts_a_bonus(tmp_path: Path):
+    path = tmp_path / "adjustments.toml"
+    path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'shown'\nbonus = 4\n")
+    outcome = Outcome("ann", points=30, max_points=40, todos={"8a": 30, "B1": 2})
+    finals = []
+    for bonus in ("apart", "left out", 5, 50):
+        course = Course(bonus=bonus)
+        run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
+        run.record("graded", Found("ann", ()), outcome)
+        finals.append((run.outcomes[0].final, run.outcomes[0].bonus))
+    assert finals == [(30, 6), (30, 6), (35, 6), (36, 6)]
+
+
+def test_points_by_hand_are_the_mark_whatever_the_bonus_and_nobody_has_one_by_it(tmp_path: Path):
+    path = tmp_path / "adjustments.toml"
+    path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'seen'\npoints = 101\n")
+    with pytest.raises(CannotGrade, match="more than the 100"):
+        load_adjustments(path)
+    course = Course(bonus=3, todos=("8a", "8b", "B1"), points={"8a": 50, "8b": 49})
+    run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
+    run.record("graded", Found("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
+    run.record("trouble", Found("ben", ()), Outcome("ben", "broken"))
+    run.nothing_handed_in(["ann"])
+    assert [(each.mark, each.reasons) for each in run.comparable(run.outcomes)] == [
+        (101, ["seen: set to 101"]),
+        (None, []),
+        (101, ["seen: set to 101"]),
+    ]
+    assert [each.max_points for each in run.comparable(run.outcomes)] == [99, 0, 99]
+
+
+def test_gradebooks_scale_to_what_the_course_says(tmp_path: Path):
+    course = COURSES["without-pymunk"]
+    settings = KIT / "handouts" / "instructor" / "marks.toml"
+    marking = load_marking(settings, course)
+    assert (marking.title, marking.total) == ("Engine and integrators", 20)
+    assert load_marking(settings, read_course(KIT / "course.toml")).total == 100
+    (tmp_path / "marks.toml").write_text('title = "x"\ntotal = 7\n[shares]\nengine = 1')
+    own = load_marking(tmp_path / "marks.toml", course)
+    assert (own.title, own.total) == ("x", 7)
+
+
+def test_gradescope_has_the_courses_score():
+    result = Result(1, "ann", 47, 94, 7, [], [])
+    told = json.loads(gradescope(result, COURSES["without-pymunk"]))
+    assert told["score"] == round((47 + 5) * 20 / 94, 2)
+    assert told["output"].endswith("11.06 of 20")
+    assert json.loads(gradescope(result))["score"] == 47
+
+
+def test_what_a_course_asks_decides_what_is_graded_again_and_its_title_does_not():
+    options = Options(course=COURSES[CHEAP])
+    assert key_of(options) != key_of(Options())
+    named = replace(options, course=Course("x", COURSES[CHEAP].todos, COURSES[CHEAP].points))
+    assert key_of(named) == key_of(options)
+
+
+def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
+    day = datetime(2027, 5, 11, tzinfo=UTC)
+    course = Course(visible=day)
+    todo = course.rubric.todos[0]
+    checks = [
+        CheckResult(each.id, "x", each.kind, "not yet", 0, each.points, "r", "e", "g", "m")
+        for each in todo.checks
+    ]
+    one = TodoResult("1", "x", "not yet", 0, 16, None, checks)
+    result = Result(1, "ann", 0, 16, 0, [], [one])
+    assert told(result, course, day) == result == told(result, FULL)
+    before = told(result, course, day - timedelta(seconds=1)).todos[0]
+    hidden = {each.id for each in todo.checks if each.hidden}
+    assert hidden
+    for check, full in zip(before.checks, checks, strict=True):
+        if check.id in hidden:
+            words = ("", "", "shown from 11 May 2027 00:00 (UTC) on", "")
+            assert (check.ran, check.expected, check.got, check.meaning) == words
+            assert (check.state, check.points) == (full.state, full.points)
+        else:
+            assert check == full
+
+
+# ---------------------------------------------------------------- what students get
+
+
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_what_is_left_out_comes_done_with_a_line_that_says_so(course: Course):
+    files = students_tree(KIT, course)
+    texts = {name: files[name].decode() for name in files if name.endswith(".py")}
+    left = {region.id for text in texts.values() for region in regions_in(text)}
+    assert left == {todo.id for todo in course.rubric.todos if todo.function}
+    for todo in course.given:
+        (text,) = (text for text in texts.values() if f"what TODO {todo.id} asks for" in text)
+        assert not re.search(rf"# (END )?TODO {todo.id}\b", text)
+        compile(text, todo.id, "exec")
+
+
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_no_page_asks_for_what_is_left_out(course: Course):
+    pages = handouts_of(KIT / "handouts", course)
+    readme = students_tree(KIT, course)["README.md"].decode()
+    modules = {todo.module for todo in load_rubric().todos} - set(course.modules)
+    for page in (pages["lab-sheet.md"], pages.get("bonus.md", ""), readme):
+        for todo in course.given:
+            assert not re.search(
+                rf"TODO[= ]{todo.id}\b|--todo {todo.id}\b|^\| \[?{todo.id}\b", page, re.M
+            )
+        for module in modules:
+            assert not re.search(rf"(?<!/){module}(\.py|`)", page)
+    assert ("bonus.md" in pages) == any(todo.bonus for todo in course.rubric.todos)
+
+
+TODOS = [todo.id for todo in load_rubric().todos if todo.function]
+MEASURED = ("effects.md",)  # tells of what was measured in the whole lab
+
+
+@pytest.mark.parametrize("todo", TODOS)
+def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
+    """With one bonus task there is a page of them, and not all that others link to on it."""
+    course = Course(todos=tuple(dict.fromkeys(("1", todo))))
+    texts = handouts_of(KIT / "handouts", course)
+    others = "|".join({each.id for each in course.given if each.bonus})
+    for name, text in texts.items():
+        for _, page, at in re.findall(r"(?<!!)\[([^\]]+)\]\(([\w-]+\.md)?#([\w-]+)\)", text):
+            there = texts[page or name]
+            headings = {anchor(re.sub("[`*]", "", h)) for h in re.findall(r"(?m)^#+ (.*)$", there)}
+            assert at in headings | set(re.findall(r'id="([\w-]+)"', there)), f"{name}: #{at}"
+        if name not in MEASURED:
+            assert not re.findall(rf"(?<![\w.#-])(?:{others})(?![\w-])", text), name
+
+
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
+    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    tasks = [todo for todo in course.rubric.counted if todo.function]
+    rows = re.findall(r"^\| \[(\w+)\]\([^)]*\) \| \d+ \| (\d+) \|", sheet, re.M)
+    assert rows == [(todo.id, str(todo.max_points)) for todo in tasks]
+    assert re.findall(r"^## TODO (\w+):", sheet, re.M) == [todo.id for todo in tasks]
+
+
+def test_students_are_told_until_when_and_what_to_hand_in():
+    course = Course(todos=("8a", "1"), due=datetime(2027, 5, 4, 23, 59, tzinfo=UTC))
+    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    assert "**Hand in until 4 May 2027 23:59 (UTC).**" in sheet
+    assert "`make hand-in`" in sheet and "`mini_engine` and `integrators.py`," in sheet
+
+
+def test_hand_in_packs_the_work_and_nothing_that_was_given(
+    handed_out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    shutil.copytree(handed_out, tmp_path / "mine")
+    (tmp_path / "mine" / "helpers.py").write_text("x = 1\n", encoding="utf-8")
+    (tmp_path / "mine" / "grader-1.whl").touch()
+    monkeypatch.chdir(tmp_path / "mine" / "mini_engine")
+    for name in ("a.zip", "b.zip"):
+        done = CliRunner().invoke(EVERY, ["hand-in", "--out", str(tmp_path / name)])
+        assert done.exit_code == 0, done.output
+    assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        names = archive.namelist()
+        archive.extractall(tmp_path / "unpacked")
+    assert {name.partition("/")[0] for name in names} == {
+        *("mini_engine", "pymunk_scene.py", "integrators.py", "helpers.py", "lab_runtime.py")
+    }
+    result = graded(tmp_path / "unpacked", COURSES[CHEAP])
+    assert (result.points, result.max_points) == (0, 40)
+    course = str(KIT / "tests" / "courses" / f"{CHEAP}.toml")
+    done = CliRunner().invoke(EVERY, ["hand-in", "--out", "c.zip", "--course", course])
+    assert done.exit_code == 0, done.output
+    with zipfile.ZipFile("c.zip") as archive:
+        names = archive.namelist()
+    assert names == ["helpers.py", "integrators.py", "lab_runtime.py"]
+    assert set(PROGRAMS) == {todo.module for todo in load_rubric().todos}
+
+
+def test_the_sources_of_the_site_follow_the_course(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.syspath_prepend(KIT / "handouts")
+    sources = importlib.import_module("make_site").sources
+    sources(tmp_path, False, COURSES[CHEAP])
+    hints = (tmp_path / "docs" / "hints.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## TODO (\w+):", hints, re.M) == ["8a", "8b", "8c"]
+    menu = re.findall(r": (\S+\.md)$", (tmp_path / "mkdocs.yml").read_text("utf-8"), re.M)
+    assert "lab-sheet.md" in menu and "bonus.md" not in menu
+    assert {path.name for path in (tmp_path / "docs").glob("*.md")} == set(menu)
+
+
+def test_the_pages_of_the_full_course_are_as_they_lie_there():
+    for name, page in handouts_of(KIT / "handouts", FULL).items():
+        text = (KIT / "handouts" / name).read_text(encoding="utf-8")
+        plain = re.sub(
+            r"<!--% else %-->.*?(?=<!--% endif)|<!--% elif.*?(?=<!--% endif)", "", text, flags=re.S
+        )
+        plain = re.sub(r"^<!--%.*%-->\n|<!--%.*?%-->|<!--=.*?=-->", "", plain, flags=re.M)
+        assert page.split() == plain.split(), name
+        assert "<!--%" not in page and "<!--=" not in page
+
+
+def test_notebooks_ask_what_the_course_has():
+    folder = KIT / "solution" / "notebooks"
+    every = notebooks_of(folder, FULL)
+    assert every == {path.name: path.read_bytes() for path in folder.glob("*.ipynb")}
+    engine = notebooks_of(folder, COURSES["engine"])
+    assert "integrators.ipynb" not in engine
+    cells = json.loads(engine["engine.ipynb"])["cells"]
+    assert [cell["id"] for cell in cells] == ["title", *(f"todo-{n}" for n in range(1, 7))]
+    few = notebooks_of(folder, COURSES[CHEAP])
+    assert {"integrators.ipynb", "accuracy.ipynb"} <= few.keys()
+    assert b'"quiz-3"' in few["quiz.ipynb"] and b'"quiz-5"' not in few["quiz.ipynb"]
+
+
+def test_an_nbgrader_course_holds_what_the_course_has(tmp_path: Path):
+    course = COURSES["engine"]
+    files = make_course(tmp_path, taken=course)
+    assert "engine.ipynb" in files and "integrators.ipynb" not in files
+    shares = load_marking(tmp_path / "marks.toml", course).shares
+    assert {f"{name}.ipynb" for name in shares} == {n for n in files if n.endswith(".ipynb")}
+    text = (tmp_path / "source" / "physics-engine" / "pymunk_scene.py").read_text(encoding="utf-8")
+    assert "what TODO 7a asks for elsewhere is done here" in text
+
+
+def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
+    path = tmp_path / "course.zip"
+    write_autograder(path, Settings(course=COURSES["without-pymunk"]))
+    with zipfile.ZipFile(path) as archive:
+        settings = msgspec.json.decode(archive.read("settings.json"), type=Settings)
+    assert settings.course == COURSES["without-pymunk"]
+
+
+def test_code_that_is_given_is_no_secret_and_the_rest_is():
+    course = COURSES["engine"]
+    secrets = secrets_of(KIT, course)
+    named = " ".join(secret.what for secret in secrets)
+    assert "TODO 3" in named and "TODO 7a" not in named and "TODO B1" not in named
+    for name, content in students_tree(KIT, course).items():
+        assert not [*leaks_in_text(name, content.decode("utf-8", "replace"), secrets)]
+    solution = (KIT / "solution" / "mini_engine" / "joints.py").read_text(encoding="utf-8")
+    assert [*leaks_in_text("joints.py", solution, secrets)]
+
+
+# ---------------------------------------------------------------- verify and release
+
+
+def test_verify_leaves_out_what_the_course_leaves_out():
+    names = {member.name for member in members(KIT, COURSES["engine"])}
+    assert {"4-clamps-the-increment", "starts-threads"} <= names
+    wrong = {m.name for m in members(KIT, COURSES["engine"]) if m.kind == "wrong"}
+    assert {name.partition("-")[0] for name in wrong} == set("123456")
+    assert [*members(KIT)] == [*every_member(KIT)]
+    pymunk = {m.name for m in members(KIT, COURSES["without-pymunk"]) if m.breach}
+    assert "whole-one-pass" in pymunk and "whole-pymunk-bouncy-balls" not in pymunk
+
+
+@pytest.mark.parametrize(
+    ("name", "member"),
+    [
+        (CHEAP, "8a-position-first"),
+        pytest.param("engine", "5-spin-is-not-damped", marks=pytest.mark.soak),
+    ],
+)
+def test_a_member_is_graded_by_the_course(name: str, member: str):
+    chosen = next(each for each in members(KIT, COURSES[name].as_rated) if each.name == member)
+    verdict = grade_member(chosen)
+    assert verdict.complaint == "" and verdict.result is not None
+    assert {todo.id for todo in verdict.result.todos} <= set(COURSES[name].todos or ())
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_all_of_a_courses_bank_is_as_it_must(course: Course):
+    assert verify(0, "", Console(file=io.StringIO()), course=course).sound
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
+def test_the_release_of_a_course_builds(course: Course, tmp_path: Path):
+    """Its own proof is that the students' copy gives the solution all and the tree nothing."""
+    wrong = list(wrong_submissions(tmp_path / "wrong", course))[:3]
+    built = build(tmp_path / "work", wrong, course)
+    assert [path.suffix for path in sorted(built.iterdir())][-1] == ".zip"
+    sheet = (tmp_path / "work" / "physics-engine" / "handouts" / "lab-sheet.html").read_text(
+        "utf-8"
+    )
+    for todo in course.given:
+        assert not re.search(rf"TODO[= ]{todo.id}\b", sheet)

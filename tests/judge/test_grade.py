@@ -1,0 +1,266 @@
+"""Grading one submission: the marks, the reasons, and that they are always the same."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+from mixed_trees import mixed
+
+from grader.bank.members import Entry, Member
+from grader.bank.members import members as bank
+from grader.bank.verify import shared_worker
+from grader.judge import loop
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import Result
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import CannotGrade
+from grader.report.files import as_json
+
+WITH_REFERENCE = Options(shipped_reference())
+SOAK = pytest.mark.soak
+ONLY = {todo: Options(shipped_reference(), only=frozenset({todo})) for todo in "15"}
+
+
+def graded(submission: Path, options: Options = WITH_REFERENCE) -> Result:
+    """By a worker that serves all tests: that takes half a second less."""
+    return grade(submission, options, shared_worker())
+
+
+def state(result: Result, todo: str) -> str:
+    return next(each.state for each in result.todos if each.id == todo)
+
+
+def points(result: Result, todo: str) -> int:
+    return next(each.points for each in result.todos if each.id == todo)
+
+
+# ---------------------------------------------------------------- marks
+
+
+def test_the_solution_earns_everything(solution: Result):
+    assert (solution.points, solution.max_points, solution.bonus) == (100, 100, 16)
+    assert {todo.state for todo in solution.todos} == {"passed"}
+
+
+def test_the_starter_earns_nothing(starter: Result):
+    assert (starter.points, starter.bonus) == (0, 0)
+    assert {check.points for todo in starter.todos for check in todo.checks} == {0}
+    assert {todo.state for todo in starter.todos} == {"not started"}
+
+
+@pytest.mark.parametrize("todos", [("3", "6", "7c", "8c"), pytest.param((), marks=SOAK)])
+def test_the_solution_needs_no_reference(solution: Result, todos: tuple[str, ...]):
+    alone = graded(KIT / "solution", Options(reference=None, only=frozenset(todos))).todos
+    assert alone == [each for each in solution.todos if not todos or each.id in todos]
+
+
+def test_points_add_up_and_are_whole_numbers(solution: Result):
+    for todo in solution.todos:
+        assert todo.max_points == sum(check.max_points for check in todo.checks)
+        assert all(type(check.points) is int for check in todo.checks)
+    assert solution.max_points == sum(todo.max_points for todo in solution.counted)
+
+
+def test_every_todo_of_the_design_is_in_the_rubric():
+    ids = [todo.id for todo in load_rubric().todos]
+    bonus = [f"B{number}" for number in range(1, 7)]
+    assert ids == [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c", "whole", *bonus]
+
+
+def test_every_check_has_a_title_a_student_can_read(solution: Result):
+    titles = [check.title for todo in solution.todos for check in todo.checks]
+    assert all(10 < len(title) <= 80 and not re.search("[a-z]_[a-z]", title) for title in titles), (
+        titles
+    )
+
+
+# ---------------------------------------------------------------- always the same
+
+
+@pytest.mark.parametrize("todos", [("5", "7b", "8b"), pytest.param((), marks=SOAK)])
+def test_the_portable_worker_gives_the_same_json(solution: Result, todos: tuple[str, ...]):
+    options = Options(shipped_reference(), only=frozenset(todos), spawn=True)
+    spawned = grade(KIT / "solution", options).todos
+    assert spawned == [each for each in solution.todos if not todos or each.id in todos]
+
+
+@pytest.mark.parametrize("todos", [("1", "7b", "8b"), pytest.param((), marks=SOAK)])
+def test_the_hash_seed_and_the_locale_change_nothing(
+    solution: Result, tmp_path: Path, todos: tuple[str, ...]
+):
+    target = tmp_path / "result.json"
+    environment = {**os.environ, "PYTHONHASHSEED": "1", "LC_ALL": "C", "TZ": "Asia/Kolkata"}
+    command = [sys.executable, "-m", "grader", "grade", "solution", "--json", str(target)]
+    command += [f"--todo={todo}" for todo in todos]
+    done = subprocess.run(command, cwd=KIT, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    wanted = [each for each in solution.todos if not todos or each.id in todos]
+    assert msgspec.json.decode(target.read_bytes(), type=Result).todos == wanted
+
+
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        ("8b-half-is-missing-in-x", "8-helpers-inside"),
+        pytest.param(("3-only-pulls", "8b-half-is-missing-in-x", "8-helpers-inside"), marks=SOAK),
+        pytest.param(("1-inside-normalises-zero", "3-only-pulls"), marks=SOAK),
+    ],
+)
+def test_who_was_graded_before_changes_nothing(tmp_path: Path, chosen: tuple[str, ...]):
+    """A property asks what others have passed, without drawing it anew."""
+    members = [each for each in bank(KIT) if each.name in chosen and each.form == "package"]
+    assert len(members) == len(chosen)
+    results: list[list[bytes]] = [[], []]
+    loop.passed_before.clear()
+    for again in results:
+        for member in members:
+            only = Options(shipped_reference(), only=member.todos)
+            folder = tmp_path / member.name
+            if not folder.exists():
+                member.build(KIT, folder)
+            again.append(as_json(graded(folder, only)))
+        touched = frozenset().union(*(member.todos for member in members))
+        assert graded(KIT / "solution", Options(shipped_reference(), only=touched)).complete
+        assert loop.passed_before
+    assert results[0] == results[1]
+
+
+# ---------------------------------------------------------------- what is handed in
+
+
+def test_a_missing_file_costs_its_own_todos(hand_in):
+    touched = frozenset({"6", "7a", "7b", "7c", "7d", "8a", "whole"})
+    options = Options(shipped_reference(), only=touched)
+    result = graded(hand_in("solution", pymunk_scene_py=None), options)
+    lost = {todo.id for todo in result.counted if todo.points < todo.max_points}
+    assert lost == {"7a", "7b", "7c", "7d", "whole"}
+    assert "pymunk_scene" in result.todos[1].checks[0].got
+
+
+def test_what_cannot_be_imported_is_graded_with_the_reason(hand_in):
+    result = graded(hand_in(mini_engine_py="def broken(:\n"))
+    assert result.points == 0
+    check = result.todos[0].checks[0]
+    assert check.state == "error" and "SyntaxError" in check.got
+    assert check.got.count("line 1") == 1
+    assert check.where is not None and (check.where.file, check.where.line) == ("mini_engine.py", 1)
+
+
+def test_an_empty_folder_is_graded_with_nothing(hand_in):
+    assert graded(hand_in()).points == 0
+
+
+def test_a_folder_that_is_not_there_cannot_be_graded(tmp_path: Path):
+    with pytest.raises(CannotGrade, match="nowhere"):
+        grade(tmp_path / "nowhere", WITH_REFERENCE)
+
+
+@pytest.mark.parametrize(
+    ("reference", "todos"),
+    [
+        (shipped_reference(), ["6", "7c"]),
+        pytest.param(
+            shipped_reference(), [*"12345", "7a", "7b", "7d", "8a", "8b", "8c"], marks=SOAK
+        ),
+        (None, ["5", "8a"]),
+        pytest.param(None, [*"12346", "7a", "7b", "7c", "7d", "8b", "8c"], marks=SOAK),
+    ],
+    ids=["with the reference", "with it, the others", "without", "without, the others"],
+)
+def test_one_finished_todo_earns_its_own_points(
+    tmp_path: Path, reference: Path | None, todos: list[str]
+):
+    """Each TODO of the solution, put alone into the starter, earns all of its points.
+
+    In the whole it earns what needs no other TODO, and nothing in any other TODO.
+    """
+    for todo in todos:
+        folder = mixed(tmp_path / f"only-{todo}", "starter", "solution", {todo})
+        result = graded(folder, Options(reference))
+        assert {each.id for each in result.todos if each.points} - {"whole"} == {todo}
+        assert state(result, todo) == "passed"
+        (whole,) = [each for each in result.todos if each.id == "whole"]
+        assert {check.id for check in whole.checks if check.points} == earned_in_the_whole(todo)
+
+
+def earned_in_the_whole(todo: str) -> set[str]:
+    """The checks of the whole that need this TODO at most; guards alone earn nothing."""
+    (whole,) = [each for each in load_rubric().todos if each.id == "whole"]
+    free = [check for check in whole.checks if set(check.needs) <= {todo}]
+    return set() if all(check.guard for check in free) else {check.id for check in free}
+
+
+@pytest.mark.parametrize(
+    ("todos", "asked"), [("5", "35"), pytest.param("123456", "123456", marks=SOAK)]
+)
+def test_in_one_file_too_an_unfinished_todo_costs_its_own_points(
+    tmp_path: Path, todos: str, asked: str
+):
+    engine = Options(shipped_reference(), only=frozenset(asked))
+    unfinished = tmp_path / "unfinished.py"
+    for todo in todos:
+        text = f"# TODO {todo}: to be done\nraise NotImplementedError\n# END TODO {todo}\n"
+        unfinished.write_text(text, encoding="utf-8")
+        folder = tmp_path / f"all-but-{todo}"
+        Member("wrong", todo, "package", Entry(transform="one-file"), unfinished).build(KIT, folder)
+        lost = {each.id for each in graded(folder, engine).todos if each.state != "passed"}
+        assert lost == {todo}
+
+
+def test_without_a_reference_the_whole_waits(hand_in):
+    region = "    # TODO 5: damp by a rate per second\n    pass\n    # END TODO 5\n"
+    result = graded(hand_in("starter", extra_py=region), Options(None))
+    assert state(result, "whole") in ("waiting", "not started")
+
+
+# ---------------------------------------------------------------- the words of a failed check
+
+
+def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_in):
+    source = (KIT / "solution" / "mini_engine" / "world.py").read_text(encoding="utf-8")
+    wrong = source.replace("math.exp(-self.linear_damping * dt)", "1 - 0.01")
+    wrong = wrong.replace("math.exp(-self.angular_damping * dt)", "1 - 0.01")
+    assert wrong.count("1 - 0.01") == 2
+    result = graded(hand_in("solution", mini_engine__world_py=wrong), ONLY["5"])
+    (todo,) = [each for each in result.todos if each.id == "5"]
+    check = todo.checks[0]
+    assert check.ran == "one ball, no gravity, linear_damping = 0.5, for one second"
+    assert check.expected == "60.65% of its speed left at every step size (e^-0.5)"
+    assert check.got == "54.72% at 1/60 s, 29.94% at 1/120 s, 8.96% at 1/240 s"
+    assert todo.misconception == "the-same-share-every-step"
+    assert check.meaning.startswith("The loss grows with the number of steps")
+    assert check.where is not None and check.where.file == "mini_engine/world.py"
+
+
+def test_an_exception_names_the_students_own_line(hand_in):
+    source = (KIT / "solution" / "mini_engine" / "contacts.py").read_text(encoding="utf-8")
+    wrong = source.replace("offset = closest - centre", "offset = closest - center")
+    result = graded(hand_in("solution", mini_engine__contacts_py=wrong), ONLY["1"])
+    check = result.todos[0].checks[0]
+    assert check.state == "error" and "NameError" in check.got
+    assert "offset = closest - center" in check.got
+    assert "reference" not in check.got
+
+
+# ---------------------------------------------------------------- the contract's JSON
+
+
+def test_the_json_has_the_form_of_the_contract(solution: Result):
+    document = json.loads(as_json(solution))
+    assert list(document) == [
+        *("schema", "submission", "points", "max_points", "bonus", "isolation", "todos")
+    ]
+    assert document["schema"] == 1 and document["submission"] == "solution"
+    todo = document["todos"][0]
+    assert list(todo) == [
+        *("id", "title", "state", "points", "max_points", "misconception", "checks")
+    ]
+    assert list(todo["checks"][0]) == [
+        *("id", "title", "kind", "state", "points", "max_points"),
+        *("ran", "expected", "got", "meaning", "where", "replay"),
+    ]

@@ -1,0 +1,200 @@
+"""The judge's own mishaps: it is told to end, killed, or has nowhere to write."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from grader.intake.listing import opened_class
+from grader.judge import children
+from grader.judge.children import ChildEnded, WarmWorker, start_worker
+from grader.judge.grade import KIT
+from grader.judge.workplace import PREFIX, locked, remove_leftovers, work_folder
+from grader.protocol import Call, ChildSetup, Import, Limits, Returned
+
+soak = pytest.mark.soak
+posix = pytest.mark.skipif(os.name == "nt", reason="signals and locks of POSIX")
+
+
+def hear_all_signals() -> None:
+    """What runs in the background, or under nohup, has some of them ignored from the start."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
+    """A grade with a temporary folder of its own, when the submission lies there."""
+    place.mkdir(exist_ok=True)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "grader", "grade", *(arguments or ("solution",))],
+        cwd=KIT,
+        env=os.environ | {"TMPDIR": str(place)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=hear_all_signals,
+    )
+    for _ in range(6000):
+        if any(place.glob(f"{PREFIX}*/tmp*")):  # a child has been asked for
+            return process
+        if process.poll() is not None:
+            break
+        time.sleep(0.01)
+    process.kill()
+    raise AssertionError("it did not begin to grade")
+
+
+@posix
+@pytest.mark.parametrize(
+    "name", ["SIGTERM", pytest.param("SIGHUP", marks=soak), pytest.param("SIGINT", marks=soak)]
+)
+def test_told_to_end_it_says_so_and_leaves_nothing(tmp_path: Path, name: str):
+    process = started(tmp_path / "place")
+    process.send_signal(getattr(signal, name))
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 2 and "stopped before the end" in said
+    assert list((tmp_path / "place").iterdir()) == []
+
+
+@soak
+@posix
+def test_a_class_that_is_told_to_end_leaves_nothing_either(tmp_path: Path):
+    for name in ("ann", "ben"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        program = (KIT / "solution" / "integrators.py").read_bytes()
+        (tmp_path / "class" / name / "integrators.py").write_bytes(program)
+    process = started(tmp_path / "place", "--class", str(tmp_path / "class"), "--jobs", "1")
+    process.terminate()
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 2 and "what is graded stays" in said
+    assert emptied(tmp_path / "place")  # by the process of the class's own, which ends by itself
+
+
+def emptied(folder: Path) -> bool:
+    for _ in range(2000):
+        if not any(folder.iterdir()):
+            return True
+        time.sleep(0.01)
+    return False
+
+
+@posix
+def test_what_a_killed_grade_left_goes_with_the_next(tmp_path: Path):
+    place = tmp_path / "place"
+    process = started(place)
+    helpers = psutil.Process(process.pid).children(recursive=True)
+    process.kill()
+    process.communicate()
+    psutil.wait_procs(helpers, timeout=30)  # its children end by themselves
+    (left,) = place.iterdir()
+    os.utime(left, (1, 1))  # long ago
+    living = place / f"{PREFIX}living"
+    living.mkdir()
+    os.utime(living, (1, 1))
+    stranger = place / "notes"
+    stranger.mkdir()
+    lock = locked(living)
+    remove_leftovers(str(place))
+    assert sorted(place.iterdir()) == [stranger, living]
+    assert lock is not None
+    os.close(lock)
+
+
+@posix
+def test_a_folder_that_is_in_use_is_nobodys_leftover():
+    with work_folder() as work:
+        assert locked(work) is None
+    assert not work.exists()
+
+
+@pytest.mark.parametrize("option", [pytest.param("--out", marks=soak), "--json"])
+def test_a_place_that_cannot_be_written_is_a_sentence_and_status_2(tmp_path: Path, option: str):
+    (tmp_path / "file").write_text("in the way", encoding="utf-8")
+    target = tmp_path / "file" / "below"
+    command = [sys.executable, "-m", "grader", "grade", "starter", "--todo", "8a", option]
+    done = subprocess.run([*command, str(target)], cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "cannot go on" in done.stderr and "Traceback" not in done.stderr
+    assert str(tmp_path / "file") in done.stderr.replace("\n", "")
+
+
+@soak
+@posix
+def test_a_full_disk_is_a_sentence_and_status_2(tmp_path: Path):
+    """Files of more than 100 kB are refused: the copy of a submission, as on a full disk."""
+    ann = tmp_path / "ann"
+    ann.mkdir()
+    (ann / "integrators.py").write_bytes((KIT / "solution" / "integrators.py").read_bytes())
+    (ann / "film.bin").write_bytes(bytes(200_000))
+    program = (
+        "import resource, signal, sys; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000)); "
+        "from grader.cli.main import main; sys.argv[1:] = ['grade', sys.argv[1]]; main()"
+    )
+    command = [sys.executable, "-c", program, str(ann)]
+    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 2 and "cannot go on" in done.stderr, done.stderr
+    assert "Traceback" not in done.stderr
+
+
+# ---------------------------------------------------------------- the warm process
+
+STOPS = """
+import os, signal
+def stop_the_parent():
+    os.kill(os.getppid(), signal.SIGSTOP)
+    return True
+def add(a, b): return a + b
+"""
+
+
+@posix
+def test_a_warm_process_that_was_stopped_is_replaced(tmp_path: Path, monkeypatch):
+    """As by a child, where nothing forbids it."""
+    monkeypatch.setattr(children, "STOPPED_SECONDS", 1)
+    for name in ("submission", "bytecode", "first", "second"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "submission" / "stops.py").write_text(STOPS, encoding="utf-8")
+    everything = {"landlock-files", "own-user", "system-calls", "user-namespace"}
+    worker = start_worker(without={*everything, "pid-namespace", "network-namespace"})
+    assert isinstance(worker, WarmWorker)
+
+    def opened(scratch: str):
+        submission, bytecode = str(tmp_path / "submission"), str(tmp_path / "bytecode")
+        place = str(tmp_path / scratch)
+        return worker.open(ChildSetup(submission, place, Limits(), True, [], bytecode, False))
+
+    first = opened("first")
+    first.ask(Import("stops"))
+    assert first.ask(Call("stops:stop_the_parent")).reply == Returned(True)
+    stopped = worker.process.pid
+    first.end()
+    second = opened("second")
+    assert worker.process.pid != stopped and not psutil.pid_exists(stopped)
+    second.ask(Import("stops"))
+    assert second.ask(Call("stops:add", [1, 2])).reply == Returned(3)
+    second.end()
+    worker.close()
+    with pytest.raises(ChildEnded):
+        second.ask(Import("stops"))
+
+
+# ---------------------------------------------------------------- a class of one
+
+METADATA = "work: {':submitters': [{':email': 'bob@school.edu'}]}\n"
+
+
+@pytest.mark.parametrize("inside", ["", "work/"])
+def test_a_list_inside_of_a_students_work_is_not_gradescopes(tmp_path: Path, inside: str):
+    ann = tmp_path / "class" / "ann"
+    (ann / "work").mkdir(parents=True)
+    (ann / "submission_metadata.yml").write_text(METADATA, encoding="utf-8")
+    program = (KIT / "solution" / "integrators.py").read_bytes()
+    (ann / inside / "integrators.py").write_bytes(program)
+    with opened_class(tmp_path / "class") as taken:
+        assert [each.name for each in taken.found] == ["ann"] and not taken.troubles

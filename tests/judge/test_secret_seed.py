@@ -1,0 +1,106 @@
+"""Under an instructor's secret seed nothing can be answered by heart."""
+
+from collections.abc import Iterator
+
+import msgspec
+import pytest
+
+from grader.bank.verify import shared_worker
+from grader.judge.children import Child, ChildEnded
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.lab import Lab
+from grader.judge.result import Result
+from grader.protocol import Answered, Film, Import, Request
+
+SOME = frozenset({"2", "B5"})
+ALL = frozenset[str]()
+Asked = tuple[bytes, ...]  # all that a child was asked so far
+
+encode = msgspec.msgpack.encode
+ask = Child.ask
+asked: dict[int, list[bytes]] = {}  # by the child
+
+
+def so_far(child: Child, request: Request | Film) -> Asked:
+    if isinstance(request, Import):
+        asked[id(child)] = []
+    history = asked.setdefault(id(child), [])
+    history.append(encode(request))
+    return tuple(history)
+
+
+def graded(seed: int | None, only: frozenset[str]) -> Result:
+    options = Options(shipped_reference(), seed=seed, only=only)
+    return grade(KIT / "solution", options, shared_worker())
+
+
+def right_answers(only: frozenset[str], patch: pytest.MonkeyPatch) -> dict[Asked, Answered]:
+    """What the solution answers to the usual questions."""
+    answers: dict[Asked, Answered] = {}
+
+    def ask_and_note(child: Child, request: Request | Film) -> Answered:
+        asked_so_far = so_far(child, request)
+        answers[asked_so_far] = answered = ask(child, request)
+        return answered
+
+    with patch.context() as here:
+        here.setattr(Child, "ask", ask_and_note)
+        result = graded(None, only)
+    assert (result.points, result.bonus) == (result.max_points, bonus_of(result))
+    return answers
+
+
+def bonus_of(result: Result) -> int:
+    return sum(todo.max_points for todo in result.todos if todo.id.startswith("B"))
+
+
+@pytest.mark.parametrize("only", [SOME, pytest.param(ALL, marks=pytest.mark.soak)])
+def test_who_knows_the_usual_answers_by_heart_earns_nothing_under_a_seed(
+    only: frozenset[str], monkeypatch: pytest.MonkeyPatch
+):
+    known = right_answers(only, monkeypatch)
+
+    def by_heart(child: Child, request: Request | Film) -> Answered:
+        answered = known.get(so_far(child, request))
+        if answered is None:
+            raise ChildEnded("nobody has asked that before")
+        return answered
+
+    monkeypatch.setattr(Child, "ask", by_heart)
+    usual = graded(None, only)
+    assert (usual.points, usual.bonus) == (usual.max_points, bonus_of(usual))
+    secret = graded(4711, only)
+    passed = [each.id for todo in secret.todos for each in todo.checks if each.points]
+    assert passed == []
+
+
+@pytest.mark.parametrize(
+    ("seeds", "only"),
+    [(range(1, 2), SOME), pytest.param(range(2, 40), ALL, marks=pytest.mark.soak)],
+)
+def test_right_work_keeps_every_point_under_any_seed(seeds: range, only: frozenset[str]):
+    for seed in seeds:
+        result = graded(seed, only)
+        lost = [c.got for todo in result.todos for c in todo.checks if c.points < c.max_points]
+        assert lost == []
+
+
+# ---------------------------------------------------------------- the numbers themselves
+
+
+@pytest.fixture
+def labs() -> Iterator[list[Lab]]:
+    yield [Lab("mini_engine", lambda: pytest.fail("a child"), [], secret=s) for s in ("1 a", "1 a")]
+
+
+def test_without_a_seed_numbers_are_the_usual_ones():
+    lab = Lab("mini_engine", lambda: pytest.fail("a child"), [])
+    assert [lab.about(3.0), lab.about(0.0, 8.0), lab.whole(5, 2), lab.factor] == [3.0, 0.0, 5, 1.0]
+
+
+def test_with_one_they_are_others_near_them_and_the_same_each_time(labs: list[Lab]):
+    drawn = [[*(lab.about(8.0) for _ in range(200)), lab.about(0.0)] for lab in labs]
+    assert drawn[0] == drawn[1]
+    assert all(6.0 <= each <= 10.0 and each != 8.0 for each in drawn[0][:-1])
+    assert all((64 * each).is_integer() for each in drawn[0])
+    assert {labs[0].whole(5, 2) for _ in range(100)} == {3, 4, 6, 7}

@@ -1,0 +1,189 @@
+"""Nothing that is told of a submission comes from a run in which the reference took part."""
+
+import shutil
+from collections import Counter
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.reference import Reference
+from grader.judge.rubric import Todo, load_rubric
+from grader.judge.submission import Submission, load_given
+from grader.player.replay import grade_with_replays
+from grader.report.files import as_json
+
+TOLD = 424_242.0  # px: the depth of a contact where the reference stands in
+CONTACTS = "mini_engine/contacts.py"
+BEGIN, END = "    # TODO 1", "    # END TODO 1"
+READS = """
+    from . import solver
+    code = solver.effective_mass.__code__
+    stand_ins = [each for each in code.co_consts if hasattr(each, "__closure__")]
+    return Contact(a, b, Vector2(1, 0), {told} if stand_ins else 7.25, Vector2(a.pos))
+"""
+
+
+def telling(tree: Path, told: str) -> Path:
+    """The solution, but that circle_box tells by its depth whether the reference is there."""
+    shutil.copytree(KIT / "solution", tree, ignore=shutil.ignore_patterns("notebooks"))
+    path = tree / CONTACTS
+    text = path.read_text(encoding="utf-8")
+    begin, end = text.index("\n", text.index(BEGIN)), text.index(END)
+    path.write_text(text[:begin] + READS.format(told=told) + text[end:], encoding="utf-8")
+    return tree
+
+
+def test_numbers_of_a_run_with_the_reference_are_not_told(tmp_path: Path):
+    tree, pages = telling(tmp_path / "tree", str(TOLD)), tmp_path / "pages"
+    options = Options(shipped_reference(), only=frozenset({"1"}))
+    result = grade_with_replays(tree, options, pages)
+    failed = [check for check in result.todos[0].checks if check.state == "not yet"]
+    assert len(failed) >= 5 and any("7.25" in check.got for check in failed)
+    told = as_json(result).decode() + "".join(p.read_text("utf-8") for p in pages.glob("*.html"))
+    assert "424242" not in told.replace(",", "").replace("_", "")
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("told", ['"a word"', "None", "1e300"])
+def test_nor_are_its_types(tmp_path: Path, told: str):
+    tree = telling(tmp_path / "tree", told)
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"1"})))
+    alone = grade(tree, Options(None, only=frozenset({"1"})))
+    words = [(c.ran, c.expected, c.got) for c in result.todos[0].checks if c.state == "not yet"]
+    theirs = {c.id: (c.ran, c.expected, c.got) for c in alone.todos[0].checks}
+    assert words and set(words) <= set(theirs.values())
+
+
+RAISES = """
+    import os
+    name = {name}
+    exec(compile("\\n" * 4 + "raise ValueError('no ' + chr(0xdc80))", name, "exec"))
+"""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "__file__ + '/../../../../../../etc/passwd'",
+        "os.path.dirname(__file__) + '/not-there.py'",
+        "__file__.replace('integrators', '\\u202egrators')",
+        "'/etc/passwd'",
+    ],
+)
+def test_only_files_of_the_submission_are_told_as_places(tmp_path: Path, name: str):
+    """Code may name any file as its own, and a workflow would put its error there."""
+    tree = tmp_path / "tree"
+    tree.mkdir()
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    begin = text.index("\n", text.index("    # TODO 8a"))
+    text = text[:begin] + RAISES.format(name=name) + text[begin:]
+    (tree / "integrators.py").write_text(text, encoding="utf-8")
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"8a"})))
+    for check in result.todos[0].checks:
+        assert check.state == "error" and check.got.startswith("ValueError: no \\udc80"), check
+        assert check.where is not None and check.where.file == "integrators.py"
+    assert "passwd" not in as_json(result).decode().replace(name, "")
+
+
+MET = """
+import gc, os, struct, sys
+
+def met():
+    frame = sys._getframe()
+    while frame is not None:
+        for piece in frame.f_locals.get("pieces") or ():
+            if piece.target.endswith(":velocity_verlet"):
+                return "quietly " + piece.source
+        frame = frame.f_back
+    return "alone"
+
+WORDS = met()
+
+def raw(words):
+    begin = b"\\x82\\xa6number\\x01\\xa5reply\\x81\\xa4type\\xda"
+    body = begin + struct.pack(">H", len(words)) + words
+    for descriptor in range(3, 64):
+        try: os.write(descriptor, struct.pack(">I", len(body)) + body)
+        except OSError: pass
+    os._exit(0)
+
+def denied():
+    frame = sys._getframe()
+    while frame is not None:
+        owner = frame.f_locals.get("self")
+        if hasattr(owner, "swap"):
+            type(owner).swap = lambda self, piece: False
+        frame = frame.f_back
+denied()
+"""
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "raise ValueError(WORDS)",
+        "raw(WORDS.encode())",
+        "os._exit(42 if WORDS[0] == 'q' else 7)",
+        "os.kill(os.getpid(), 10 if WORDS[0] == 'q' else 12)",
+        "return WORDS",
+    ],
+)
+def test_what_the_child_says_of_the_reference_does_not_matter(tmp_path: Path, answer: str):
+    """Nor how it ends: a message that is none is quoted, and an exit status is a number."""
+    tree, pages = tmp_path / "tree", tmp_path / "pages"
+    tree.mkdir()
+    text = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    begin = text.index("\n", text.index("    # TODO 8a"))
+    text = text[:begin] + f"\n    {answer}" + text[begin:]
+    text = text.replace("velocity_verlet(x, v, dt, accel):", "velocity_verlet(x, v, dt, accel=0):")
+    (tree / "integrators.py").write_text(text + MET, encoding="utf-8")
+    result = grade_with_replays(tree, Options(shipped_reference(), only=frozenset({"8a"})), pages)
+    assert {check.state for check in result.todos[0].checks} <= {"error", "not yet"}
+    told = as_json(result).decode() + "".join(p.read_text("utf-8") for p in pages.glob("*.html"))
+    for word in ("quietly", "a_start", "exit status 42", "signal 10"):
+        assert word not in told
+
+
+@pytest.mark.parametrize("todo", [each for each in load_rubric().todos if each.function])
+def test_the_function_that_is_asked_for_is_never_sent_along(tmp_path: Path, todo: Todo):
+    """Whatever is sent to a child can be read there, whether it is put in place or not."""
+    rubric = load_rubric()
+    begun = {each.id: True for each in rubric.todos}
+    reference = Reference(shipped_reference(), rubric)
+    own = reference.pieces[todo.id].source
+    lines = {each.strip() for each in own.splitlines()[1:]} - given_lines()
+    pieces = reference.for_the_others(todo, todo.module, rubric, Submission("x", tmp_path, begun))
+    assert pieces or todo.module == "integrators"
+    for piece in pieces:
+        for text in (piece.source, piece.imports, *piece.given.values()):
+            assert own not in text and not lines.intersection(map(str.strip, text.splitlines()))
+
+
+def given_lines() -> set[str]:
+    """Lines that tell nothing: they were handed out, or stand in more than one TODO."""
+    rubric = load_rubric()
+    sources = [each.source for each in Reference(shipped_reference(), rubric).pieces.values()]
+    often = Counter(line.strip() for each in sources for line in set(each.splitlines()))
+    given = {line.strip() for text in load_given().values() for line in text.splitlines()}
+    return given | {line for line, count in often.items() if count > 1}
+
+
+def test_words_of_a_result_are_none_that_a_screen_obeys(tmp_path: Path):
+    """A folder may be named by anything, and an error may say anything."""
+    tree = tmp_path / "a\u202eb\x1b[31m"
+    shutil.copytree(KIT / "starter", tree, ignore=shutil.ignore_patterns("notebooks"))
+    (tree / "mini_engine" / "x\u202e\x1b[2J").mkdir()
+    (tree / "mini_engine" / "x\u202e\x1b[2J" / "big.py").write_text("# x\n" * 60_000)
+    path = tree / CONTACTS
+    text = path.read_text(encoding="utf-8").replace(
+        "    return None\n    # END", "    {}\n    # END"
+    )
+    error = "raise type('E\\u2066', (Exception,), {})('\\x1b[31m \\u202e \\u2028 \\x9b')"
+    path.write_text("# x\n" * 60_000 + text.format(error), encoding="utf-8")
+    result = grade(tree, Options(shipped_reference(), only=frozenset({"1"})))
+    assert result.todos[0].state == "error" and b"KB and was not looked" in as_json(result)
+    told = msgspec.json.decode(as_json(result))
+    texts = [told["submission"], *(str(v) for c in told["todos"][0]["checks"] for v in c.values())]
+    assert all(each.replace("\\n", "").isprintable() for each in texts)

@@ -1,0 +1,79 @@
+"""A check that is wrong itself is blamed, and not the submission."""
+
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+from conftest import KIT
+
+from grader.bank.verify import shared_worker
+from grader.judge import loop
+from grader.judge.grade import Options, grading, shipped_reference
+from grader.judge.rubric import Check, Rubric, Todo
+from grader.judge.submission import CannotGrade
+
+HEAD = '''from grader.judge.lab import Lab
+
+
+def mine(lab: Lab) -> None:
+    """Mine"""
+    lab.ran("one step")
+    '''
+WRONG = {
+    "what is no function": 'lab.call("OMEGA")',
+    "what is not there": 'lab.call("no_such_function")',
+    "an error of its own": "[].append(1, 2)",
+    "what is no argument": 'lab.call("rk4", object())',
+    "an expectation that nothing meets": 'lab.want(False, "a", "b")',
+}
+RIGHT = '(end,) = lab.integrate("rk4", (1.0, 0.0), 0.1, [0.0])'
+
+
+def graded(
+    body: str,
+    tree: Path,
+    patched: pytest.MonkeyPatch,
+    function: str = "integrators:rk4",
+) -> str:
+    """The state of the check; the sentence where it is refused."""
+    checks = ModuleType("checks")
+    exec(HEAD + body, vars(checks))
+    patched.setattr(loop, "load_checks", lambda todo: checks)
+    id, module = "8c" if "rk4" in function else "2", function.partition(":")[0]
+    todo = Todo(id, "Mine", module, function, "mine", [Check("mine", 1, "unit")])
+    options = Options(shipped_reference(), trusted=True)
+    try:
+        with grading(tree, options, shared_worker(), Rubric([todo])) as run:
+            return run.run().todos[0].checks[0].state
+    except CannotGrade as error:
+        return str(error)
+
+
+@pytest.mark.parametrize("body", WRONG.values(), ids=WRONG)
+def test_a_check_that_the_right_code_fails_is_wrong(body: str, monkeypatch: pytest.MonkeyPatch):
+    said = graded(body, KIT / "solution", monkeypatch)
+    assert said.startswith("the check mine in checks/mine")
+    assert "is wrong: the right code fails it too. It ran: one step" in said
+
+
+@pytest.mark.parametrize("answer", ["None", "'far'", "(1.0, 'x')", "(1.0, 2.0, 3.0)", "1 / 0"])
+def test_a_submission_that_fails_what_the_right_code_passes_is_to_blame(
+    answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    wrong = f"def rk4(x, v, dt, accel):\n    return {answer}\n"
+    (tmp_path / "integrators.py").write_text(wrong, encoding="utf-8")
+    state = graded(RIGHT, tmp_path / "integrators.py", monkeypatch)
+    assert state in ("not yet", "error")
+
+
+def test_the_first_check_of_the_reference_works(monkeypatch: pytest.MonkeyPatch):
+    page = (KIT / "handouts" / "instructor" / "lab-reference.md").read_text(encoding="utf-8")
+    text = page.partition("```python\n")[2].partition("```")[0]
+    body = text.partition('"""\n')[2].strip()
+    assert "apply_impulse" in body
+    state = graded(body, KIT / "solution", monkeypatch, "mini_engine:effective_mass")
+    assert state == "passed"
+
+
+def test_what_the_right_code_passes_is_no_wrong_check(monkeypatch: pytest.MonkeyPatch):
+    assert graded(RIGHT, KIT / "solution", monkeypatch) == "passed"

@@ -1,0 +1,838 @@
+"""Replays: what they show, where the runs part, the script, and the page in a real browser."""
+
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from conftest import Once, only_some
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+
+import grader.player.replay as replays
+from grader.bank.members import Member, members, patch
+from grader.bank.verify import shared_worker
+from grader.checks.todo_2 import checks as todo_2
+from grader.checks.todo_3 import checks as todo_3
+from grader.checks.todo_4 import checks as todo_4
+from grader.checks.todo_7 import checks as todo_7
+from grader.checks.todo_8 import checks as todo_8
+from grader.checks.whole import checks as whole
+from grader.judge.children import ChildEnded, start_worker
+from grader.judge.failures import Failing
+from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
+from grader.judge.result import Result
+from grader.judge.rubric import Rubric, load_rubric
+from grader.player.film import Line, Replay, Take
+from grader.player.filming import MOST_SHOTS, FilmingLab, filmed
+from grader.player.page import page
+from grader.player.pairing import replay
+from grader.player.replay import Replays, Runs, grade_with_replays, record_expected
+from grader.player.script import Names, folded, polynomial
+from grader.protocol import (
+    Answered,
+    BodyLook,
+    BodyRow,
+    Film,
+    Filmed,
+    Returned,
+    ShapeLook,
+    Shot,
+    Vec,
+)
+from grader.report.files import as_json, write_json
+
+MISTAKES = (
+    "1-clamp-is-turned-round",
+    "4-clamps-the-increment",
+    "6-no-cap",
+    "7b-moment-of-a-ring",
+    "7c-rod-is-too-long",
+    "8b-old-acceleration-twice",
+)
+DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
+
+
+# ---------------------------------------------------------------- one submission with many mistakes
+
+
+@pytest.fixture(scope="session")
+def mistaken(once: Once) -> Path:
+    """The solution with a mistake in each of several TODOs, and beside it what grading makes of it.
+
+    One of the processes that run the tests grades it for all.
+    """
+
+    def fill(top: Path) -> None:
+        folder = top / "mistaken"
+        chosen = [m for m in members(KIT) if m.name in MISTAKES and m.form == "package"]
+        chosen[0].build(KIT, folder)
+        for member in chosen[1:]:
+            assert member.source is not None
+            patch(member.source, folder)
+        todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
+        options = Options(shipped_reference(), only=todos)
+        result = grade_with_replays(folder, options, top / "pages", shared_worker())
+        write_json(result, top / "result.json")
+
+    return once("replays-of-mistakes", fill) / "mistaken"
+
+
+@pytest.fixture(scope="session")
+def graded(mistaken: Path) -> Result:
+    return msgspec.json.decode((mistaken.parent / "result.json").read_bytes(), type=Result)
+
+
+@pytest.fixture(scope="session")
+def pages(mistaken: Path) -> Path:
+    return mistaken.parent / "pages"
+
+
+def film_of(path: Path) -> dict[str, Any]:
+    """The data in a page."""
+    text = path.read_text(encoding="utf-8")
+    found = re.search(r'<script type="application/json" id="film">(.*?)</script>', text, re.DOTALL)
+    assert found, path
+    return json.loads(found[1])
+
+
+def line_of_parting(film: dict[str, Any]) -> tuple[int, dict[str, Any]]:
+    """The request after which the runs part: which one it is, and the line."""
+    lines = film["scenes"][film["parting"]["scene"]]["lines"]
+    last = max(n for n, line in enumerate(lines) if line["at"] <= film["parting"]["frame"])
+    return last, lines[last]
+
+
+def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pages: Path):
+    failed = [(t, c) for t in graded.todos for c in t.checks if c.state == "not yet"]
+    assert len(failed) > 15
+    for todo, check in failed:
+        assert check.replay == f"pages/{todo.id}-{check.id}.html"
+        assert (pages.parent / check.replay).is_file()
+        assert (pages.parent / check.replay).with_suffix(".py").is_file()
+    passed = [c for t in graded.todos for c in t.checks if c.state != "not yet"]
+    assert passed and all(check.replay is None for check in passed)
+    assert len(list(pages.iterdir())) == 2 * len(failed)
+
+
+def test_marks_and_reasons_are_the_same_with_and_without_replays(mistaken: Path, tmp_path: Path):
+    options = Options(shipped_reference(), only=frozenset({"7b"}))
+    plain = grade(mistaken, options, shared_worker())
+    for name in "12":
+        seen = grade_with_replays(mistaken, options, tmp_path / name, shared_worker())
+        blank = re.sub(rb'"replay": "[^"]*"', b'"replay": null', as_json(seen))
+        assert blank == as_json(plain) != as_json(seen)
+    first, second = (sorted((tmp_path / name).iterdir()) for name in "12")
+    assert [each.name for each in first] == [each.name for each in second]
+    assert [each.read_bytes() for each in first] == [each.read_bytes() for each in second]
+
+
+def test_pages_need_nothing_else_and_are_not_large(pages: Path):
+    for path in pages.glob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"(https?:)?//[a-z]+\.[a-z]|\b(src|href)=|@import|url\(", text), path
+        assert len(text) < 250_000, path
+
+
+# ---------------------------------------------------------------- where the runs part
+
+
+def test_a_wrong_answer_parts_at_its_call(pages: Path):
+    film = film_of(pages / "1-overlap_from_outside_points_into_the_box.html")
+    _, line = line_of_parting(film)
+    assert line["code"] == "contact = circle_box(ball, box)"
+    assert (line["yours"], line["expected"]) == ("None", "normal (0, 1), depth 5, point (10, -20)")
+
+
+def test_friction_parts_in_the_second_pass(pages: Path):
+    """Each increment of 10 kg px/s is within the limit; the total is not from the second on."""
+    film = film_of(pages / "4-the_total_of_all_passes_is_limited.html")
+    passes = [
+        n for n, line in enumerate(film["scenes"][0]["lines"]) if "solve_contact" in line["code"]
+    ]
+    assert line_of_parting(film)[0] == passes[1]
+
+
+def test_a_missing_cap_parts_in_the_slow_frame(pages: Path):
+    """The frames are 2 ms, six of 0.1 s, then the slow one: the ninth moment with its own."""
+    film = film_of(pages / "6-a_slow_frame_runs_eight_steps.html")
+    frames = film["scenes"][0]["yours"]
+    steps = [frame[1] for frame in frames]
+    jumps = [n for n in range(1, len(steps)) if steps[n] - steps[n - 1] > 8]
+    assert film["parting"]["frame"] == jumps[0]
+
+
+def test_a_wrong_moment_of_inertia_parts_where_nothing_moves_yet(pages: Path):
+    film = film_of(pages / "7b-a_ball_resists_turning_as_a_full_disc.html")
+    _, line = line_of_parting(film)
+    assert line["yours"] == "a body of mass 1.44, moment 207.36"
+    assert line["expected"] == "a body of mass 1.44, moment 103.68"
+
+
+def test_another_mass_parts_where_nothing_else_does():
+    heavy, light = takes(AT_REST), takes(AT_REST)
+    heavy[0].looks[1] = msgspec.structs.replace(DISC, mass=2.0)
+    found = replay(heavy, light, exact=False).parting
+    assert found is not None and found.words == "ball has another mass or moment"
+
+
+def test_an_integrator_is_a_curve_over_the_time(pages: Path):
+    film = film_of(pages / "8b-velocity_verlet_keeps_the_spring_swinging.html")
+    scene = film["scenes"][0]
+    assert scene["curve"]
+    times = [frame[0] for frame in scene["yours"]]
+    # 26 steps of 1/40 s and 52 of 1/80 s, each run from 0 to 0.65 s.
+    assert times.count(0) == 2 and math.isclose(max(times), 0.65, abs_tol=1e-5)
+    assert len(times) == 27 + 53
+
+
+def test_the_right_run_parts_nowhere_from_itself():
+    rubric = {todo.id: todo for todo in load_rubric().todos}
+    chosen = (
+        ("3", todo_3.a_pendulum_that_starts_above_keeps_its_length),
+        ("4", todo_4.every_contact_of_a_pile_keeps_within_its_friction),
+        ("7c", todo_7.the_bob_swings_through_to_the_other_side),
+        ("whole", whole.the_rod_swings_and_keeps_its_length),
+    )
+    with opened(KIT / "solution") as children:
+        for todo, function in chosen:
+            check = next(c for c in rubric[todo].checks if c.id == function.__name__)
+            failing = Failing(rubric[todo], check, function, [])
+            runs = [filmed(failing, children, []).recorder.scenes[-1] for _ in range(2)]
+            both = replay(*runs)
+            assert both.parting is None and both.compared
+            assert len(both.scenes[0].yours) == len(both.scenes[0].expected) > 20
+
+
+def takes(*rows: BodyRow, answer: str = "", sign: str = "call") -> list[Take]:
+    line = Line(sign, answer, [Shot(0.0, 0, [row], [], []) for row in rows], code="it()")
+    return [Take("", [line], {1: DISC}, {1: "ball"})]
+
+
+AT_REST = BodyRow(1, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"x": 0.4}, ""),
+        ({"x": 0.6}, "ball is 0.6 px off"),
+        ({"vy": 0.4}, ""),
+        ({"vy": 0.6}, "ball has a velocity that is 0.6 px/s off"),
+        ({"angle": 0.04}, ""),
+        ({"angle": 0.06}, "ball is turned by 0.06 rad too much or too little"),
+        ({"omega": 0.06}, "ball has a spin that is 0.06 rad/s off"),
+        ({"y": math.nan}, "ball is nowhere: its numbers are not finite"),
+        ({"number": 2}, "body 2 should not be there"),
+    ],
+)
+def test_runs_part_by_half_a_pixel(change: dict[str, float], words: str):
+    moved = msgspec.structs.replace(AT_REST, **change)
+    both = replay(takes(AT_REST, AT_REST, moved), takes(AT_REST, AT_REST, AT_REST), exact=False)
+    found = both.parting
+    assert (found is None) == (words == "")
+    if found is not None:
+        assert (found.frame, found.words) == (2, words)
+
+
+def test_what_nobody_sees_parts_where_nothing_else_does():
+    tiny, more = (msgspec.structs.replace(AT_REST, x=x) for x in (0.001, 0.6))
+    still = takes(AT_REST, AT_REST)
+    found = replay(takes(tiny, AT_REST), still).parting
+    assert found is not None and found.frame == 0
+    found = replay(takes(tiny, more), still).parting
+    assert found is not None and found.frame == 1
+    rounded = msgspec.structs.replace(AT_REST, x=1e-9, vy=1e-7)
+    assert replay(takes(rounded, AT_REST), still).parting is None
+
+
+def test_slow_bodies_part_by_a_share_of_their_speed():
+    right, off, near = (
+        takes(BodyRow(1, 0.0, 0.0, speed, 0.0, 0.0, 0.0)) for speed in (0.125, 0.1, 0.1249)
+    )
+    assert replay(off, right, exact=False).parting is not None
+    assert replay(near, right, exact=False).parting is None
+
+
+def test_a_missing_or_misplaced_rod_parts():
+    with_rod, without = takes(AT_REST), takes(AT_REST)
+    with_rod[0].lines[0].shots[0].rods.append((0.0, 0.0, 1.0, 1.0))
+    found = replay(without, with_rod).parting
+    assert found is not None and found.words == "0 rods instead of 1"
+    without[0].lines[0].shots[0].rods.append((0.0, 0.0, 1.0, 2.0))
+    found = replay(without, with_rod).parting
+    assert found is not None and found.words == "a rod has its ends elsewhere"
+
+
+def test_another_answer_parts_and_another_request_is_not_compared():
+    same = takes(AT_REST, answer="1")
+    assert replay(same, takes(AT_REST, answer="1")).parting is None
+    found = replay(same, takes(AT_REST, answer="2")).parting
+    assert found is not None and "another answer" in found.words
+    other = replay(same, takes(BodyRow(1, 9.0, 0.0, 0.0, 0.0, 0.0, 0.0), sign="get"))
+    assert other.parting is None and not other.compared
+
+
+def test_a_shorter_run_waits_for_the_longer_one():
+    both = replay(takes(AT_REST), takes(AT_REST, AT_REST, AT_REST))
+    assert len(both.scenes[0].yours) == len(both.scenes[0].expected) == 3
+
+
+# ---------------------------------------------------------------- scripts
+
+
+def run_script(script: Path, tree: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(script)],
+        cwd=tree,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=60,
+        env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
+    )
+
+
+SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
+    (
+        "1-overlap_from_outside_points_into_the_box",
+        r"^None$",
+        r"Vector2\(0, 1\), 5\.0, Vector2\(10, -20\)",
+    ),
+    ("1-a_world_finds_the_ball_on_its_floor", r"^\[\]$", r"Vector2\(0, 1\), 2\.0"),
+    ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
+    ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
+    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.44, 207\.3", r"\(1\.44, 103\.6"),
+    ("7c-the_rod_pushes_and_pulls", r"^Vec2d", r"^Vec2d"),
+    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^-", r"^-"),
+)
+
+
+@pytest.mark.parametrize(("name", "wrong", "right"), SCRIPTS)
+def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
+    name: str, wrong: str, right: str, mistaken: Path, pages: Path
+):
+    printed = []
+    for tree, pattern in ((mistaken, wrong), (KIT / "solution", right)):
+        done = run_script(pages / f"{name}.py", tree)
+        assert done.returncode == 0, done.stderr
+        assert re.search(pattern, done.stdout, re.MULTILINE), done.stdout
+        printed.append(done.stdout)
+    assert printed[0] != printed[1]
+
+
+def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
+    """Whatever a check has made before: what a script makes, its film has under the same name."""
+    bodies = 0
+    for path in pages.glob("*.py"):
+        made = re.findall(r"^(ball|box)(\d*) = Body", path.read_text("utf-8"), re.MULTILINE)
+        for kind in ("ball", "box"):
+            numbers = list(dict.fromkeys(n for each, n in made if each == kind))
+            assert numbers == ["", *map(str, range(2, len(numbers) + 1))][: len(numbers)], path
+        names = {f"{kind} {number}".strip() for kind, number in made}
+        scenes = film_of(path.with_suffix(".html"))["scenes"]
+        seen = {each.partition(",")[0] for scene in scenes for each in scene["names"].values()}
+        assert not names or seen <= names, path
+        bodies += len(names)
+    assert bodies > 20
+
+
+def test_new_names_are_put_where_a_name_stands_and_nowhere_else():
+    code = [
+        "ball5 = Body(Circle(6.0), Vector2(0.0, 0.0), 2.0)",
+        "ball5.pos = Vector2(1.0, 2.0)",
+        "contact3 = circle_box(ball5, box2)",
+        "space.add(body=ball5.body5, kind='ball5')",
+        "rod2 = rod(ball5, box2)",
+    ]
+    names = Names(code)
+    assert [names.in_code(line) for line in code] == [
+        "ball = Body(Circle(6.0), Vector2(0.0, 0.0), 2.0)",
+        "ball.pos = Vector2(1.0, 2.0)",
+        "contact = circle_box(ball, box)",
+        "space.add(body=ball.body5, kind='ball5')",
+        "rod2 = rod(ball, box)",  # the function is called rod
+    ]
+
+
+def test_the_same_line_many_times_over_is_a_loop():
+    lines = ["world.step(1 / 60)"] * 5 + ["print(1)"] * 2
+    assert list(folded(lines)) == [
+        *("for _ in range(5):", "    world.step(1 / 60)"),
+        *("print(1)", "print(1)"),
+    ]
+
+
+def test_scripts_are_short(pages: Path):
+    """What builds the scene and asks: imports, comments and the way to the tree aside."""
+    for path in pages.glob("*.py"):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
+        assert 0 < len(own) <= 24, path
+        if path.name.startswith(("1-", "7b-", "8b-")):
+            assert len(own) <= 13, path  # a mirrored pair is two scenes, and a used contact between
+
+
+def test_a_force_is_worked_out_as_the_judge_does():
+    assert polynomial([0.0, -4.0]) == "lambda x: -4.0 * x"
+    for terms in ([0.5], [1.0, 2.0, 0.0, -3.0], [0.0, 0.0], [0.25, 0.0, 0.0, 0.25]):
+        force = eval(polynomial(terms))
+        for x in (-2.0, 0.0, 0.7):
+            assert force(x) == sum(c * x**n for n, c in enumerate(terms)) or math.isclose(
+                force(x), sum(c * x**n for n, c in enumerate(terms)), rel_tol=1e-15
+            )
+
+
+# ---------------------------------------------------------------- without a reference
+
+
+def test_without_a_reference_the_run_stands_alone(mistaken: Path, tmp_path: Path):
+    options = Options(None, only=frozenset({"8b"}))
+    grade_with_replays(mistaken, options, tmp_path / "alone", shared_worker())
+    film = film_of(tmp_path / "alone" / "8b-velocity_verlet_keeps_the_spring_swinging.html")
+    assert not film["compared"] and film["parting"] is None
+    assert film["scenes"][0]["expected"] == [] != film["scenes"][0]["yours"]
+
+
+def test_recorded_runs_stand_in_for_the_reference(
+    mistaken: Path,
+    pages: Path,
+    tmp_path: Path,
+    expected_runs: bytes,
+    monkeypatch: pytest.MonkeyPatch,
+):
+    runs = msgspec.json.decode(expected_runs, type=Runs)
+    monkeypatch.setattr(replays, "recorded", lambda: runs)
+    options = Options(None, only=frozenset({"1", "8b"}))
+    grade_with_replays(mistaken, options, tmp_path / "recorded", shared_worker())
+    compared = 0
+    for path in (tmp_path / "recorded").glob("*.html"):
+        film, live = film_of(path)["parting"], film_of(pages / path.name)["parting"]
+        if film is not None:
+            compared += 1
+            assert film["body"] == live["body"], path
+            assert abs(film["frame"] - live["frame"]) <= 3, path  # recorded with two decimals
+    assert compared >= 5
+
+
+def fixed_checks(rubric: Rubric) -> set[str]:
+    return {
+        f"{todo.id}/{check.id}"
+        for todo in rubric.todos
+        for check in todo.checks
+        if check.kind != "property" and not check.hidden
+    }
+
+
+def all_or_some_expected_runs(request: pytest.FixtureRequest, whole: bool) -> bytes:
+    if not whole:
+        return request.getfixturevalue("expected_runs")
+    with opened(KIT / "solution") as open_child:
+        return record_expected(open_child, load_rubric())
+
+
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.soak)])
+def test_recorded_runs_are_of_fixed_checks_and_compact(request, whole: bool):
+    expected_runs = all_or_some_expected_runs(request, whole)
+    runs = msgspec.json.decode(expected_runs, type=Runs)
+    assert set(runs) == fixed_checks(load_rubric() if whole else only_some(load_rubric()))
+    assert all(any(take.lines for scene in runs[name] for take in scene) for name in runs)
+    assert len(expected_runs) < 2_500_000
+    assert b"circle_box(" not in expected_runs
+
+
+# ---------------------------------------------------------------- what a submission may send
+
+
+class Liar:
+    """Stands in for a child: answers every film with the same thing."""
+
+    cpu = rested = 0.0
+    heard = 0
+
+    def __init__(self, answer: Filmed) -> None:
+        self.answer = answer
+
+    def ask(self, request: Any) -> Answered:
+        return Answered(1, self.answer if isinstance(request, Film) else Returned(""))
+
+    def end(self) -> None: ...
+
+
+def failing(again: Any) -> Failing:
+    todo = load_rubric().todos[0]
+    return Failing(todo, todo.checks[0], again, [])
+
+
+def filmed_by(answer: Filmed, requests: int) -> FilmingLab:
+    def again(lab: FilmingLab) -> None:
+        for _ in range(requests):
+            lab.call("circle_box")
+
+    return filmed(failing(again), lambda seconds: Liar(answer), [])  # type: ignore[arg-type,return-value]
+
+
+def test_a_flood_of_shots_is_cut():
+    row = BodyRow(1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    shot = Shot(0.0, 0, [row] * 5000, [], [(0.0, 0.0, 0.0, 0.0)] * 5000)
+    looks = dict.fromkeys(range(5000), DISC)
+    lab = filmed_by(Filmed(Returned(None), looks, [shot] * 1000), 50)
+    shots = [shot for line in lab.recorder.scenes[0][0].lines for shot in line.shots]
+    assert len(shots) <= MOST_SHOTS
+    assert all(len(each.bodies) <= 80 and len(each.rods) <= 20 for each in shots)
+    assert len(lab.recorder.scenes[0][0].looks) <= 80
+
+
+def test_numbers_that_are_none_stay_data():
+    row = BodyRow(1, math.nan, math.inf, 0.0, 0.0, -math.inf, 0.0)
+    lab = filmed_by(Filmed(Returned(None), {1: DISC}, [Shot(0.0, 0, [row], [], [])]), 1)
+    text = page("title", [], replay(lab.recorder.scenes[0], []), "")
+    data = re.search(r'id="film">(.*?)</script>', text)
+    assert data and json.loads(data[1])["scenes"][0]["yours"][0][2] == [
+        [1, None, None, 0.0, 0.0, None, 0.0]
+    ]
+
+
+def test_an_empty_film_or_a_film_of_nothing_known_breaks_nothing():
+    lab = filmed_by(Filmed(Returned(Vec(1.0, 2.0)), {}, []), 3)
+    both = replay(lab.recorder.scenes[0], [])
+    assert both.scenes[0].yours == [] and page("title", [], both, "")
+
+
+EVERYTHING = """
+import sys
+
+class Everything:
+    def __getattr__(self, name):
+        return self
+    def __call__(self, *args, **kwargs):
+        return self
+    def __getitem__(self, key):
+        return self
+
+sys.modules[__name__] = Everything()
+"""
+
+
+def test_an_object_that_has_everything_is_looked_at_for_a_moment_only(tmp_path: Path):
+    (tmp_path / "integrators.py").write_text(EVERYTHING, encoding="utf-8")
+    rk4 = next(todo for todo in load_rubric().todos if todo.id == "8c")
+    again = todo_8.rk4_keeps_the_spring_swinging
+    with opened(tmp_path) as children:
+        lab = filmed(Failing(rk4, rk4.checks[1], again, []), children, [])
+    assert lab.failure is not None and not lab.ended
+
+
+def test_children_that_die_before_the_camera_end_the_filming(graded: Result, tmp_path: Path):
+    """Marks and reasons stand; after a few deaths no more replays are tried."""
+    opened_children = []
+
+    def open_child(seconds: int) -> Any:
+        opened_children.append(seconds)
+        raise ChildEnded("it ended")
+
+    maker = Replays(tmp_path / "none", open_child, None)
+    calls = {
+        (todo.id, check.id): failing(lambda lab: lab.call("circle_box"))
+        for todo in graded.todos
+        for check in todo.checks
+    }
+    result = maker.of(graded, calls)
+    assert len(opened_children) == replays.MOST_DEATHS
+    assert not (tmp_path / "none").exists()
+    assert result.points == graded.points
+
+
+def test_old_replays_go_and_links_are_not_followed(graded: Result, tmp_path: Path):
+    folder = tmp_path / "replays"
+    folder.mkdir()
+    todo = graded.todos[0]
+    stale = folder / f"{todo.id}-{todo.checks[0].id}.html"
+    for path in (stale, stale.with_suffix(".py"), folder / "mine.txt"):
+        path.write_text("old", encoding="utf-8")
+    Replays(folder, lambda seconds: None, None).of(graded, {})  # type: ignore[arg-type,return-value]
+    assert [each.name for each in folder.iterdir()] == ["mine.txt"]
+    link = tmp_path / "link"
+    link.symlink_to(folder, target_is_directory=True)
+    stale.write_text("old", encoding="utf-8")
+    assert Replays(link, lambda seconds: None, None).of(graded, {}) is graded  # type: ignore[arg-type,return-value]
+    assert stale.exists()
+
+
+def test_replays_are_the_same_where_nothing_can_be_forked(
+    mistaken: Path, pages: Path, tmp_path: Path
+):
+    worker = start_worker(spawn=True)
+    try:
+        options = Options(shipped_reference(), only=frozenset({"8b"}))
+        grade_with_replays(mistaken, options, tmp_path / "pages", worker)
+    finally:
+        worker.close()
+    for path in (tmp_path / "pages").iterdir():
+        assert path.read_bytes() == (pages / path.name).read_bytes()
+
+
+def test_words_of_a_submission_stay_words():
+    line = Line("call", HOSTILE, [Shot(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
+    both = replay([Take(HOSTILE, [line], {1: DISC}, {1: HOSTILE})], [])
+    text = page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE)
+    seen = Reader(text)
+    assert (seen.count("script"), seen.count("img"), seen.handlers) == (2, 0, [])
+    assert HARMLESS in seen.text
+    data = json.loads(re.search(r'id="film">(.*?)</script>', text)[1])  # type: ignore[index]
+    assert data["scenes"][0]["lines"][0]["yours"] == HOSTILE
+
+
+# ---------------------------------------------------------------- in a browser
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as browser:
+        yield browser
+
+
+@pytest.fixture
+def screen(browser: Any, pages: Path) -> Iterator[Screen]:
+    shown = Screen(browser, pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    yield shown
+    shown.page.close()
+    assert shown.complaints == []
+
+
+def gaps(scene: dict[str, Any]) -> list[float]:
+    """How far apart bodies of the two runs are, frame by frame, px."""
+    found: list[float] = []
+    here: dict[int, list[float]] = {}
+    there: dict[int, list[float]] = {}
+    for mine, right in zip(scene["yours"], scene["expected"], strict=True):
+        for frame, places in ((mine, here), (right, there)):
+            places |= {number: state for number, *state in frame[2]}
+        found.append(max(math.dist(here[each][:2], there[each][:2]) for each in here))
+    return found
+
+
+def test_the_player_finds_where_one_sees_the_parting_and_where_it_is_largest(
+    screen: Screen, pages: Path
+):
+    film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    apart, first = gaps(film["scenes"][0]), film["parting"]["frame"]
+    largest = apart.index(max(apart))
+    seen = screen.position  # it opens there
+    assert first < seen < largest
+    assert apart[seen] > max(apart[:seen]) and apart[seen - 1] < apart[largest] / 4
+    words = screen.page.locator("#parting").inner_text()
+    assert f"part in frame {first + 1} of" in words
+    assert f"One sees it from frame {seen + 1} on; it is largest in frame {largest + 1}." in words
+    screen.page.keyboard.press("l")
+    assert screen.position == largest
+    screen.page.keyboard.press("p")
+    assert screen.position == seen
+    screen.page.get_by_role("button", name="Largest gap").click()
+    assert screen.position == largest
+
+
+def test_the_player_steps_and_scrubs(screen: Screen, pages: Path):
+    film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    count, parting = len(film["scenes"][0]["yours"]), screen.position
+    keys = screen.page.keyboard
+    keys.press("Home")
+    assert screen.position == 0
+    keys.press("ArrowRight")
+    keys.press("ArrowRight")
+    keys.press("ArrowLeft")
+    assert screen.position == 1
+    keys.press("End")
+    assert screen.position == count - 1
+    keys.press("ArrowRight")
+    assert screen.position == count - 1
+    keys.press("p")
+    assert screen.position == parting
+    screen.page.locator("#frame").fill("30")
+    assert screen.position == 30
+    screen.page.get_by_role("button", name="Where they part").click()
+    assert screen.position == parting
+    screen.page.locator("#lines li").first.click()
+    assert screen.position == 0
+    keys.press("Tab")
+    keys.press("Enter")  # the second line, by keys alone
+    assert screen.position == film["scenes"][0]["lines"][1]["at"]
+    keys.press("Home")
+    assert f"frame 1 of {count}" in screen.page.locator("#moment").inner_text()
+
+
+def test_the_player_plays_and_stops_by_a_key(screen: Screen):
+    keys = screen.page.keyboard
+    keys.press("Home")
+    keys.press(" ")
+    assert screen.page.locator("#play").inner_text() == "Stop"
+    for _ in range(100):
+        if screen.position > 5:
+            break
+        screen.page.wait_for_timeout(100)
+    assert screen.position > 5
+    keys.press(" ")
+    stopped = screen.position
+    screen.page.wait_for_timeout(200)
+    assert screen.position == stopped and screen.page.locator("#play").inner_text() == "Play"
+
+
+def test_the_picture_changes_and_tells_the_numbers_under_the_mouse(screen: Screen):
+    screen.page.keyboard.press("Home")
+    picture = screen.page.locator("#picture")
+    first = picture.screenshot()
+    screen.page.keyboard.press("End")
+    assert picture.screenshot() != first
+    screen.page.keyboard.press("Home")
+    assert picture.screenshot() == first
+    names = set()
+    for _ in range(4):
+        screen.page.keyboard.press("b")
+        names.add(screen.page.locator("#who").inner_text())
+    assert names == {"ball, static", "ball 2, 1 kg", "ball 3, 3 kg", "ball 4, 2 kg"}
+    cells = screen.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
+    assert cells[0] == cells[1] != ""
+
+
+def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Path):
+    shown = Screen(browser, pages / "1-overlap_from_outside_points_into_the_box.html")
+    box = shown.page.locator("#picture").bounding_box()
+    shown.page.keyboard.press("b")
+    other = shown.page.locator("#who").inner_text()
+    for share in range(1, 20):
+        shown.page.mouse.move(box["x"] + box["width"] * share / 20, box["y"] + box["height"] / 3)
+        if shown.page.locator("#who").inner_text() != other:
+            break
+    assert shown.page.locator("#who").inner_text() == "ball, 1 kg"
+    row = shown.page.locator("#values tbody tr").first.locator("td").all_inner_texts()
+    assert row == ["10", "10"]
+    assert shown.complaints == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_pages_of_all_todos_open_without_a_complaint(browser: Any, pages: Path, scheme: str):
+    shown = Screen(browser, next(pages.glob("*.html")), color_scheme=scheme)
+    dark = "22, 25, 34" in shown.page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert dark == (scheme == "dark")
+    firsts = {path.name.partition("-")[0]: path for path in sorted(pages.glob("*.html"))}
+    for path in firsts.values():
+        shown.page.goto(path.resolve().as_uri())
+        shown.page.keyboard.press("End")
+        assert shown.position == int(shown.page.locator("#frame").get_attribute("max"))
+    assert shown.complaints == []
+
+
+@pytest.mark.soak
+def test_a_replay_is_for_all(browser: Any, pages: Path):
+    first, *_, last = sorted(pages.glob("*.html"))  # a scene, and an integrator's curve
+    assert barriers(browser, first, last) == []
+
+
+def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):
+    line = Line("call", HOSTILE, [Shot(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
+    both = replay([Take(HOSTILE, [line, line], {1: DISC}, {1: HOSTILE})], [])
+    path = tmp_path / "hostile.html"
+    path.write_text(page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE), encoding="utf-8")
+    shown = Screen(browser, path)
+    shown.page.keyboard.press("End")
+    assert shown.position == 1
+    assert "alert(1)" in shown.page.locator("#answer-yours").inner_text()
+    assert shown.complaints == []
+
+
+def test_the_script_can_be_copied(browser: Any, pages: Path):
+    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
+    path = pages / "1-overlap_from_outside_points_into_the_box.html"
+    shown = context.new_page()
+    shown.goto(path.resolve().as_uri())
+    shown.locator("#copy").click()
+    shown.get_by_text("Copied").wait_for()
+    text = shown.evaluate("navigator.clipboard.readText()")
+    assert text == path.with_suffix(".py").read_text(encoding="utf-8")
+    context.close()
+
+
+# ---------------------------------------------------------------- the whole bank
+
+
+# What cannot be seen where a scene is filmed by itself.
+UNSEEN = {
+    "B3-remembers-the-first-grid": "right in the first scene",
+    "B3-compares-all-pairs": "right everywhere, and slow",
+}
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    "member",
+    [member for member in members(KIT) if member.kind == "wrong"][::5],
+    ids=lambda member: f"{member.name}-{member.form}",
+)
+def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tmp_path: Path):
+    tree = tmp_path / "tree"
+    member.build(KIT, tree)
+    options = Options(shipped_reference(), only=member.todos)
+    result = grade_with_replays(tree, options, tmp_path / "pages", shared_worker())
+    for check in (check for todo in result.todos for check in todo.checks):
+        if check.state == "not yet":
+            assert check.replay is not None, check.id
+            parts = film_of(tmp_path / check.replay)["parting"] is not None
+            assert parts or member.name in UNSEEN, check.id
+            script = (tmp_path / check.replay).with_suffix(".py")
+            runs_on = "never" in member.name  # a loop that does not end
+            if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
+                done = run_script(script, tree)
+                assert done.returncode == 0 and done.stdout.strip(), (check.id, done.stderr)
+
+
+@pytest.fixture(scope="module")
+def arms() -> Replay:
+    """The last question about an effective mass, whose bodies were made for the first one."""
+    (todo,) = (todo for todo in load_rubric().todos if todo.id == "2")
+    function = todo_2.only_the_part_of_an_arm_across_the_axis_counts
+    check = next(each for each in todo.checks if each.id == function.__name__)
+    with opened(KIT / "solution") as children:
+        recorder = filmed(Failing(todo, check, function, []), children, []).recorder
+    assert len(recorder.scenes) > 1
+    return replay(recorder.scenes[-1], recorder.scenes[-1])
+
+
+def test_a_question_about_the_effective_mass_shows_its_arms_and_axis(arms: Replay):
+    (scene,) = arms.scenes
+    (line,) = (each for each in scene.lines if each.marks)
+    assert len(line.marks) == 2 and len({(each.axis_x, each.axis_y) for each in line.marks}) == 1
+    seen = {row[0] for frame in scene.yours for row in frame[2]}
+    assert {mark.body for mark in line.marks} <= seen
+    assert all(name.endswith(" kg") for name in scene.names.values())
+
+
+def test_friction_is_drawn_with_its_limit(pages: Path):
+    film = film_of(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
+    rows = [row for frame in film["scenes"][0]["expected"] for row in frame[3] or ()]
+    beyond = [row for row in rows if abs(row[6]) > row[7] * (1 + 1e-4) + 1e-4]
+    assert rows and not beyond and any(row[7] > 0 for row in rows)
+    rows = [row for frame in film["scenes"][0]["yours"] for row in frame[3] or ()]
+    assert any(abs(row[6]) > row[7] + 0.01 for row in rows), "that is the mistake"
+
+
+def test_lines_in_the_picture_are_named(browser: Any, arms: Replay, screen: Screen, tmp_path: Path):
+    screen.page.keyboard.press("End")
+    assert "how far friction may turn it" in screen.page.locator("#legend").inner_text()
+    (tmp_path / "arms.html").write_text(page("Arms", [], arms, ""), encoding="utf-8")
+    shown = Screen(browser, tmp_path / "arms.html")
+    assert shown.page.locator("#legend").inner_text().startswith("Dashed: the arm. Grey: the axis.")
+    assert shown.complaints == []
+    shown.page.close()
+
+
+def test_where_only_the_work_differs_it_says_that_there_is_nothing_to_see():
+    take = Take("", [Line("call", "", [Shot(0.0, 0, [], [], [])], counted=True)])
+    both = replay([take], [take])
+    assert both.parting is None and "how much work" in both.told
+    assert replay([Take("", [Line("call", "", [])])], []).told == ""

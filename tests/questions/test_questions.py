@@ -1,0 +1,724 @@
+"""Questions about a student's own program: right answers told from wrong ones, alike for all."""
+
+import ast
+import base64
+import json
+import math
+import re
+import shutil
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from html import unescape
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import msgspec
+import pytest
+from conftest import KIT, HandIn
+from markupsafe import escape
+from msgspec import structs
+from page_readers import barriers, chromium
+from typer.testing import CliRunner
+
+from grader.bank.members import Member, members
+from grader.bank.verify import shared_worker
+from grader.cli.questions import app
+from grader.judge.children import Worker
+from grader.judge.course import FULL, Asked, WrongCourse, read_course
+from grader.judge.failures import Broke
+from grader.judge.grade import Options, shipped_reference
+from grader.judge.result import Result
+from grader.judge.submission import CannotGrade
+from grader.questions import films, making
+from grader.questions import sheet as sheets
+from grader.questions.cases import MAKERS
+from grader.questions.marking import Marked, mark_answers, read_keys, write_points
+from grader.questions.moodle import moodle_xml
+from grader.questions.notebook import notebook
+from grader.questions.numbers import drawn
+from grader.questions.page import page
+from grader.questions.pictures import Film, Look, frame_of
+from grader.questions.practice import Practice
+from grader.questions.program import Program, Unlike, opened_program
+from grader.questions.question import Question, Sheet, Unreadable, earned, meant
+from grader.questions.sheet import in_turn, made
+from grader.questions.tally import add_class, write_bank
+from grader.release.practice import practice_of
+from grader.report.files import write_json, write_whole
+from grader.source.regions import python_files, read_source, regions_in
+
+ALL = frozenset(("1", "2", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "8a", "8b", "8c"))
+OPTIONS = Options(shipped_reference(), trusted=True)
+RIGHT = [each for each in members(KIT) if each.kind == "right" and not each.bonus]
+
+
+@contextmanager
+def program_of(folder: Path, result: Result) -> Iterator[Program]:
+    """A program that is taken to be right where the result says so."""
+    with opened_program(folder, OPTIONS, shared_worker(), result) as program:
+        yield program
+
+
+def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    return sheets.sheet_of(program, student, seed, asked, MAKERS)
+
+
+# ---------------------------------------------------------------- numbers
+
+
+def test_each_case_is_answered_in_two_ways_and_no_wrong_answer_counts(solution: Result):
+    with program_of(KIT / "solution", solution) as program:
+        questions = [each.ask(program, "a seed/ada", 2) for each in MAKERS]
+    for question in questions:
+        assert earned(question, question.answer) == 2
+        assert len(question.wrong) >= 2, question.name
+        for wrong in question.wrong:
+            assert earned(question, wrong.answer) == 0
+            assert meant(question, wrong.answer) == wrong.why
+
+
+def test_no_two_of_two_hundred_seeds_draw_the_same_numbers():
+    chosen = list(in_turn(MAKERS, program_with(ALL)))[:3]
+    sheets = {str([drawn(each, f"{seed}/ada")[0] for each in chosen]) for seed in range(200)}
+    names = {str([drawn(each, f"7/student {n}")[0] for each in chosen]) for n in range(200)}
+    assert len(sheets) == len(names) == 200
+
+
+def program_with(right: Iterable[str], given: Iterable[str] = ()) -> Program:
+    """A program that is never run."""
+    nothing: Any = None
+    return Program(nothing, nothing, frozenset(right), frozenset(given))
+
+
+def test_every_todo_right_asks_everybody_alike():
+    names = [each.name for each in in_turn(MAKERS, program_with(ALL))][:3]
+    assert names == ["impulse", "steps", "verlet"]
+    names = [each.name for each in in_turn(MAKERS, program_with({"5", "8a"}))]
+    assert names == ["semi-implicit", "damping"]
+
+
+def test_nothing_is_asked_twice_while_there_is_something_else():
+    names = [each.name for each in in_turn(MAKERS, program_with(ALL))]
+    assert len(set(names)) == len(names) == len(MAKERS)
+    assert names.index("purse") > names.index("fall"), "steps was about TODO 6 already"
+
+
+def test_the_last_reason_is_about_the_function_whose_lines_are_shown(solution: Result):
+    todos = [todo for todo in solution.todos if todo.id in ("3", "5", "7b")]
+    with program_of(KIT / "solution", solution.with_todos(todos)) as program:
+        found = sheet_of(program, "ada", "5", Asked(number=0, film=0))
+    assert [each.todos for each in found.questions] == [("3",), ("5",), ("7b",)]
+
+
+def test_what_flies_above_the_scene_is_in_the_picture():
+    usual, flies = film_of([-100.0] * 5), film_of([-100.0, 20.0, 20.0, 20.0, 20.0])
+    assert frame_of([usual]) == (0.0, 30.0, 900.0, 560.0)
+    assert frame_of([usual, flies]) == (0.0, -30.0, 900.0, 620.0)
+
+
+def test_what_a_course_hands_out_done_takes_part_and_is_not_asked_about():
+    names = [each.name for each in in_turn(MAKERS, program_with({"4"}, ALL - {"4"}))]
+    assert names == ["friction"]
+
+
+def test_a_program_that_tells_false_numbers_is_not_asked_about_them(
+    hand_in: HandIn, solution: Result
+):
+    text = (KIT / "solution/mini_engine/solver.py").read_text()
+    false = text.replace("    c.jn = total\n", "    c.jn = total * 1.05\n")
+    assert false != text
+    folder = hand_in("solution", mini_engine__solver_py=false)
+    with program_of(folder, solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(film=0, line=0, why=0))
+    assert [each.name for each in sheet.questions] == ["steps", "verlet", "friction"]
+    (words,) = sheet.dropped
+    assert words.startswith("impulse: closed form and their program differ")
+
+
+# ---------------------------------------------------------------- answers
+
+
+@pytest.mark.parametrize("answer", ["962", "962 kg px/s", " 9.62e2", "962,1", "+962"])
+def test_an_answer_is_read_as_people_write_it(answer: str):
+    question = Question("x", "number", ("1",), "", 2, "962", 20.0, "kg px/s")
+    assert earned(question, answer) == 2
+
+
+@pytest.mark.parametrize("answer", ["", "about 900", "1,036", "12 or 13", "--3", "nan"])
+def test_what_is_no_number_is_never_counted_as_a_wrong_one(answer: str):
+    with pytest.raises(Unreadable):
+        earned(Question("x", "number", ("1",), "", 2, "962", 20.0, "kg px/s"), answer)
+
+
+def test_films_count_one_by_one():
+    question = Question("x", "film", ("1",), "", 4, "badc")
+    assert [earned(question, each) for each in ("BADC", "b, a, c, d", "abcd")] == [4, 2, 0]
+    with pytest.raises(Unreadable):
+        earned(question, "bad")
+
+
+@pytest.mark.parametrize("error", [OverflowError, ZeroDivisionError, RecursionError, IndexError])
+def test_numbers_that_make_no_sense_drop_a_question_and_not_the_class(error: type[Exception]):
+    def ask() -> Question:
+        raise error
+
+    dropped: list[str] = []
+    assert made(iter([("it", ask)]), 1, dropped) == []
+    assert dropped == [f"it: it could not be worked out ({error.__name__})"]
+
+
+def test_a_ball_of_no_earthly_mass_is_not_asked_about(hand_in: HandIn, solution: Result):
+    text = (KIT / "solution/mini_engine/scenes.py").read_text()
+    false = text.replace("radius**2 / 100", "5e-324")
+    assert false != text
+    with program_of(hand_in("solution", mini_engine__scenes_py=false), solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
+    assert [each.name for each in sheet.questions] == ["steps"]
+    assert sheet.dropped[0].startswith("impulse: ")
+
+
+def test_a_program_whose_scene_breaks_has_a_sheet_all_the_same(hand_in: HandIn, solution: Result):
+    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
+    breaks = scenes.replace("    world = World()\n", "    raise KeyError('\x1b[2J')\n")
+    assert breaks != scenes
+    folder = hand_in("solution", mini_engine__scenes_py=breaks)
+    todos = [todo for todo in solution.todos if todo.id in ("1", "3")]
+    with program_of(folder, solution.with_todos(todos)) as program:
+        sheet = sheet_of(program, "eve", "1", Asked())
+    assert [each.name for each in sheet.questions] == [
+        "depth",
+        "why-centre-inside",
+        "why-rod-impulse",
+    ]
+    assert [words.partition(":")[0] for words in sheet.dropped] == [
+        *("rod", "films", "line of TODO 3", "line of TODO 1"),
+    ]
+    assert sheet.dropped[0].startswith("rod: their program gave KeyError")
+    assert all(words.isprintable() for words in sheet.dropped)
+
+
+def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Result):
+    scenes = (KIT / "solution/mini_engine/scenes.py").read_text()
+    ends = scenes.replace("    world = World()\n", "    raise SystemExit\n")
+    assert ends != scenes
+    leaves = ends.replace("raise SystemExit", "__import__('os')._exit(3)")
+    with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
+        for _ in range(4):
+            with pytest.raises((Unlike, Broke)):
+                MAKERS[0].ask(program, "1", 2)
+        assert program.own.deaths == 3
+        with pytest.raises(Unlike, match="too often"):
+            MAKERS[0].ask(program, "1", 2)
+
+
+# ---------------------------------------------------------------- films, lines, reasons
+
+
+@pytest.fixture(scope="module")
+def whole_sheet(solution: Result) -> Sheet:
+    """The sheet of somebody who has the solution."""
+    with program_of(KIT / "solution", solution) as program:
+        return sheet_of(program, "ada", "5", Asked())
+
+
+def test_a_sheet_has_every_kind_and_the_points_of_the_course(whole_sheet: Sheet):
+    kinds = [each.kind for each in whole_sheet.questions]
+    assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
+    assert whole_sheet.points == 3 * 2 + 4 + 3 + 2 * 3
+    assert not whole_sheet.dropped
+    for each in whole_sheet.questions:
+        assert earned(each, each.answer) == each.by_machine
+
+
+def test_films_are_different_pictures_of_one_scene_that_run_no_script(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "film")
+    assert sorted(question.answer) == list("abcd")
+    assert len({each.svg for each in question.pictures}) == 4
+    for each in question.pictures:
+        tags = {node.tag.rpartition("}")[2] for node in ElementTree.fromstring(each.svg).iter()}
+        assert tags <= {
+            "svg",
+            "g",
+            "rect",
+            "circle",
+            "line",
+            "polyline",
+            "set",
+            "animate",
+            "animateTransform",
+        }
+
+
+def film_of(heights: Iterable[float], turns: float = 0.0) -> Film:
+    """A ball that goes through these heights, and turns as often from the first to the last."""
+    ups = list(heights)
+    each = 2 * math.pi * turns / (len(ups) - 1)
+    rows = [[50.0, -up, 0.0, 0.0, each * row, 0.0] for row, up in enumerate(ups)]
+    return Film([Look(10.0, (0.0, 0.0), True, (50.0, 0.0))], rows, 2.0)
+
+
+def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
+    named = {each.name: each for each in films.CHANGES}
+    falls = [100.0, 50.0, 0.0, 0.0, 0.0]
+    usual, bounces = film_of([*falls[:3], 160.0, 0.0], 3.0), film_of([*falls[:3], 400.0, 0.0], 3.0)
+    stays, slides, buzzes = (film_of(falls, turns) for turns in (3.0, 0.0, 6.0))
+    assert films.rise(usual) == pytest.approx(1.6)
+    assert films.turning(buzzes) == pytest.approx(6.0)
+
+    def told(**shown: Film) -> bool:
+        changed = {named[name.replace("_", "-")]: film for name, film in shown.items()}
+        return films.all_told({films.AS_IT_IS: usual} | changed)
+
+    assert told(bouncy=bounces, no_bounce=stays) and not told(bouncy=usual)
+    assert told(ice=slides) and not told(ice=film_of(falls, 2.5))
+    assert told(no_spin=buzzes) and not told(no_spin=buzzes, ice=buzzes)
+    assert not told(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
+    lower = film_of([*falls[:3], films.SEEN - 1, 0.0])
+    assert films.rise(lower) == 0.0, "a rise along the way down is not seen on paper"
+
+
+def test_nearly_every_scene_has_films_to_ask_about(solution: Result):
+    found = []
+    with program_of(KIT / "solution", solution) as program:
+        for seed in range(6):
+            try:
+                found.append(films.film_question(program, f"scene {seed}", 4))
+            except Unlike:
+                continue
+    assert len(found) >= 5
+    assert len({each.choices for each in found}) > 1
+    assert all("your program as it is" in each.choices for each in found)
+
+
+def test_a_played_film_turns_its_spokes_and_carries_its_rods(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "film")
+    for each in question.pictures:
+        nodes = list(ElementTree.fromstring(each.svg).iter())
+        kinds = [node.get("type") for node in nodes if node.get("type")]
+        assert kinds.count("translate") == kinds.count("rotate") == 9  # eight balls and the bob
+        moved = {node.get("attributeName") for node in nodes if node.tag.endswith("}animate")}
+        assert moved == {"x1", "y1", "x2", "y2"}
+
+
+def test_the_line_is_one_of_the_students_own_and_the_only_one_that_differs(whole_sheet: Sheet):
+    (question,) = (each for each in whole_sheet.questions if each.kind == "line")
+    (todo,) = question.todos
+    text = (KIT / "solution/mini_engine/joints.py").read_text()
+    (region,) = (each for each in regions_in(text) if each.id == todo)
+    own = {line.strip() for line in region.lines}
+    number = int(question.answer)
+    others = [line.strip() for n, line in enumerate(question.code, 1) if n not in (1, number)]
+    assert set(others) < own
+    assert question.code[number - 1].strip() not in own
+
+
+def test_what_is_asked_of_a_line_is_how_the_student_wrote_it(hand_in: HandIn, solution: Result):
+    text = (KIT / "solution/mini_engine/solver.py").read_text()
+    by_hand = text.replace(
+        "    total = max(-limit, min(limit, total))\n",
+        "    if total > limit:\n        total = limit\n"
+        "    if total < -limit:\n        total = -limit\n",
+    )
+    assert by_hand != text
+    with program_of(hand_in("solution", mini_engine__solver_py=by_hand), solution) as program:
+        sheet = sheet_of(program, "bob", "1", Asked(number=0, film=0, line=0, why=1))
+    (question,) = sheet.questions
+    assert (question.name, question.code) == ("why-clamp-by-hand", ("if total > limit:",))
+    assert question.by_hand == question.points == len(question.rubric)
+
+
+LIAR = """\
+class World(World):
+    def step(self, dt):
+        super().step(dt)
+        for body in self.moving_bodies():
+            body.pos.x += 1.5
+"""
+
+
+def test_a_program_whose_films_lie_is_not_asked_about_them(
+    hand_in: HandIn, solution: Result, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(films, "TRIES", 1)
+    text = (KIT / "solution/mini_engine/world.py").read_text()
+    folder = hand_in("solution", mini_engine__world_py=f"{text}\n\n{LIAR}")
+    with program_of(folder, solution) as program:
+        sheet = sheet_of(program, "eve", "1", Asked(number=1, line=0, why=0))
+    assert [each.kind for each in sheet.questions] == ["number", "number"]
+    assert any(words.startswith("films: its film of") for words in sheet.dropped)
+
+
+def test_a_quarter_of_the_todos_is_enough_for_a_sheet(solution: Result):
+    right = {"5", "8a", "7b"}
+    todos = [t if t.id in right else structs.replace(t, state="not yet") for t in solution.todos]
+    with program_of(KIT / "solution", solution.with_todos(todos)) as program:
+        sheet = sheet_of(program, "cy", "1", Asked())
+    assert [each.kind for each in sheet.questions].count("number") == 3
+    assert {each.kind for each in sheet.questions} == {"number", "line", "why"}
+    assert right.issuperset(todo for each in sheet.questions for todo in each.todos)
+
+
+# ---------------------------------------------------------------- marking on paper
+
+
+@pytest.fixture
+def handed_back(tmp_path: Path, whole_sheet: Sheet) -> Path:
+    """A folder with the key of one student."""
+    key = tmp_path / "out" / "keys" / "ada.json"
+    write_whole(msgspec.json.encode(whole_sheet), key)
+    return tmp_path / "out"
+
+
+def marked(out: Path, answers: str) -> Marked:
+    table = out / "answers.csv"
+    table.write_text(answers, encoding="utf-8")
+    return mark_answers(table, out / "keys")
+
+
+def test_answers_on_paper_are_marked_and_none_is_dropped_silently(
+    handed_back: Path, whole_sheet: Sheet
+):
+    key = [each.answer for each in whole_sheet.questions]
+    wrong = whole_sheet.questions[0].wrong[0]
+    rows = [
+        f"ADA,1,{wrong.answer}",
+        f"ada,q2,{key[1]}",
+        "ada,3,half of it",
+        f"ada,4,{key[3].upper()}",
+        f"ada,5,{key[4]},1",
+        "ada,6,because,2",
+        "bob,1,3",
+        "ada,9,3",
+        f"ada,2,{key[1]}",
+    ]
+    found = marked(handed_back, "\n".join(["Student,question,answer,points", *rows]))
+    points = [each.points for each in found.marks]
+    assert points == [0, 2, None, 4, 3, 2, 0]
+    assert found.marks[0].note == wrong.why
+    assert found.marks[2].note.startswith("not read: “half of it”")
+    assert found.marks[6].note == "no answer"
+    assert [note.partition(":")[0] for note in found.notes] == ["line 8", "line 9", "line 10"]
+    write_points(found, handed_back)
+    totals = (handed_back / "totals.csv").read_text().splitlines()
+    assert totals == ["student,points,out of,open", "ada,11,19,1"]
+    assert "half of it" in (handed_back / "points.csv").read_text()
+
+
+def test_what_a_person_marks_waits_for_one(handed_back: Path, whole_sheet: Sheet):
+    line = whole_sheet.questions[4].answer
+    rows = f"ada;5;{line};\nada;6;x;\nada;7;y;4\n"
+    found = marked(handed_back, f"student;question;answer;points\n{rows}")
+    assert [each.points for each in found.marks[4:]] == [None, None, None]
+    assert found.marks[4].note.startswith("2 of 2 so far; waits for a person: 0 to 1")
+    assert all("waits for a person: 0 to 3" in each.note for each in found.marks[5:])
+
+
+def test_who_is_not_in_the_table_is_named(handed_back: Path):
+    found = marked(handed_back, "student,question,answer\n")
+    assert found.notes == ["no answer of ada is in the table"]
+
+
+def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path):
+    found = marked(handed_back, "student,question,answer\nada,1,=1+1\nada,2,-3\n")
+    write_points(found, handed_back)
+    lines = (handed_back / "points.csv").read_text().splitlines()
+    assert ",'=1+1," in lines[1]
+    assert ",-3," in lines[2]
+
+
+def test_a_table_without_its_columns_is_refused(handed_back: Path):
+    with pytest.raises(CannotGrade, match="no column question"):
+        marked(handed_back, "student,answer\nada,3\n")
+
+
+def test_classes_are_counted_once_however_often_they_are_marked(
+    handed_back: Path, whole_sheet: Sheet, tmp_path: Path
+):
+    wrong = whole_sheet.questions[0].wrong[0]
+    rows = [f"ada,1,{wrong.answer},", "ada,2,?,", "ada,6,because,2", "ada,7,so,3"]
+    found = marked(handed_back, "\n".join(["student,question,answer,points", *rows]))
+    for _ in range(2):
+        tally = add_class(tmp_path / "tally.json", [whole_sheet], found.marks)
+    (counts,) = tally.values()
+    assert set(counts) == {"impulse", "why-clamp", "why-accumulator"}
+    assert [counts[f"why-{name}"].right for name in ("clamp", "accumulator")] == [0, 1]
+    assert (counts["impulse"].answered, counts["impulse"].right) == (1, 0)
+    write_bank(tmp_path / "bank.html", [whole_sheet], tally)
+    page = (tmp_path / "bank.html").read_text()
+    assert f"1 times: {escape(wrong.why)}" in page
+    assert "<td>1</td><td>1</td><td>0%</td>" in page
+
+
+# ---------------------------------------------------------------- Moodle and notebooks
+
+# What Moodle's importer reads of each kind of question, and what all of them have.
+ALWAYS = {"name", "questiontext", "generalfeedback", "defaultgrade", "penalty", "hidden"}
+READ_BY_MOODLE = {
+    "numerical": {"answer", "unitgradingtype", "unitpenalty", "unitsleft", "showunits"},
+    "matching": {"shuffleanswers", "subquestion"},
+    "multichoice": {"single", "shuffleanswers", "answernumbering", "answer"},
+    "essay": {
+        *("responseformat", "responserequired", "responsefieldlines", "attachments"),
+        *("attachmentsrequired", "graderinfo", "responsetemplate"),
+    },
+}
+
+
+def test_moodle_gets_what_its_importer_reads_with_pictures_in_it(whole_sheet: Sheet):
+    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A/B"))
+    category, *questions = quiz
+    assert category.findtext("category/text") == "$course$/top/A//B/ada"
+    kinds = [each.get("type") for each in questions]
+    assert kinds == ["numerical"] * 3 + ["matching", "multichoice", "essay", "essay", "essay"]
+    for each in questions:
+        assert {part.tag for part in each} == ALWAYS | READ_BY_MOODLE[each.get("type")]
+        assert sum(float(part.get("fraction")) for part in each.iter("answer") if part.keys()) in (
+            100,
+            0,
+        )
+        for holder in (each.find("questiontext"), *each.iter("subquestion")):
+            names = re.findall(r"@@PLUGINFILE@@/([\w.-]+)", holder.findtext("text"))
+            files = {file.get("name"): file.text for file in holder.iter("file")}
+            assert sorted(files) == sorted(names)
+            for text in files.values():
+                ElementTree.fromstring(base64.b64decode(text))
+    assert sum(int(each.findtext("defaultgrade")) for each in questions) == whole_sheet.points
+
+
+def test_moodle_counts_right_what_the_key_does(whole_sheet: Sheet):
+    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A"))
+    numerical, _, _, matching, multichoice = quiz[1:6]
+    first, film, line = (whole_sheet.questions[number] for number in (0, 3, 4))
+    right, *wrong = numerical.iter("answer")
+    assert (right.findtext("text"), right.get("fraction")) == (first.answer, "100")
+    told = [unescape(each.findtext("feedback/text", "")) for each in wrong]
+    assert told == [each.why for each in first.wrong]
+    answers = [each.findtext("answer/text") for each in matching.iter("subquestion")]
+    assert answers == [film.choices["abcd".index(letter)] for letter in film.answer]
+    fractions = [each.get("fraction") for each in multichoice.iter("answer")]
+    assert fractions.index("100") + 1 == int(line.answer)
+
+
+def run_cells(cells: list[dict[str, Any]], answers: dict[str, object]) -> dict[str, object]:
+    """What each test cell comes to: its points, True for all of them, or the error's name."""
+    space: dict[str, object] = dict(answers)
+    found: dict[str, object] = {}
+    for each in cells:
+        marks = each["metadata"]["nbgrader"]
+        if each["cell_type"] == "code" and marks["grade"]:
+            tree = ast.parse("".join(each["source"]))
+            last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+            try:
+                exec(compile(tree, "cell", "exec"), space)
+                value = eval(ast.unparse(last.value), space) if last else True
+            except AssertionError as error:
+                value = str(error)
+            found[marks["grade_id"]] = value
+    return found
+
+
+def test_a_notebook_marks_itself_as_the_key_does(whole_sheet: Sheet):
+    cells = json.loads(notebook(whole_sheet, "Physics"))["cells"]
+    ids = [each["metadata"]["nbgrader"]["grade_id"] for each in cells]
+    assert len(set(ids)) == len(ids)
+    points = [each["metadata"]["nbgrader"].get("points", 0) for each in cells]
+    assert sum(points) == whole_sheet.points
+    first, line = float(whole_sheet.questions[0].wrong[0].answer), whole_sheet.questions[4].answer
+    film = whole_sheet.questions[3].answer
+    near = float(whole_sheet.questions[2].answer) + whole_sheet.questions[2].tolerance * 0.9
+    answers = {
+        "answer_1": first,
+        "answer_2": int(whole_sheet.questions[1].answer),
+        "answer_3": near,
+        "answer_4": film[1] + film[0] + film[2:],
+        "answer_5": int(line),
+    }
+    found = run_cells(cells, answers)
+    assert found["test-1"] == "Another number is right."
+    assert (found["test-2"], found["test-3"], found["test-5"]) == (True, True, True)
+    assert found["test-4"] == 2
+    assert "must be a number" in str(run_cells(cells, {**answers, "answer_1": None})["test-1"])
+
+
+def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
+    text = notebook(whole_sheet, "Physics").decode()
+    for each in json.loads(text)["cells"]:
+        source = "".join(each["source"])
+        source = re.sub(r"### BEGIN (SOLUTION|HIDDEN TESTS).*?### END \1", "", source, flags=re.S)
+        if each["metadata"]["nbgrader"]["grade"] and each["cell_type"] == "code":
+            assert not re.search(r"\d+\.\d+|'[a-d]{4}'|answer_5 == \d", source), source
+        if each["metadata"]["nbgrader"]["grade_id"].startswith("answer"):
+            assert source.split() == [f"answer_{each['id'][-1]}", "=", "None"]
+
+
+# ---------------------------------------------------------------- practice at home
+
+
+@pytest.fixture(scope="module")
+def practice() -> Practice:
+    return msgspec.json.decode(practice_of(FULL), type=Practice)
+
+
+def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
+    assert {each.name for each in practice.cases} == {each.name for each in MAKERS}
+    for each in practice.cases:
+        assert len({question.text for question in each.questions}) >= 10, each.name
+        for question in each.questions:
+            assert earned(question, question.answer) == question.points
+            assert not any(earned(question, wrong.answer) for wrong in question.wrong)
+
+
+def test_at_home_all_kinds_are_asked_without_a_reference(practice: Practice, solution: Result):
+    with program_of(KIT / "solution", solution) as program:
+        alone = Program(program.own, None, program.right, practice.given)
+        some, others = (
+            sheets.sheet_of(alone, "practice", seed, practice.asked, practice.cases)
+            for seed in ("1", "2")
+        )
+        known = {each.answer for each in sheet_of(program, "ada", "5", Asked()).questions[:3]}
+    kinds = [each.kind for each in some.questions]
+    assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
+    assert some.points == 3 * 2 + 4 + 3 + 2 * 3
+    assert not some.dropped
+    assert [each.text for each in some.questions[:4]] != [
+        each.text for each in others.questions[:4]
+    ]
+    assert not known & {each.answer for each in some.questions[:3]}
+
+
+# ---------------------------------------------------------------- files, and everybody's sheet
+
+
+def test_the_command_makes_sheets_that_can_be_answered_and_marked(
+    tmp_path: Path, solution: Result, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(making, "start_worker", lambda: NotClosed(shared_worker()))
+    course, results, out = tmp_path / "course.toml", tmp_path / "results", tmp_path / "out"
+    course.write_text('title = "Us <b>"\n[questions]\nnumber = 1\nfilm = 0\nline = 0\nwhy = 1\n')
+    write_json(solution, results / "ann.json")
+    shutil.copytree(KIT / "solution", tmp_path / "class" / "ann")
+    (tmp_path / "class" / "ben").mkdir()
+    (tmp_path / "class" / "ben" / "notes.txt").write_text("nothing")
+    asked = ["--out", str(out), "--course", str(course)]
+    called = [*asked, "--class", str(tmp_path / "class"), "--results", str(results), "--seed", "3"]
+    run = CliRunner().invoke(app, called)
+    assert run.exit_code == 1, run.output  # ben has nothing to be asked about
+    assert "ann: 2 questions, 5 points" in run.output and "ben: " in run.output
+    sheet, key = ((out / name / "ann.html").read_text() for name in ("sheets", "keys"))
+    assert "Us &lt;b&gt;: ann" in sheet
+    (first, _) = read_keys(out / "keys")[0].questions
+    assert f"<strong>{first.answer}" in key and f"<strong>{first.answer}" not in sheet
+    assert all(each.why not in sheet for each in first.wrong)
+    table = tmp_path / "answers.csv"
+    table.write_text(f"student,question,answer,points\nann,1,{first.answer},\nann,2,x,1\n")
+    tally = ["--tally", str(tmp_path / "tally.json")]
+    run = CliRunner().invoke(app, [*asked, "--mark", str(table), *tally])
+    assert run.exit_code == 0, run.output
+    assert (out / "totals.csv").read_text().splitlines()[1:] == ["ann,3,5,0"]
+
+
+class NotClosed:
+    """A worker that others need as well."""
+
+    def __init__(self, worker: Worker) -> None:
+        self.worker = worker
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self.worker, name)
+
+    def close(self) -> None:
+        """Leave it open."""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ([], "name a submission"),
+        (["x", "--roster", "y"], "--roster would be ignored without --class"),
+        (["--class", "x", "--id", "ann"], "--id would be ignored with --class"),
+        (["--mark", "x", "--seed", "3"], "--seed would be ignored with --mark"),
+        (["x", "--mark", "y"], "x would be ignored with --mark"),
+    ],
+)
+def test_options_that_would_count_for_nothing_are_refused(words: list[str], said: str):
+    run = CliRunner().invoke(app, words)
+    assert run.exit_code == 2
+    assert said in " ".join(run.output.split())
+
+
+def test_a_seed_that_nobody_chose_is_drawn_once_and_kept(tmp_path: Path):
+    first, again = (making.Making(tmp_path, OPTIONS) for _ in range(2))
+    assert first.seed == again.seed
+    assert first.seed != making.Making(tmp_path / "other", OPTIONS).seed
+    practice = making.Making(tmp_path, OPTIONS, practice=True)
+    assert practice.seed == f"practice {first.seed}"
+    assert making.Making(tmp_path, OPTIONS).seed == first.seed
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[questions]\nfilms = 1", "there is no kind films"),
+        ("[questions]\nnumber = 11", "number = 11 must be a whole number from 0 to 10"),
+        ("[questions]\npoints = { why = 0 }", "points of why = 0 must be"),
+        ("questions = 3", "must be a table"),
+    ],
+)
+def test_what_a_course_cannot_ask_is_said(text: str, words: str, tmp_path: Path):
+    path = tmp_path / "course.toml"
+    path.write_text(text)
+    with pytest.raises(WrongCourse, match=words):
+        read_course(path)
+
+
+def solution_lines() -> set[str]:
+    """What only the solution says: the lines of its regions that say something of their own."""
+    texts = [read_source(path) for path in python_files(KIT / "solution")]
+    lines = {line.strip() for text in texts for r in regions_in(text) for line in r.lines}
+    return {line for line in lines if len(line) > 12 and not line.startswith("#")}
+
+
+def test_no_line_of_the_solution_is_shown_to_who_wrote_another(tmp_path: Path, solution: Result):
+    (member,) = (each for each in members(KIT) if each.name == "8-in-other-words")
+    folder = tmp_path / "other"
+    member.build(KIT, folder)
+    todos = [t for t in solution.todos if t.id in ("8a", "8b", "8c")]
+    with program_of(folder, solution.with_todos(todos)) as program:
+        sheet = sheet_of(program, "dee", "1", Asked(number=0, film=0))
+        own = "\n".join(program.own.texts.values())
+    assert [each.kind for each in sheet.questions] == ["line", "why", "why"]
+    theirs = {line for line in solution_lines() if line not in own}
+    assert theirs
+    pages = page(sheet, "x", "sheet") + page(sheet, "x", "key")
+    assert not [line for line in theirs if str(escape(line)) in pages]
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("member", RIGHT, ids=lambda each: f"{each.name}-{each.form}")
+def test_every_right_member_of_the_bank_gets_a_whole_sheet(
+    member: Member, tmp_path: Path, solution: Result
+):
+    folder = tmp_path / "handed-in"
+    member.build(KIT, folder)
+    with program_of(folder, solution) as program:
+        sheet = sheet_of(program, member.name, "bank", Asked())
+    assert len(sheet.questions) == 7
+    assert {each.kind for each in sheet.questions} >= {"number", "line", "why"}
+
+
+@pytest.mark.soak
+def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, whole_sheet: Sheet):
+    pages = []
+    for kind in ("sheet", "key", "practice"):
+        pages.append(tmp_path / f"{kind}.html")
+        pages[-1].write_text(page(whole_sheet, "Us", kind), encoding="utf-8")
+    shown = "svg => getComputedStyle([...svg.querySelectorAll('g')].pop()).opacity"
+    with chromium() as browser:
+        tab = browser.new_page()
+        tab.goto(pages[0].as_uri())
+        film = tab.locator("#q4 svg").first
+        assert film.evaluate(shown) == "0"
+        film.click()
+        tab.wait_for_function(f"svg => ({shown})(svg) === '1'", arg=film.element_handle())
+        assert barriers(browser, *pages) == []

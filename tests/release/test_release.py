@@ -1,0 +1,743 @@
+"""The release: students can work with it at once, it marks as the instructor's grader does, and no
+line of the solution and no hidden check is in it."""
+
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+import pytest
+from page_readers import barriers, chromium
+from rich.console import Console
+
+from grader.bank.members import Member, members
+from grader.bank.sync import students_files
+from grader.bank.verify import Report, shared_worker
+from grader.checks import exact
+from grader.judge import misconceptions, recorded
+from grader.judge.grade import KIT, Options, grade
+from grader.judge.result import CheckResult, Result, TodoResult
+from grader.judge.rubric import CHECKS, Rubric, load_rubric, visible
+from grader.release import build as releases
+from grader.release import students_copy
+from grader.release.build import Refused, build, build_wheel, look_for_leaks, pinned, prove
+from grader.release.leaks import Secret, leaks_in_text, secrets_of, texts_in
+from grader.release.pages import as_page
+from grader.release.students_copy import Tree, cut_checks, hidden_checks, record
+from grader.source.cut import pruned, with_bodies
+from grader.source.regions import replaced
+
+WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" and m.is_patch]
+REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
+for todo in REGIONS:
+    misconceptions.load_known(todo)
+KNOWN = {f"{mistake.todo}-{mistake.id}" for mistake in misconceptions.known}
+NAMED = [member for member in WRONG if not member.bonus and member.name in KNOWN]
+EACH = list({REGIONS[min(member.todos)]: member for member in NAMED}.values())  # one a file
+SAMPLE = EACH[::3]  # the soak has them all
+
+ASKED = frozenset({"8a"}).union(*(member.todos for member in SAMPLE))  # of the copy in `make test`
+
+GRADE = """
+import json, sys
+from pathlib import Path
+from grader.judge.children import start_worker
+from grader.judge.course import read_course
+from grader.judge.grade import grade
+from grader.report.files import as_json
+from grader.cli.student import own_options
+worker = start_worker()
+for line in sys.stdin:
+    path, todos = json.loads(line)
+    result = grade(Path(path), own_options(frozenset(todos), read_course()), worker)
+    print(as_json(result).decode().replace("\\n", ""))
+worker.close()
+"""
+
+
+@dataclass
+class Released:
+    built: Path
+    archive: Path
+    tree: Path  # the archive, unpacked
+    installed: Path  # the wheel, unpacked
+    wrong: dict[str, Path]  # the submissions it was recorded with
+
+    @property
+    def wheel(self) -> Path:
+        (wheel,) = self.tree.glob("*.whl")
+        return wheel
+
+    def check(self, submissions: list[tuple[Path, frozenset[str]]]) -> list[Result]:
+        """What `check` says in the students' copy of the grader."""
+        asked = "\n".join(json.dumps([str(path), sorted(todos)]) for path, todos in submissions)
+        done = subprocess.run(
+            releases.alone(self.installed, f"exec({GRADE!r})"),
+            cwd=self.installed,
+            input=asked,
+            capture_output=True,
+            text=True,
+        )
+        assert not done.returncode, done.stderr
+        return [msgspec.json.decode(line, type=Result) for line in done.stdout.splitlines()]
+
+
+def make(work: Path, chosen: list[Member]) -> Released:
+    wrong = wrong_in(work, chosen)
+
+    def written() -> Iterator[tuple[Path, frozenset[str]]]:
+        for member in chosen:
+            member.build(KIT, wrong[member.name])
+            yield wrong[member.name], member.todos
+
+    (archive,) = build(work, written()).glob("*.zip")
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(work / "unpacked")
+    return released_in(work, chosen)
+
+
+def released_in(work: Path, chosen: list[Member]) -> Released:
+    """What `make` left in a folder."""
+    (archive,) = (work / "built").glob("*.zip")
+    tree = work / "unpacked" / releases.NAME
+    return Released(work / "built", archive, tree, work / "installed", wrong_in(work, chosen))
+
+
+def wrong_in(work: Path, chosen: list[Member]) -> dict[str, Path]:
+    return {member.name: work / "wrong" / member.name for member in chosen}
+
+
+@pytest.fixture(scope="session")
+def released(once, expected_runs: bytes) -> Released:
+    """Made by one of the processes that run the tests, with the runs that are recorded already.
+
+    It has the answers of the TODOs in ASKED alone. What the copy makes of both trees is asked by
+    `make release` and in `make soak`.
+    """
+
+    def fill(work: Path) -> None:
+        most = visible(load_rubric()).max_points
+        marks = {"solution": most}
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(releases, "record_expected", lambda *_: expected_runs)
+            patched.setattr(students_copy, "record", recorded_for_some)
+            patched.setattr(
+                releases,
+                "grade_with",
+                lambda _, tree: Result(1, tree.name, marks.get(tree.name, 0), most, 0, [], []),
+            )
+            make(work, SAMPLE)
+
+    return released_in(once("release", fill), SAMPLE)
+
+
+def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.Recorded:
+    """The right answers of those TODOs alone that `make test` asks of the copy."""
+    return record(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
+
+
+@pytest.fixture(scope="session")
+def secrets() -> list[Secret]:
+    return secrets_of(KIT)
+
+
+# ---------------------------------------------------------------- the students' grader
+
+
+Pair = tuple[TodoResult, TodoResult]  # ours and theirs
+
+
+def as_told(todo: TodoResult) -> dict[str, CheckResult]:
+    """The checks of a TODO, without what only one of both graders may know."""
+    return {
+        check.id: msgspec.structs.replace(check, meaning="", replay=None) for check in todo.checks
+    }
+
+
+def compare(released: Released, submissions: list[tuple[Path, frozenset[str]]]) -> list[Pair]:
+    """Ask `check` of the copy and `grade` of the kit: every visible check must end alike, with the
+    same words. Returns what both say of each TODO."""
+    pairs: list[Pair] = []
+    for (path, todos), theirs in zip(submissions, released.check(submissions), strict=True):
+        ours = grade(path, Options(reference=None, only=todos), shared_worker())
+        for our, their in zip(ours.todos, theirs.todos, strict=True):
+            shown, here = as_told(their), as_told(our)
+            assert shown == {name: here[name] for name in shown}, path.name
+            assert contradicts_nothing(our, their), path.name
+            pairs.append((our, their))
+    return pairs
+
+
+def contradicts_nothing(our: TodoResult, their: TodoResult) -> bool:
+    """Whether the kit names the mistake that the copy names, be it for a part of the questions.
+
+    It asks more, and hidden checks may show where the mistake is not made.
+    """
+    if their.misconception in (our.misconception, None):
+        return True
+    named = {check.meaning for check in their.checks if check.meaning}
+    return our.misconception is None and any(
+        check.meaning.endswith(meaning) for check in our.checks for meaning in named
+    )
+
+
+def share_named(pairs: list[Pair]) -> float:
+    """How many of the mistakes that the kit names the copy names as well."""
+    named = [their.misconception for our, their in pairs if our.misconception]
+    return sum(map(bool, named)) / len(named)
+
+
+def of_the_bank(released: Released, chosen: list[Member]) -> list[tuple[Path, frozenset[str]]]:
+    return [(released.wrong[member.name], member.todos) for member in chosen]
+
+
+def test_every_visible_check_ends_as_in_the_instructors_grader(released: Released):
+    assert len(SAMPLE) >= 3
+    assert share_named(compare(released, of_the_bank(released, SAMPLE))) > 0.7
+
+
+STEP = "v = v + accel(x) * dt\n    return x + v * dt, v"
+ON_THIS_MACHINE = {  # what may go otherwise here than there: imports, given files, folders
+    "imports-what-is-installed": f"import rich\n    {STEP}",
+    "imports-the-grader": f"from grader import grade\n    {STEP}",
+    "tries-an-import": f"try:\n        import msgspec\n    except ImportError:\n        {STEP}",
+    "imports-its-own": f"import own_helper\n    {STEP}",
+    "imports-given-code": f"import lab_runtime\n    {STEP}",
+    "reads-beside-it": f"open('own_helper.py').close()\n    {STEP}",
+    "reads-what-is-not-handed-in": f"open('build/replays/.gitignore').close()\n    {STEP}",
+    "reads-the-environment": f"import os\n    x += 'COURSE_FILE' in os.environ\n    {STEP}",
+    "asks-its-arguments": f"import sys\n    x += len(sys.argv) - 1\n    {STEP}",
+    "uses-changed-given-code": "v = explicit_euler(x, v, dt, accel)[1]\n    return x + v * dt, v",
+}
+
+
+def test_a_machine_with_other_things_on_it_changes_nothing(released: Released, tmp_path: Path):
+    """`check` runs in the student's folder, on any machine, and says what `grade` will."""
+    text = (KIT / "starter" / "integrators.py").read_text(encoding="utf-8")
+    trees = []
+    for name, body in ON_THIS_MACHINE.items():
+        tree = tmp_path / name
+        (tree / "build" / "replays").mkdir(parents=True)
+        (tree / "build" / "replays" / ".gitignore").write_text("*\n", encoding="utf-8")
+        (tree / "own_helper.py").write_text("", encoding="utf-8")
+        mine = replaced(text, {"8a": tuple(f"    {body}".splitlines())})
+        if name == "uses-changed-given-code":
+            mine = mine.replace("    return x + v * dt, v + accel(x) * dt", "    return x, v", 1)
+        (tree / "integrators.py").write_text(mine, encoding="utf-8")
+        trees.append((tree, frozenset({"8a"})))
+    pairs = zip(ON_THIS_MACHINE, compare(released, trees), strict=True)
+    states = {name: their.state for name, (_, their) in pairs}
+    assert states["imports-what-is-installed"] == states["imports-the-grader"] == "error"
+    assert states["reads-what-is-not-handed-in"] == "error"
+    right = ("tries-an-import", "imports-its-own", "imports-given-code", "reads-beside-it")
+    assert {states[name] for name in right} == {"passed"}
+
+
+@pytest.mark.soak
+def test_so_it_is_for_all_wrong_submissions(tmp_path: Path):
+    released = make(tmp_path, WRONG)
+    assert share_named(compare(released, of_the_bank(released, WRONG))) > 0.9
+
+
+def test_the_points_of_both_graders_belong_together():
+    shown = visible(load_rubric())
+    assert shown.max_points + shown.hidden_points == load_rubric().max_points
+    assert load_rubric().hidden_points == 0
+    assert shown.max_points >= 0.8 * load_rubric().max_points
+    assert all(todo.checks for todo in shown.todos)
+
+
+def test_the_wheel_has_the_visible_rubric(released: Released):
+    text = (released.installed / "grader" / "checks" / "rubric.toml").read_bytes()
+    assert msgspec.toml.decode(text, type=Rubric) == visible(load_rubric())
+
+
+def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path, monkeypatch):
+    (none,) = released.check([(KIT / "starter", frozenset())])
+    monkeypatch.setattr(releases, "grade_with", lambda *_: none)
+    with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
+        prove(released.wheel, tmp_path / "installed")
+
+
+def test_a_release_is_proved_by_the_course_in_it(released: Released, monkeypatch):
+    """`make release COURSE_FILE=…` hands the file on, and with it points of checks left out."""
+    one = KIT / "tests" / "courses" / "integrators.toml"
+    monkeypatch.setenv("COURSE_FILE", str(one))
+    result = releases.grade_with(released.installed, KIT / "starter")
+    assert result.max_points == visible(load_rubric()).max_points
+
+
+@pytest.mark.soak  # a quarter of a minute; test_questions asks the same without a release
+def test_students_can_practise_questions_about_their_own_program(
+    released: Released, tmp_path: Path
+):
+    own = tmp_path / "own"
+    shutil.copytree(KIT / "solution", own, ignore=shutil.ignore_patterns("stable_engine"))
+    code = "sys.argv = ['grader', 'questions', *{!r}]; from grader.cli.main import main; main()"
+
+    def asked(*words: str) -> subprocess.CompletedProcess[str]:
+        command = releases.alone(released.installed, code.format(words))
+        return subprocess.run(command, cwd=own, capture_output=True, text=True)
+
+    done = asked("--seed", "3")
+    assert not done.returncode, done.stdout + done.stderr
+    page = (own / "build" / "questions.html").read_text(encoding="utf-8")
+    assert page.count("<details><summary>The answer") == page.count('class="question"') >= 4
+    assert all(f". {kind} <" in page for kind in ("Predict a number", "Find the line", "Say why"))
+    assert not asked("--seed", "3", "--out", "again.html").returncode
+    assert (own / "again.html").read_text(encoding="utf-8") == page
+    assert not asked("--seed", "4", "--out", "other.html").returncode
+    assert (own / "other.html").read_text(encoding="utf-8") != page
+    assert asked("--class", "x").returncode == 2, "what is for a class is not in it"
+
+
+# ---------------------------------------------------------------- nothing is given away
+
+
+def test_every_region_has_something_to_look_for(secrets: list[Secret]):
+    named = " ".join(secret.what for secret in secrets)
+    assert not [todo for todo in REGIONS if f"TODO {todo}" not in named]
+    assert {f"{name}" for name in hidden_checks(load_rubric())} <= {each.text for each in secrets}
+
+
+def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
+    names = [path.name for path in released.installed.rglob("*")]
+    assert not {"maintain", "classroom"} & set(names)
+    assert not [name for name in names if name.startswith(("mistakes_", "cases"))]
+    questions = {path.stem for path in released.installed.glob("grader/questions/*.py")}
+    assert questions == {
+        *("__init__", "films", "home", "lines", "operators", "page", "pictures", "practice"),
+        *("program", "question", "reasons", "scene", "sheet"),
+    }
+    texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
+    for name in hidden_checks(load_rubric()):
+        assert not [text for text in texts if name in text]
+    theirs = (released.installed / "grader" / "checks" / "exact.py").read_text(encoding="utf-8")
+    for name in recorded.oracles:
+        found = re.search(rf'^def {name}\(.*\n    """.*"""\n    (.*)\n', theirs, re.M)
+        assert f"def {name}(" not in theirs or (found and "recorded.answer(" in found[1])
+
+
+RENAMED = {
+    "1": "c = Vector2(max(lo.x, min(m.x, hi.x)), max(lo.y, min(m.y, hi.y)))",
+    "2": "k += cross(rb,direction)**2*second.inv_inertia",
+    "3": "push = self.axis * (\n    (self.bias - v) / self.k\n)",
+    "4": "jt = max(-most, min(most, jt))",
+    "5": "share = math.exp(-world.linear_damping*step)",
+    "6": "accumulator += min(frame_seconds, MAX_FRAME)",  # given under other names
+    "7a": "space.gravity = (0, 980)",
+    "7b": "moment = pymunk.moment_for_circle(mass, 0, radius)",  # this one, too
+    "7c": "world.add(pymunk.PinJoint(world.static_body, ball, (700, 90), (0, 0)))",
+    "7d": "accumulator += min( frame_seconds,\n MAX_FRAME )",
+    "8a": "speed = speed + force(place) * h",
+    "8b": "p = p + speed * h + 0.5 * first * h**2",
+    "8c": "s3, f3 = s + 0.5 * h * f2, force(p + 0.5 * h * s2)",
+}
+
+
+@pytest.mark.parametrize("todo", RENAMED)
+def test_a_line_is_found_under_other_names(todo: str, secrets: list[Secret]):
+    text = f"Two lines.\nWrite `{RENAMED[todo]}` there.\n"
+    found = list(leaks_in_text("page.md", text, secrets))
+    assert found and found[0].line == 2
+    assert f"TODO {todo}" in found[0].what
+
+
+def test_what_students_have_anyway_is_no_leak(secrets: list[Secret]):
+    for path in [*students_files(KIT).values(), *(KIT / "handouts").glob("*.md")]:
+        assert not list(leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
+
+
+def packed(name: str, text: str | bytes) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        archive.writestr(name, text)
+    return buffer.getvalue()
+
+
+LINE = "total = max(-limit, min(limit, total))"
+FORMS = {
+    "page.html": b"<pre><span>total</span> = max(-limit, min(limit, total))</pre>",
+    "hints.toml": f'4 = ["{LINE}"]'.encode(),
+    "cells.ipynb": json.dumps({"cells": [{"source": ["x = 1\n", LINE]}]}).encode(),
+    "windows.txt": f"one\r\n{LINE}\r\n".encode(),
+    "a.whl": packed("grader/help.py", LINE),
+    "b.zip": packed("in.whl", packed("c.py", LINE)),
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_line_is_found_in_every_kind_of_file(name: str, secrets: list[Secret]):
+    found = [
+        leak
+        for file, text in texts_in(name, FORMS[name])
+        for leak in leaks_in_text(file, text, secrets)
+    ]
+    assert {leak.what for leak in found} == {"TODO 4"}
+
+
+def test_planted_leaks_stop_the_release(
+    released: Released, secrets: list[Secret], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
+    monkeypatch.setattr(releases, "secrets_of", lambda *_: secrets)  # found out once
+    tree = tmp_path / releases.NAME
+    shutil.copytree(released.tree, tree)
+    solver = (KIT / "solution" / "mini_engine" / "solver.py").read_text(encoding="utf-8")
+    (tree / "mini_engine" / "solver.py").write_text(solver, encoding="utf-8")
+    with open(tree / "handouts" / "lesson.html", "a", encoding="utf-8") as page:
+        page.write("<p>\n<b>keep</b> = math.exp(-self.linear_damping * h)\n</p>\n")
+    with zipfile.ZipFile(tree / released.wheel.name, "a") as wheel:
+        wheel.writestr("grader/help.py", "# left over\nspace.gravity = (0, 980)\n")
+        wheel.writestr("grader/checks/more.toml", 'x = "def rk4_weighs_four_samples"\n')
+    built = tmp_path / "built"
+    built.mkdir()
+    releases.write_zip(tree, built / "release.zip")
+    with pytest.raises(Refused) as refused:
+        look_for_leaks(built)
+    told = str(refused.value)
+    top = f"release.zip/{releases.NAME}"
+    assert re.search(rf"{top}/mini_engine/solver.py, line \d+, gives away TODO 2: ", told)
+    assert re.search(rf"{top}/mini_engine/solver.py, line \d+, gives away TODO 4: ", told)
+    assert re.search(rf"{top}/handouts/lesson.html, line \d+, gives away TODO 5: math.exp", told)
+    assert re.search(r"whl/grader/help.py, line 2, gives away TODO 7a: space.gravity", told)
+    assert re.search(r"more.toml, line 1, gives away a hidden check: rk4_weighs_four", told)
+
+
+def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr(releases, "verify", lambda *_: Report(complaints=["drift"]))
+    with pytest.raises(Refused, match="verify"):
+        releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monkeypatch):
+    def made(work: Path, *_: object) -> Path:
+        (work / "built" / "bundle").mkdir(parents=True)
+        (work / "built" / "bundle" / "new").touch()
+        (work / "built" / "a.zip").write_text("new", encoding="utf-8")
+        return work / "built"
+
+    monkeypatch.setattr(releases, "verify", lambda *_: Report())
+    monkeypatch.setattr(releases, "build", made)
+    (tmp_path / "out" / "bundle").mkdir(parents=True)
+    (tmp_path / "out" / "bundle" / "old").touch()
+    (tmp_path / "out" / "a.zip").write_text("old", encoding="utf-8")
+    written = releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    assert [path.name for path in written] == ["a.zip", "bundle"]
+    assert written[0].read_text(encoding="utf-8") == "new"
+    assert [path.name for path in written[1].iterdir()] == ["new"]
+
+
+# ---------------------------------------------------------------- the student's first minute
+
+
+def test_the_readme_names_what_is_there(released: Released):
+    text = (released.tree / "README.md").read_text(encoding="utf-8")
+    files = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:py|html|txt))`", text))
+    assert {"handouts/lab-sheet.html", "MANIFEST.txt", "mini_engine/solver.py"} <= files
+    places = (released.tree, released.tree / "mini_engine")
+    assert not [name for name in files if not any((each / name).is_file() for each in places)]
+
+
+def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
+    files = students_files(KIT)
+    for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
+        files[f"notebooks/{path.name}"] = path
+    assert {"accuracy.py", "experiments/window.py", "stable_engine/world.py"} < set(files)
+    made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
+    there = [name for name, _ in releases.files_in(released.tree)]
+    assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
+    for name in set(files) - made:
+        assert (released.tree / name).read_bytes() == files[name].read_bytes()
+
+
+def test_every_link_of_the_pages_leads_somewhere(released: Released):
+    pages = {page.name: page.read_text(encoding="utf-8") for page in released.tree.glob("*/*.html")}
+    assert {f"{path.stem}.html" for path in (KIT / "handouts").glob("*.md")} == set(pages)
+    assert 'href="hints.html#todo-4' in pages["lab-sheet.html"]
+    for name, text in pages.items():
+        for link in re.findall(r'(?:href|src)="([^"]+)"', text):
+            target, _, place = link.partition("#")
+            assert (released.tree / "handouts" / (target or name)).is_file(), f"{name}: {link}"
+            assert not place or f'id="{place}"' in pages[target or name], f"{name}: {link}"
+
+
+def test_pages_follow_one_another_from_the_first_to_the_last(released: Released):
+    folder, way = released.tree / "handouts", ["index.html"]
+    while found := re.search(
+        r'<a class="next" href="([^"]+)"', (folder / way[-1]).read_text(encoding="utf-8")
+    ):
+        assert f'class="previous" href="{way[-1]}"' in (folder / found[1]).read_text("utf-8")
+        way.append(found[1])
+    assert sorted(way) == sorted(page.name for page in folder.glob("*.html"))
+    assert way[:3] == ["index.html", "lesson.html", "lab-sheet.html"]
+
+
+def test_what_students_read_names_nothing_that_they_do_not_have(released: Released):
+    tree = released.tree
+    texts = [*tree.glob("*.md"), *tree.glob("handouts/*.html"), *tree.glob("notebooks/*.ipynb")]
+    for path in texts:
+        text = path.read_text(encoding="utf-8")
+        assert "cd solution" not in text and "solution/" not in text, path.name
+        for name in re.findall(r"(?:`|<code>)([\w.-]+/[\w./-]*)(?:`|</code>)", text):
+            made_later = name.split("/")[0] in ("build", ".venv", "report")
+            there = any((top / name).exists() for top in (tree, tree / "mini_engine"))
+            assert made_later or there, f"{path.name} names {name}"
+
+
+@pytest.mark.soak
+def test_the_pages_are_for_all(released: Released):
+    with chromium() as browser:
+        names = ("index", "lab-sheet", "hints", "quiz", "lesson")
+        assert barriers(browser, *(released.tree / f"handouts/{each}.html" for each in names)) == []
+
+
+def test_a_page_keeps_words_of_links_that_lead_nowhere():
+    text = "# A <title>\n\n[here](b.md#c), [there](none.md)\n\n## C, d\n"
+    page = as_page("a.md", {"a.md": text, "b.md": "# B\n"})
+    assert '<a href="b.html#c">here</a>, there' in page
+    assert "<title>A &lt;title&gt;</title>" in page and 'id="c-d"' in page
+
+
+def test_the_manifest_knows_every_file(released: Released):
+    head, *rows = (released.tree / "MANIFEST.txt").read_text(encoding="utf-8").splitlines()
+    assert head.split()[-1] in released.wheel.name
+    content = rows.pop(0).split()[-1]
+    assert re.fullmatch("[0-9a-f]{64}", content) and content[:8] in released.archive.name
+    sums = dict(reversed(row.split("  ")) for row in rows if not row.startswith("#"))
+    files = dict(releases.files_in(released.tree))
+    assert set(sums) == set(files) - {"MANIFEST.txt"}
+    assert all(releases.sha256(files[name].read_bytes()) == sums[name] for name in sums)
+
+
+def test_the_same_content_makes_the_same_bytes(
+    released: Released, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Also elsewhere, where files are made for nobody else, in another zone and language."""
+    monkeypatch.setenv("TZ", "Asia/Kathmandu")
+    monkeypatch.setenv("LC_ALL", "POSIX")
+    copy = tmp_path / "copy"
+    shutil.copytree(released.installed / "grader", copy / "grader")
+    (copy / "grader" / "__init__.py").write_bytes((KIT / "grader" / "__init__.py").read_bytes())
+    shutil.rmtree(copy / "grader" / "__pycache__", ignore_errors=True)
+    for path in list(copy.rglob("__pycache__")):
+        shutil.rmtree(path)
+    version = released.wheel.name.split("-")[1]
+    (tmp_path / "wheel").mkdir()
+    usual = os.umask(0o077)
+    try:
+        again = build_wheel(copy, version, tmp_path / "wheel")
+    finally:
+        os.umask(usual)
+    assert again.read_bytes() == released.wheel.read_bytes()
+    releases.write_zip(released.tree, tmp_path / "again.zip")
+    assert (tmp_path / "again.zip").read_bytes() == released.archive.read_bytes()
+
+
+BUILD = """
+import os, sys
+from pathlib import Path
+os.umask(int(sys.argv[1], 8))
+from grader.judge.course import read_course
+from grader.release.build import build
+build(Path(sys.argv[2]), [], read_course(Path(sys.argv[3])))
+"""
+
+
+@pytest.mark.soak
+def test_the_release_is_the_same_wherever_and_whenever_it_is_built(tmp_path: Path):
+    """With other modes for new files, other paths, time zones, locales and orders of sets.
+
+    The course has TODOs of several files: what is known of each was once read in a set's order.
+    """
+    course = tmp_path / "course.toml"
+    course.write_text('todos = ["3", "7c", "B2"]\n', encoding="utf-8")
+    archives = []
+    for umask, name, zone, locale, seed in (
+        ("077", "a path with spaces", "Asia/Kathmandu", "POSIX", "1"),
+        ("002", "b", "America/St_Johns", "C.UTF-8", "2"),
+    ):
+        settings = {"TZ": zone, "LC_ALL": locale, "PYTHONHASHSEED": seed}
+        command = [sys.executable, "-c", BUILD, umask, tmp_path / name, course]
+        subprocess.run(command, check=True, env={**os.environ, **settings})
+        archives += (tmp_path / name / "built").glob("*.zip")
+    assert archives[0].name == archives[1].name
+    assert archives[0].read_bytes() == archives[1].read_bytes()
+
+
+@pytest.mark.soak
+def test_two_builds_are_the_same_byte_by_byte(tmp_path: Path):
+    once, again = (make(tmp_path / name, SAMPLE) for name in ("once", "again"))
+    files = [dict(releases.files_in(each.built)) for each in (once, again)]
+    assert set(files[0]) == set(files[1])
+    assert all(files[0][name].read_bytes() == files[1][name].read_bytes() for name in files[0])
+
+
+def test_only_what_runs_is_required():
+    lock = (
+        "rich==15.0.0 \\\n    --hash=sha256:aa\n    # via\n    #   kit (pyproject.toml)\n"
+        "setuptools==84.0 \\\n    --hash=sha256:bb\n    # via kit (pyproject.toml:build)\n"
+        "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n    # via rich\n"
+    )
+    assert pinned(lock) == (
+        "rich==15.0.0 \\\n    --hash=sha256:aa\n"
+        "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n"
+    )
+
+
+NO_FORK = "import os; del os.fork; "  # as on Windows
+
+
+@pytest.mark.parametrize(
+    ("first", "folder"), [pytest.param("", "mini_engine", marks=pytest.mark.soak), (NO_FORK, ".")]
+)
+def test_a_student_unpacks_checks_and_hands_in(
+    released: Released, tmp_path: Path, first: str, folder: str
+):
+    """With the packages of this environment; `test_walk.py` has the whole lab."""
+    tree = tmp_path / "a course" / releases.NAME
+    shutil.copytree(released.tree, tree)
+
+    def types(*words: str) -> tuple[int, str]:
+        argv = ["grader", *words]
+        code = f"import runpy; sys.argv = {argv!r}; runpy.run_module('grader', run_name='__main__')"
+        command = releases.alone(released.installed, first + code)
+        done = subprocess.run(command, cwd=tree / folder, capture_output=True, text=True)
+        assert not done.stderr
+        return done.returncode, done.stdout
+
+    shutil.copyfile(KIT / "solution" / "integrators.py", tree / "integrators.py")
+    status, out = types("check", "--todo", "1", "--todo", "8a")
+    assert status == 1 and re.search("^NOT STARTED 1$", out, re.M), out
+    assert re.search("^PASSED +8a ", out, re.M), out
+    status, out = types("hand-in")
+    assert status == 0 and (tree / "hand-in.zip").is_file(), out
+
+
+@pytest.mark.soak
+def test_a_student_unpacks_installs_and_checks(released: Released, tmp_path: Path):
+    """In a new environment, from the folder itself and from one within, with both trees' files."""
+    tree = tmp_path / "a course" / releases.NAME
+    shutil.copytree(released.tree, tree)
+    subprocess.run([sys.executable, "-m", "venv", ".venv"], cwd=tree, check=True)
+    python = tree / ".venv" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"]
+    packages = (tree / "requirements.txt").read_text(encoding="utf-8").rsplit("./", 1)[0]
+    (tmp_path / "packages.txt").write_text(packages, encoding="utf-8")
+    if subprocess.run([*pip, tmp_path / "packages.txt"], capture_output=True).returncode:
+        pytest.skip("pip reaches no package index from here")
+    subprocess.run([*pip, "requirements.txt"], cwd=tree, check=True)
+
+    def check(folder: Path) -> tuple[int, str]:
+        command = [python, "-m", "grader", "check"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    status, words = check(tree)
+    most = visible(load_rubric()).max_points
+    assert status == 1 and f"0 / {most}" in words, words
+    for name, path in releases.files_in(KIT / "solution"):
+        if name.endswith(".py") and (tree / name).is_file():
+            shutil.copyfile(path, tree / name)
+    status, words = check(tree / "mini_engine")
+    assert status == 0 and f"{most} / {most}" in words, words
+
+
+# ---------------------------------------------------------------- cutting and recording
+
+SOURCE = '''"""What it is."""
+
+import math
+from typing import Any, NamedTuple
+
+A = 1
+B = 2  # of b alone
+
+
+def a(x: Any) -> float:
+    """Uses A."""
+    return helper(x) + A
+
+
+# Above b,
+# two lines.
+@decorated
+def b() -> float:
+    return math.pi + B
+
+
+def helper(x: float) -> float:
+    return x
+'''
+
+
+def test_what_nobody_needs_is_cut_and_the_rest_is_kept_letter_by_letter():
+    cut = pruned(SOURCE, ["a"])
+    compile(cut, "cut", "exec")
+    assert cut.startswith('"""What it is."""\n\nfrom typing import Any\n\nA = 1\n\n\ndef a(')
+    assert "import math" not in cut and "NamedTuple" not in cut and "# of b alone" not in cut
+    assert "Above" not in cut and "two lines" not in cut and "decorated" not in cut
+    kept = SOURCE[SOURCE.index("def a(") : SOURCE.index("# Above")].strip()
+    assert kept in cut and cut.endswith("def helper(x: float) -> float:\n    return x\n")
+    assert pruned(SOURCE, ["a", "b"]).count("import math") == 1
+
+
+def test_a_body_is_replaced_below_its_docstring():
+    changed = with_bodies(SOURCE, {"a": "return 5", "b": "return 6"})
+    assert 'def a(x: Any) -> float:\n    """Uses A."""\n    return 5\n' in changed
+    assert "def b() -> float:\n    return 6\n" in changed and "@decorated" not in changed
+
+
+def test_visible_checks_are_cut_out_unchanged():
+    """A property draws its examples from its own text, so that text must stay as it is."""
+    cut = cut_checks(visible(load_rubric()))
+    for todo in visible(load_rubric()).todos:
+        text = (CHECKS / todo.folder / "checks.py").read_text(encoding="utf-8")
+        for check in todo.checks:
+            pattern = rf"(?:^@.+\n)*^def {check.id}\([\s\S]*?(?=\n\S|\Z)"
+            found = re.search(pattern, text, re.M)
+            assert found and found[0] in cut[f"{todo.folder}/checks.py"], check.id
+
+
+def test_no_check_imports_an_oracle_by_its_name():
+    """It is asked as exact.NAME, so that a release can write down what it answers."""
+    names = set(recorded.oracles)
+    assert names == {name for name in names if callable(getattr(exact, name))}
+    for path in CHECKS.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        for imported in re.findall(r"from grader.checks.exact import \(?([\w, \n]+)", text):
+            assert not names & set(re.findall(r"\w+", imported)), path
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "same"),
+    [
+        ((1, 2.0), (1.0, 2), True),
+        ([(0.0, True)], ((-0.0, True),), True),
+        ((1, True), (1, 1), False),
+        ((0.1 + 0.2,), (0.3,), False),
+        (("a", None), ("a", None), True),
+    ],
+)
+def test_what_was_asked_is_known_again(first, second, same):
+    assert (recorded.key(first) == recorded.key(second)) is same
+
+
+def test_a_question_without_a_recorded_answer_is_named():
+    with pytest.raises(LookupError, match=r"no recorded answer of damped to \(0.5, 7.0\)"):
+        recorded.answer("damped", 0.5, 7.0)
+
+
+@pytest.mark.parametrize("centre", [(0, 0), (0, 3), (39, 0), (25, 5), (-25, -5), (40, 20), (39, 1)])
+def test_a_tie_of_two_faces_is_seen_without_the_closed_form(centre):
+    disc, rect = exact.Disc(*centre, 8), exact.Rect(0, 0, 40, 20)
+    assert exact.equally_near(disc, rect) == (len(exact.circle_box(disc, rect)) > 1)

@@ -1,0 +1,132 @@
+"""Which of a submission's files says how far a TODO is: the one whose function runs."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from conftest import HandIn
+
+from grader.judge.grade import KIT, load_stubs
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import Submission, take_in
+from grader.source.definitions import Program
+from grader.source.regions import read_source
+
+SOLVED = read_source(KIT / "solution" / "integrators.py")
+STUBS = read_source(KIT / "starter" / "integrators.py")
+F = "def f(): pass"
+B = "class B:\n    def f(self): pass"
+
+
+def defined_in(module: str, path: str, files: dict[str, str]) -> str | None:
+    found = Program({Path(name): text for name, text in files.items()}).definition(module, path)
+    return found and f"{found.module}:{found.function and found.function.name}"
+
+
+@pytest.mark.parametrize(
+    ("files", "where"),
+    [
+        ({"m.py": "def f(): pass"}, "m:f"),
+        ({"m.py": "from other import f", "other.py": "def f(): pass"}, "other:f"),
+        ({"m.py": "from other import g as f", "other.py": "def g(): pass"}, "other:g"),
+        ({"m.py": "from other import *", "other.py": "def f(): pass"}, "other:f"),
+        ({"m.py": "def g(): pass\nf = g"}, "m:g"),
+        ({"m.py": "import other as o\nf = o.g", "other.py": "def g(): pass"}, "other:g"),
+        ({"m.py": "def f(): return 1\ndef f(): return 2"}, "m:f"),
+        ({"m.py": "try:\n    from fast import f\nexcept ImportError:\n    def f(): pass"}, "m:f"),
+        ({"m/__init__.py": "from .a import f", "m/a.py": "def f(): pass"}, "m.a:f"),
+        ({"m/__init__.py": "from . import a\nf = a.f", "m/a.py": "def f(): pass"}, "m.a:f"),
+        ({"m/__init__.py": "from m.a import f", "m/a.py": "def f(): pass"}, "m.a:f"),
+        ({"m/__init__.py": "from .a import *", "m/a.py": "from .b import f", "m/b.py": F}, "m.b:f"),
+        ({"m/__init__.py": "from . import a", "m/a.py": "def f(): pass"}, "m.a:f"),
+        # What lies about and does not run, or runs and is not asked for.
+        ({"m.py": "def f(): pass", "m_old.py": "def f(): pass"}, "m:f"),
+        ({"m/__init__.py": "from .a import f", "m/a.py": F, "m/a_old.py": F}, "m.a:f"),
+        ({"m/__init__.py": "def f(): pass", "m.py": "def f(): pass"}, "m:f"),
+        ({"m.py": "import original\ndef f(): pass", "original.py": "def f(): pass"}, "m:f"),
+        ({"m.py": "x = 1", "other.py": "def f(): pass"}, None),
+        ({"m.py": "def f(:", "m_old.py": "def f(): pass"}, "m:None"),
+        ({}, None),
+    ],
+)  # fmt: skip
+def test_a_function_is_found_where_python_finds_it(files: dict[str, str], where: str | None):
+    assert defined_in("m", "f", files) == where
+
+
+@pytest.mark.parametrize(
+    ("files", "where"),
+    [
+        ({"m.py": "class C:\n    def f(self): pass"}, "m:f"),
+        ({"m.py": "class B:\n    def f(self): pass\nclass C(B): pass"}, "m:f"),
+        ({"m.py": "from b import B\nclass C(B): pass", "b.py": B}, "b:f"),
+        ({"m.py": "import b\nclass C(b.B): pass", "b.py": B}, "b:f"),
+        ({"m.py": "def g(self): pass\nclass C:\n    f = g"}, "m:g"),
+        ({"m.py": "def g(self): pass\nclass C: pass\nC.f = g"}, "m:g"),
+        ({"m.py": "class D:\n    def f(self): pass\nC = D"}, "m:f"),
+        ({"m.py": "class C:\n    if True:\n        def f(self): pass"}, "m:f"),
+    ],
+)  # fmt: skip
+def test_a_method_is_found_where_python_finds_it(files: dict[str, str], where: str | None):
+    assert defined_in("m", "C.f", files) == where
+
+
+def test_names_in_a_circle_end_nowhere():
+    files = {"m.py": "from n import f", "n.py": "from m import f"}
+    assert defined_in("m", "f", files) is None
+
+
+def taken_in(folder: Path, tmp_path: Path) -> Submission:
+    return take_in(folder, tmp_path / "copy", load_rubric(), load_stubs())
+
+
+@pytest.mark.parametrize(
+    "name", ["integrators_original.py", "original/integrators.py", "z/deep/integrators.py"]
+)
+def test_a_kept_copy_of_the_starter_does_not_undo_the_work(
+    name: str, hand_in: HandIn, tmp_path: Path
+):
+    folder = hand_in("solution", **{name.replace("/", "__").replace(".py", "_py"): STUBS})
+    assert taken_in(folder, tmp_path).begun["8b"]
+
+
+def test_a_kept_copy_of_the_work_does_not_make_up_for_a_stub(hand_in: HandIn, tmp_path: Path):
+    folder = hand_in("starter", aaa_py=SOLVED, zzz_py=SOLVED)
+    assert not taken_in(folder, tmp_path).begun["8b"]
+
+
+def test_a_region_outside_the_function_that_runs_says_nothing(hand_in: HandIn, tmp_path: Path):
+    again = SOLVED.replace("def rk4", "def rk4_first_try")
+    again += "\n\ndef rk4(x, v, dt, accel):\n    return x, v\n"
+    submission = taken_in(hand_in("solution", integrators_py=again), tmp_path)
+    assert submission.begun["8c"]
+    assert submission.where["8c"].line == again.splitlines().index("def rk4(x, v, dt, accel):") + 1
+
+
+# ---------------------------------------------------------------- given files
+
+
+def test_a_given_file_that_is_missing_is_supplied(hand_in: HandIn, tmp_path: Path):
+    missing = {"lab_runtime_py": None, "mini_engine__validate_py": None}
+    submission = taken_in(hand_in("solution", **missing), tmp_path)
+    for name in ("lab_runtime.py", "mini_engine/validate.py"):
+        assert (submission.folder / name).read_text() == (KIT / "starter" / name).read_text()
+
+
+def test_a_given_file_that_is_there_is_the_students_own(hand_in: HandIn, tmp_path: Path):
+    submission = taken_in(hand_in("solution", lab_runtime_py="frames = 1\n"), tmp_path)
+    assert (submission.folder / "lab_runtime.py").read_text() == "frames = 1\n"
+
+
+def test_nothing_is_put_where_something_else_is_in_the_way(hand_in: HandIn, tmp_path: Path):
+    folder = hand_in("solution", lab_runtime_py=None)
+    shutil.rmtree(folder / "mini_engine" / "bonus")
+    (folder / "mini_engine" / "bonus").write_text("a file\n")
+    (folder / "lab_runtime.py").mkdir()
+    submission = taken_in(folder, tmp_path)
+    assert (submission.folder / "mini_engine" / "bonus").read_text() == "a file\n"
+
+
+def test_nothing_is_laid_over_an_engine_in_one_file(hand_in: HandIn, tmp_path: Path):
+    submission = taken_in(hand_in(mini_engine_py="x = 1\n", notes_txt="n"), tmp_path)
+    assert not (submission.folder / "mini_engine").exists()
+    assert not (submission.folder / "pymunk_scene.py").exists()  # a program is not given

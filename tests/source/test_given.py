@@ -1,0 +1,274 @@
+"""Given code that was changed: named for what it does, and put back by its name."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from typer.testing import CliRunner
+
+from grader.bank.verify import shared_worker
+from grader.cli.restore import changed_in
+from grader.cli.student import app
+from grader.judge.blame import MOST_ASKED, Blame
+from grader.judge.failures import NotYet
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult
+from grader.judge.submission import load_given
+from grader.judge.wording import named_reasons
+from grader.source.given import Changed, changes, restored
+from grader.source.regions import regions_in, replaced
+
+SOLVER, CONSTANTS = "mini_engine/solver.py", "mini_engine/constants.py"
+DOUBLED = (SOLVER, "    c.jn = total\n", "    c.jn += total\n")
+
+
+def change(tree: Path, file: str, old: str, new: str) -> None:
+    text = (tree / file).read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    (tree / file).write_text(text.replace(old, new), encoding="utf-8")
+
+
+def restore(tree: Path, *names: str) -> str:
+    words = [f"--restore={name}" for name in names]
+    return " ".join(CliRunner().invoke(app, ["check", str(tree), *words]).output.split())
+
+
+def only(file: str, old: str, new: str) -> Changed:
+    """The one change that is found after a replacement in a file as it was handed out."""
+    text = load_given()[file]
+    assert text.count(old) == 1
+    (found,) = changes({file: text.replace(old, new)}, load_given())
+    assert restored(text.replace(old, new), [found]).split() == text.split() or not found.theirs
+    return found
+
+
+# ---------------------------------------------------------------- what was changed
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "name", "theirs", "given"),
+    [
+        (*DOUBLED, "solve_normal", "c.jn += total", "c.jn = total"),
+        (CONSTANTS, "ITERATIONS = 8 ", "ITERATIONS = 80 ", "ITERATIONS", "ITERATIONS = 80", None),
+        (CONSTANTS, "WIDTH, HEIGHT = 900", "WIDTH, HEIGHT = 90", "WIDTH, HEIGHT", None, None),
+        (SOLVER, "import math\n", "", "import math", "", "import math"),
+        (SOLVER, "\ndef arms(", "\ndef arm(", "arms", "", "def arms(c):"),
+        (SOLVER, "-c.normal.y, c", "c.normal.y, c", "solve_friction", None, None),
+        (
+            "mini_engine/world.py",
+            "* dt\n        if",
+            "\n        if",
+            "World.apply_forces",
+            None,
+            None,
+        ),
+        ("mini_engine/world.py", "    def pairs", "    def pair", "World.pairs", "", None),
+        (
+            "mini_engine/world.py",
+            "        self.solve(dt)\n        # 4 move\n        self.move(dt)\n",
+            "        self.move(dt)\n        self.solve(dt)\n",
+            "World.step",
+            "self.solve(dt)",
+            "self.solve(dt)",
+        ),
+        (SOLVER, "\ndef arms(", "\nSLOP = 5\n\ndef arms(", "SLOP", "SLOP = 5", ""),
+        (SOLVER, "def arms(c):", "def arms(c:", SOLVER, "def arms(c:", "def arms(c):"),
+        ("integrators.py", "x + v * dt, v + a", "x + v, v + a", "explicit_euler", None, None),
+    ],
+)
+def test_a_change_is_told_by_its_piece_and_its_line(file, old, new, name, theirs, given):
+    found = only(file, old, new)
+    assert (found.file, found.name) == (file, name)
+    assert theirs in (None, found.theirs) and given in (None, found.given)
+    assert (
+        not found.theirs
+        or found.theirs in (load_given()[file].replace(old, new)).splitlines()[found.line - 1]
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("    # END TODO 2\n", "    total *= 2\n    # END TODO 2\n"),
+        ("import math\n", "import math\nimport random\n"),
+        ("    ra, rb = arms(c)\n    speed", "    ra, rb = arms(c)  # both\n\n    speed"),
+        ("The arms of contact c, (ra, rb).", "Two arms."),
+        ("\ndef arms(", "\ndef mine():\n    return 5\n\n\ndef arms("),
+    ],
+)
+def test_what_is_in_regions_or_changes_nothing_is_no_change(old, new):
+    text = load_given()[SOLVER]
+    assert text.count(old) == 1
+    assert not changes({SOLVER: text.replace(old, new)}, load_given())
+
+
+def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
+    """Students may move given code, and leave out an import that nothing reads any more."""
+    given = load_given()
+    text = given[SOLVER]
+    start, stop = text.index("def friction_limit"), text.index("def solve_friction")
+    moved = "from .limits import friction_limit\n" + text[:start] + text[stop:]
+    assert not changes({SOLVER: moved.replace("import math\n", "")}, given)
+    name = "mini_engine/__init__.py"  # which passes all of them on
+    lacking = given[name].replace("from .body import Body\n", "")
+    (found,) = changes({name: lacking}, given)
+    assert found.given == "from .body import Body"
+
+
+def test_the_solution_changes_nothing_that_was_given():
+    assert not changed_in(KIT / "solution") and not changed_in(KIT / "starter")
+
+
+def test_another_change_in_a_file_says_nothing_of_its_todos():
+    """Also where the last marker of a region stands below the last statement of its function."""
+    given, added = load_given(), "\n\nclass Circle:\n    pass\n"
+    mine = {name: (KIT / "solution" / name).read_text(encoding="utf-8") for name in given}
+    found = changes({name: text + added for name, text in mine.items()}, given)
+    assert found and {each.name for each in found} == {"Circle"}
+
+
+# ---------------------------------------------------------------- what it does to the checks
+
+
+def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, list[dict[str, str]]]:
+    """The named lines of each failed check, by TODO."""
+    options = Options(reference=reference, only=frozenset(todos), trusted=True)
+    result = grade(tree, options, shared_worker())
+    return {
+        todo.id: [dict(named_reasons(check, ", TODO")) for check in todo.failed]
+        for todo in result.todos
+    }
+
+
+def test_a_todo_is_not_blamed_for_what_given_code_does(hand_in):
+    tree = hand_in("solution")
+    change(tree, *DOUBLED)
+    change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")  # this does nothing here
+    failed = told(tree, "4")["4"]
+    assert len(failed) >= 4
+    for each in failed:
+        assert "`c.jn += total`, was `c.jn = total`" in each["Meaning"]
+        assert "check --restore solve_normal" in each["Meaning"] and "50" not in each["Meaning"]
+        assert each["Look at"] == "mini_engine/solver.py:69"
+
+
+EULER = "return x + v * dt, v + accel(x) * dt"
+CALLS = "    x, v = explicit_euler(x, v, dt, accel)\n    return x, v"  # known: not semi-implicit
+RIGHT = "    v = explicit_euler(x, v, dt, accel)[1]\n    return x + v * dt, v"
+
+
+def integrators(tree: Path, region: str, given: str) -> None:
+    """TODO 8a with a region that calls given code, which is another one."""
+    path = tree / "integrators.py"
+    text = path.read_text(encoding="utf-8").replace(EULER, given, 1)
+    path.write_text(replaced(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")
+
+
+def test_an_instructor_reads_the_same(hand_in):
+    tree = hand_in("solution")
+    integrators(tree, RIGHT, "return x + v * dt, v - accel(x) * dt")
+    failed = told(tree, "8a", reference=shipped_reference())["8a"]
+    words = "check --restore explicit_euler puts it back, and this passes"
+    assert failed and all(words in each["Meaning"] for each in failed)
+
+
+def test_a_mistake_beside_changed_given_code_is_told_as_well(hand_in):
+    """What is to be put back comes first; the known mistake is the one that is left then."""
+    tree = hand_in("solution")
+    integrators(tree, CALLS, "return x + v, v + accel(x) * dt")
+    failed = told(tree, "8a")["8a"]
+    first = "puts it back: do that first. x moves with the old"
+    assert any(first in each["Meaning"] for each in failed)
+    assert all("x moves with the old velocity" in each["Meaning"] for each in failed)
+
+
+def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
+    tree = hand_in("starter")
+    change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")
+    integrators(tree, "    return x, v", EULER)
+    failed = told(tree, "8a")["8a"]
+    assert failed and not any("Given code" in each.get("Meaning", "") for each in failed)
+    assert all(each["Look at"].endswith(", TODO") for each in failed)
+
+
+@pytest.mark.soak
+def test_an_import_that_went_away_is_told_where_nothing_runs(hand_in):
+    tree = hand_in("solution")
+    change(tree, "mini_engine/joints.py", "from .constants import BETA\n", "")
+    failed = told(tree, "3")["3"]
+    assert failed and all("`from .constants import BETA` is gone" in e["Meaning"] for e in failed)
+
+
+def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
+    """Each time costs as much as the check; what cannot be told apart is told together."""
+
+    class Failing:
+        failure, ended, observations = NotYet("ran", "1", "2"), False, ()
+        connection = SimpleNamespace(pieces=[])
+
+    def again(key, undone):
+        lab = Failing()
+        lab.failure = None if len(undone) == 5 else Failing.failure
+        return lab
+
+    five = [Changed(f"f{n}", "a.py", n, "x", "y", n, n) for n in range(5)]
+    failed = {
+        ("1", f"c{n}"): CheckResult(f"c{n}", "C", "unit", "not yet", 0, 1, "ran", "1", "2")
+        for n in range(40)
+    }
+    blame = Blame(five, lambda undone: undone, again)
+    blame.look_into(failed)
+    assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
+    assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
+
+
+# ---------------------------------------------------------------- putting it back
+
+
+def test_a_name_is_put_back_and_a_copy_is_kept(hand_in):
+    tree = hand_in("solution")
+    change(tree, *DOUBLED)
+    changed = (tree / SOLVER).read_bytes()
+    out = restore(tree, "solve_normal")
+    assert f"{SOLVER}: solve_normal is as it was handed out" in out
+    assert "kept as mini_engine/solver_old.py" in out
+    assert (tree / "mini_engine" / "solver_old.py").read_bytes() == changed
+    right = (KIT / "solution" / SOLVER).read_text(encoding="utf-8")
+    assert (tree / SOLVER).read_text(encoding="utf-8") == right
+    assert "nothing to put back" in restore(tree, "solve_normal")
+    assert sorted(path.name for path in tree.rglob("*_old.py")) == ["solver_old.py"]
+
+
+def test_a_file_is_put_back_around_the_regions(hand_in):
+    tree = hand_in("solution")
+    (tree / SOLVER).write_text(
+        "# mine\n"
+        + (tree / SOLVER).read_text(encoding="utf-8").replace("def arms(c)", "def arms(c"),
+        encoding="utf-8",
+    )
+    assert "its given code is as it was handed out" in restore(tree, SOLVER)
+    right = (KIT / "solution" / SOLVER).read_text(encoding="utf-8")
+    assert (tree / SOLVER).read_text(encoding="utf-8") == right
+    (tree / CONSTANTS).unlink()
+    assert "is there again" in restore(tree, CONSTANTS) and (tree / CONSTANTS).is_file()
+
+
+def test_a_function_that_is_gone_comes_back_and_regions_stay(hand_in):
+    tree = hand_in("solution")
+    text = (tree / SOLVER).read_text(encoding="utf-8")
+    start, stop = text.index("def friction_limit"), text.index("def solve_friction")
+    (tree / SOLVER).write_text(text[:start] + text[stop:], encoding="utf-8")
+    restore(tree, "friction_limit")
+    again = (tree / SOLVER).read_text(encoding="utf-8")
+    assert "def friction_limit(c):" in again and not changed_in(tree)
+    assert [r.lines for r in regions_in(again)] == [r.lines for r in regions_in(text)]
+
+
+def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
+    tree = hand_in("solution")
+    change(tree, *DOUBLED)
+    before = {path: path.read_bytes() for path in tree.rglob("*.py")}
+    out = restore(tree, "nothing_of_the_kind")
+    done = CliRunner().invoke(app, ["check", str(tree), "--restore=nothing_of_the_kind"])
+    assert done.exit_code == 2 and "nothing to put back" not in out
+    assert {path: path.read_bytes() for path in tree.rglob("*.py")} == before

@@ -1,0 +1,146 @@
+"""Where a machine has no walls: it refuses, and a container grades instead."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from grader.judge.children import WarmWorker
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.isolation import KEEPS_FILES, refusal
+from grader.judge.submission import CannotGrade
+from grader.protocol import ChildSetup
+
+BARE = ["processes", "process-group", "rlimits"]  # as on macOS
+INSTRUCTIONS = (KIT / "Containerfile").read_text(encoding="utf-8")
+
+
+def test_somebody_elses_work_is_refused_where_files_are_open():
+    assert "--isolation none" in refusal("auto", [*BARE, "system-calls"], trusted=False)
+    assert refusal("auto", BARE, trusted=True) == ""
+    assert refusal("none", ["processes"], trusted=False) == ""
+    for layer in KEEPS_FILES:
+        assert refusal("auto", [*BARE, layer], trusted=False) == ""
+    assert "cannot confine files" in refusal("strict", [*BARE, "own-user"], trusted=True)
+
+
+def without_walls(usual):
+    def open_child(self: WarmWorker, setup: ChildSetup):
+        child = usual(self, setup)
+        child.ready.layers[:] = BARE
+        self.layers = []
+        return child
+
+    return open_child
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no warm process")
+def test_the_refusal_comes_before_a_line_of_it_runs(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(WarmWorker, "open", without_walls(WarmWorker.open))
+    with pytest.raises(CannotGrade, match="cannot keep somebody else's code from your files"):
+        grade(KIT / "solution", Options(shipped_reference(), only=frozenset({"8a"})))
+    own = Options(shipped_reference(), only=frozenset({"8a"}), trusted=True)
+    assert grade(KIT / "solution", own).complete
+
+
+@pytest.mark.soak
+def test_without_isolation_all_of_the_judge_is_loaded_before_a_submission_runs():
+    program = (
+        "import sys; from grader.judge.isolation import load_everything; load_everything(); "
+        "before = set(sys.modules); import grader.report.html, grader.player.replay, "
+        "grader.judge.loop, grader.classroom.dashboard, grader.report.sinks.markdown; "
+        "exit(any(name.startswith('grader') for name in set(sys.modules) - before))"
+    )
+    assert subprocess.run([sys.executable, "-c", program], cwd=KIT).returncode == 0
+
+
+# ---------------------------------------------------------------- the container
+
+
+def copied() -> list[str]:
+    return re.findall(r"^COPY (\S+) ", INSTRUCTIONS, re.MULTILINE)
+
+
+def test_what_is_copied_is_not_ignored():
+    kept = re.findall(r"^!(\S+)$", (KIT / ".dockerignore").read_text(), re.MULTILINE)
+    assert sorted(kept) == sorted(copied())
+    assert all((KIT / name).exists() for name in copied())
+
+
+class Asked:
+    """What `make contained` asks of the engine, which is stood in for by a script."""
+
+    def __init__(self, folder: Path, *settings: str) -> None:
+        engine = folder / "engine"
+        engine.write_text(f"""#!/bin/sh\nprintf '%s\\n' "$@" '' >> '{folder}/asked'\n""")
+        engine.chmod(0o755)
+        command = ["make", "contained", f"ENGINE='{engine}'", *settings]
+        subprocess.run(command, cwd=KIT, check=True, stdout=subprocess.DEVNULL)
+        self.build, run = (each.split("\n") for each in self.asked(folder))
+        image = run.index("physics-grader")
+        self.options, self.arguments = run[:image], run[image + 1 :]
+        self.read, self.written = {}, {}
+        for option, volume in pairwise(self.options):
+            if option == "--volume":
+                outside, inside, *only = volume.split(":")
+                (self.read if only else self.written)[inside] = Path(outside)
+
+    def asked(self, folder: Path) -> list[str]:
+        return (folder / "asked").read_text().removesuffix("\n\n").split("\n\n")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+@pytest.mark.parametrize("results", ["", "marks"])
+def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
+    folder = tmp_path / "a class"
+    folder.mkdir()
+    settings = [f"RESULTS={tmp_path}/given back/{results}"] if results else []
+    asked = Asked(tmp_path, f"SUBMISSIONS={folder}/", "SEED=7", *settings)
+    assert asked.build == ["build", "--tag", "physics-grader", "--file", "Containerfile", "."]
+    assert ("--network", "none") in pairwise(asked.options) and "--read-only" in asked.options
+    assert asked.read["/instructor/submissions"] == folder
+    assert asked.written == {"/instructor/beside": tmp_path / "given back" if results else tmp_path}
+    out = f"/instructor/beside/{results or 'a class-results'}"
+    assert asked.arguments == ["--out", out, "--seed", "7"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+def test_who_names_no_folder_is_told(tmp_path: Path):
+    done = subprocess.run(
+        ["make", "contained", "ENGINE=false"], cwd=KIT, stdout=subprocess.PIPE, text=True
+    )
+    assert done.returncode != 0 and "is no folder of submissions" in done.stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
+    """The entry point as it stands, on what the container holds, in another folder."""
+    kit = tmp_path / "kit"
+    kit.mkdir()
+    for name in copied():
+        copy = shutil.copytree if (KIT / name).is_dir() else shutil.copyfile
+        copy(KIT / name, kit / name)
+    ann = tmp_path / "submissions" / "ann"
+    ann.mkdir(parents=True)
+    shutil.copy(KIT / "solution" / "integrators.py", ann)
+    asked = Asked(tmp_path, f"SUBMISSIONS={ann.parent}", f"RESULTS={tmp_path}/class")
+    (beside,) = asked.written
+    (line,) = re.findall(r"^ENTRYPOINT (.+)$", INSTRUCTIONS, re.MULTILINE)
+    command = [*json.loads(line), *asked.arguments, "--jobs", "1", "--todo", "8a"]
+    command = [each.replace("/instructor", str(tmp_path)) for each in command]
+    before = set(tmp_path.rglob("*"))
+    subprocess.run(
+        [sys.executable, "-B", *command[1:]], cwd=kit, check=True, stdout=subprocess.DEVNULL
+    )
+    out = Path(beside.replace("/instructor", str(tmp_path)))
+    marks = json.loads((out / "class" / "ann.json").read_text(encoding="utf-8"))
+    assert marks["points"] == marks["max_points"] == 2
+    assert [
+        new for new in set(tmp_path.rglob("*")) - before if out not in (new, *new.parents)
+    ] == []

@@ -1,0 +1,112 @@
+"""What a submission keeps from call to call is told, where an answer hangs on it."""
+
+import importlib
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import HandIn
+
+from grader.bank.verify import shared_worker
+from grader.judge.failures import REMEMBERS
+from grader.judge.grade import Options, grade, shipped_reference, untouched, with_memory
+from grader.judge.result import CheckResult
+from grader.worker.memory import Memory
+
+KEEPER = """
+import math
+
+last = 0.0
+seen = []
+table = {"a": [1, 2]}
+
+class Counter:
+    count = 0
+    def step(self, by=[]):
+        Counter.count += 1
+        by.append(1)
+
+def work(x, cache={}):
+    return x
+
+def honest(x):
+    return [x, math.pi]
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "names"),
+    [
+        ("k.last = 2.5", ["last"]),
+        ("k.fresh = 1", ["fresh"]),
+        ("k.seen.append(3)", ["seen"]),
+        ("k.table['a'].append(3)", ["table"]),
+        ("k.Counter().step()", ["Counter"]),
+        ("k.work.calls = 1", ["work"]),
+        ("k.work.__defaults__[0][3] = 4", ["work"]),
+        ("k.honest(3)", []),
+        ("thing = k.Counter(); thing.own = 3", []),
+    ],
+)
+def test_what_is_kept_is_found_under_its_name(tmp_path: Path, line: str, names: list[str]):
+    name = f"keeper{abs(hash(line))}"
+    (tmp_path / f"{name}.py").write_text(KEEPER, encoding="utf-8")
+    sys.path.insert(0, str(tmp_path))
+    try:
+        module = importlib.import_module(name)
+        memory = Memory(str(tmp_path))
+        exec(line, {"k": module})
+        assert memory.changed() == [f"{name}.{each}" for each in names]
+    finally:
+        sys.path.remove(str(tmp_path))
+        sys.modules.pop(name, None)
+
+
+VERLET = """
+    global last
+    a_start = accel(x) if last is None else last
+    x = x + v * dt + 0.5 * a_start * dt**2
+    last = accel(x)
+    return x, v + 0.5 * (a_start + last) * dt
+
+
+last = None
+
+
+def unused():
+"""
+
+
+def test_an_answer_that_hangs_on_earlier_calls_is_told_as_such(hand_in: HandIn):
+    folder = hand_in("solution")
+    path = folder / "integrators.py"
+    text = path.read_text(encoding="utf-8")
+    begin, end = text.index("# TODO 8b"), text.index("# END TODO 8b")
+    path.write_text(text[:begin] + "# TODO 8b" + VERLET + "    " + text[end:], encoding="utf-8")
+    path.write_text(path.read_text("utf-8").replace("def unused():\n", "def unused():\n    pass\n"))
+    options = Options(shipped_reference(), only=frozenset({"8b"}))
+    (todo,) = grade(folder, options, shared_worker()).todos
+    failed = [check for check in todo.checks if check.failed]
+    assert failed and all("from call to call in last" in check.meaning for check in failed)
+    (drawn,) = [check for check in failed if check.kind == "property"]
+    assert drawn.meaning.startswith(REMEMBERS)
+
+
+def test_what_a_call_may_not_change_is_nothing_that_is_remembered(hand_in: HandIn):
+    folder = hand_in("solution")
+    path = folder / "mini_engine" / "contacts.py"
+    text = path.read_text(encoding="utf-8")
+    at = text.index("\n", text.index("# TODO 1")) + 1
+    path.write_text(text[:at] + "    a.omega = 0.0\n" + text[at:], encoding="utf-8")
+    (todo,) = grade(
+        folder, Options(shipped_reference(), only=frozenset({"1"})), shared_worker()
+    ).todos
+    failed = [check for check in todo.checks if check.failed]
+    assert failed and not any(REMEMBERS in check.meaning for check in failed)
+
+
+def test_what_given_code_keeps_is_nobodys_mistake():
+    assert untouched() >= {"lab_runtime.py"} and "integrators.py" not in untouched()
+    failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
+    assert with_memory(failed, ["lab_runtime.frames_left"]) == failed
+    assert "in last:" in with_memory(failed, ["integrators.last"]).meaning

@@ -1,0 +1,409 @@
+"""Each layer around a submission holds, and none can stop working without being noticed."""
+
+import ctypes
+import os
+import platform
+import re
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.bank.members import members
+from grader.judge.children import Child, WarmWorker, Worker, start_worker
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.isolation import unconfined
+from grader.judge.submission import CannotGrade
+from grader.protocol import Call, ChildSetup, Import, Limits, Raised, Returned
+from grader.worker import confinement
+from grader.worker.filter import AUDIT_ARCH
+from grader.worker.root import TOPS
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="Linux's layers")
+
+PROBES = """
+import ctypes, os, resource, socket, subprocess
+libc = ctypes.CDLL(None, use_errno=True)
+def limit(name): return resource.getrlimit(getattr(resource, name))[1]
+def session(): return os.getsid(0) == os.getpid()
+def own_number(): return os.getpid()
+def parents_number(): return os.getppid()
+def visible(path): return os.path.exists(path) and bool(os.listdir(path))
+def read(path): return open(path, "rb").read(100).decode("latin-1")
+def send(port):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        return out.sendto(b"x", ("127.0.0.1", port))
+def listen():
+    with socket.socket() as server:
+        server.bind(("127.0.0.1", 0))
+        return True
+def abstract(name): socket.socket(socket.AF_UNIX).connect("\\0" + name); return True
+def keep(key): return libc.shmget(key, 4096, 0o1666) >= 0
+def kept(key): return libc.shmget(key, 0, 0) >= 0
+def keep_key(name): return libc.syscall(248, b"user", name.encode(), b"x", 1, -4) >= 0
+def kept_key(name): return libc.syscall(250, 10, -4, b"user", name.encode(), 0) >= 0
+def run(program): return subprocess.run([program], capture_output=True).returncode
+def fill(megabytes):
+    for number in range(megabytes):
+        with open(f"part{number}", "wb") as file: file.write(bytes(1024 * 1024))
+    return True
+def threads(most):
+    import threading
+    libc.mallopt(-8, 1)  # M_ARENA_MAX: or each would want memory of its own
+    threading.stack_size(65536)
+    stop = threading.Event()
+    for number in range(most):
+        try: threading.Thread(target=stop.wait, daemon=True).start()
+        except RuntimeError: return number
+    return most
+def fill_at(path):
+    with open(path, "wb") as file: file.write(b"x")
+    return True
+def many(files):
+    for number in range(files): open(f"file{number}", "w").close()
+    return True
+def look(path): return os.stat(path).st_size
+def connect(path): socket.socket(socket.AF_UNIX).connect(path); return True
+def change_mode(path): os.chmod(path, 0o4777); return True
+def change_times(path): os.utime(path, (1, 1)); return True
+def change_attribute(path): os.setxattr(path, "user.seen", b"1"); return True
+def a_library(): return os.__file__
+def in_root(): return " ".join(sorted(os.listdir("/")))
+def mount_anew(): return libc.mount(None, b"/", None, 0x1020, None)  # bound again, and writable
+def bounding(capability): return libc.prctl(23, capability, 0, 0, 0)
+def capabilities():
+    sets = ctypes.create_string_buffer(24)
+    libc.capget((0x20080522).to_bytes(4, "little") + bytes(4), sets)
+    return sum(sets.raw)
+def signal_all():
+    os.kill(-1, 0)
+    return True
+"""
+
+
+# What can be switched off, and what a layer cannot be there without.
+SWITCHES = {
+    "landlock-files",
+    "network-namespace",
+    "own-root",
+    "own-user",
+    "pid-namespace",
+    "system-calls",
+    "user-namespace",
+}
+NEEDS = {
+    "ipc-namespace": "user-namespace",
+    "mount-namespace": "user-namespace",
+    "own-root": "user-namespace",
+    "landlock-tcp": "landlock-files",
+    "landlock-scope": "landlock-files",
+}
+
+
+class Prober:
+    """Calls one of the probes in a fresh child of the worker."""
+
+    def __init__(self, tmp_path: Path, worker: Worker) -> None:
+        self.worker = worker
+        folders = [tmp_path / name for name in ("submission", "scratch", "bytecode")]
+        for folder in folders:
+            folder.mkdir()
+        (folders[0] / "probes.py").write_text(PROBES, encoding="utf-8")
+        submission, scratch, bytecode = map(str, folders)
+        hidden = [str(KIT / "grader"), str(KIT / "solution")]
+        self.setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, False)
+        self.children: list[Child] = []
+
+    def __call__(self, name: str, *args: int | str) -> object:
+        child = self.open()
+        child.ask(Import("probes"))
+        reply = child.ask(Call(f"probes:{name}", list(args))).reply
+        return reply.value if isinstance(reply, Returned) else reply
+
+    def open(self) -> Child:
+        """A child with a scratch folder of its own, as each has."""
+        scratch = Path(self.setup.scratch).with_name(f"scratch{len(self.children)}")
+        scratch.mkdir()
+        self.setup = msgspec.structs.replace(self.setup, scratch=str(scratch))
+        child = self.worker.open(self.setup)
+        self.children.append(child)
+        return child
+
+    @property
+    def layers(self) -> set[str]:
+        return {*self.open().ready.layers, *self.worker.layers}
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[dict[frozenset[str], Worker]]:
+    """By what their children go without; each is started when a test asks for it."""
+    started: dict[frozenset[str], Worker] = {}
+    yield started
+    for worker in started.values():
+        worker.close()
+
+
+@pytest.fixture
+def layer(request: pytest.FixtureRequest) -> str:
+    """The one layer that a test is about, or none; skips it where the machine has no such layer."""
+    name: str = getattr(request, "param", "")
+    if name and name not in expected_layers():
+        pytest.skip(f"this kernel or account has no {name}, so none can fail")
+    return name
+
+
+@pytest.fixture
+def probe(tmp_path: Path, layer: str, workers: dict[frozenset[str], Worker]) -> Iterator[Prober]:
+    """Children with all layers; in a test of one layer with this one alone: it must hold."""
+    without = frozenset(SWITCHES - {layer, NEEDS.get(layer, layer)} if layer else ())
+    if without not in workers:
+        workers[without] = start_worker(without=without)
+    prober = Prober(tmp_path, workers[without])
+    yield prober
+    for child in prober.children:
+        child.end()
+
+
+def refused(reply: object, *errors: str) -> bool:
+    return isinstance(reply, Raised) and reply.error in errors
+
+
+# ---------------------------------------------------------------- what this machine has
+
+
+def can(flags: int) -> bool:
+    """Whether a process of this user may enter such namespaces, found out by another one."""
+    program = f"import ctypes; exit(ctypes.CDLL(None).unshare({flags}) != 0)"
+    return subprocess.run([sys.executable, "-c", program]).returncode == 0
+
+
+def landlock_version() -> int:
+    return ctypes.CDLL(None).syscall(444, None, 0, 1)
+
+
+def expected_layers() -> set[str]:
+    layers = {"process-group", "rlimits"}
+    if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWIPC | confinement.CLONE_NEWNS):
+        layers |= {"user-namespace", "ipc-namespace", "mount-namespace", "own-root"}
+    if can(confinement.CLONE_NEWUSER | confinement.CLONE_NEWNET | confinement.CLONE_NEWPID):
+        layers |= {"network-namespace", "pid-namespace"}
+    if platform.machine() in AUDIT_ARCH:
+        layers.add("system-calls")
+    since = {1: "landlock-files", 4: "landlock-tcp", 6: "landlock-scope"}
+    return layers | {name for version, name in since.items() if landlock_version() >= version}
+
+
+def test_every_layer_this_machine_has_is_used(probe: Prober):
+    assert probe.layers == expected_layers()
+
+
+def needs(name: str) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("layer", [name], indirect=True)
+
+
+# ---------------------------------------------------------------- always
+
+
+def test_limits_hold_and_cannot_be_lifted(probe: Prober):
+    limits = Limits()
+    assert probe("limit", "RLIMIT_CPU") == limits.cpu_seconds + 1
+    assert probe("limit", "RLIMIT_AS") == limits.memory_mb * 1024**2
+    assert probe("limit", "RLIMIT_FSIZE") == limits.file_mb * 1024**2
+    assert probe("limit", "RLIMIT_NOFILE") == limits.open_files
+    assert probe("limit", "RLIMIT_NPROC") == limits.processes
+    assert probe("limit", "RLIMIT_CORE") == 1  # see core(5): 0 does not keep a pipe from it
+
+
+def test_a_child_leads_a_session_of_its_own(probe: Prober):
+    assert probe("session") is True
+
+
+# ---------------------------------------------------------------- namespaces
+
+
+@needs("pid-namespace")
+def test_no_other_process_has_a_number_in_there(probe: Prober):
+    assert isinstance(number := probe("own_number"), int) and number < 1000
+    assert probe("parents_number") == 1
+
+
+@needs("pid-namespace")
+def test_a_signal_to_everybody_reaches_nobody_outside(probe: Prober):
+    probe("signal_all")
+    assert isinstance(probe.worker, WarmWorker) and probe.worker.process.poll() is None
+
+
+@needs("pid-namespace")
+def test_a_flood_of_threads_ends_soon_for_root_as_well(probe: Prober):
+    release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
+    if os.geteuid() == 0 and release < confinement.PID_MAX_SINCE:
+        pytest.skip("before Linux 6.14 only the machine as a whole has such a limit")
+    limit = Path("/proc/sys/kernel/pid_max").read_text()
+    started = probe("threads", 2000)
+    assert isinstance(started, int) and started < confinement.MOST_NUMBERS
+    assert Path("/proc/sys/kernel/pid_max").read_text() == limit
+
+
+@needs("network-namespace")
+def test_no_packet_gets_out(probe: Prober):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+        receiver.bind(("127.0.0.1", 0))
+        receiver.settimeout(0.3)
+        assert isinstance(probe("send", receiver.getsockname()[1]), Raised | int)
+        with pytest.raises(TimeoutError):
+            receiver.recv(10)
+
+
+@needs("network-namespace")
+def test_no_abstract_socket_of_the_machine_is_there(probe: Prober):
+    name = f"physics-grader-{os.getpid()}"
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind("\0" + name)
+        server.listen()
+        assert refused(probe("abstract", name), "ConnectionRefusedError", "PermissionError")
+
+
+@needs("ipc-namespace")
+def test_shared_memory_ends_with_the_child(probe: Prober):
+    assert probe("keep", 77_123) is True
+    assert probe("kept", 77_123) is False
+    assert ctypes.CDLL(None).shmget(77_123, 0, 0) < 0
+
+
+@needs("user-namespace")
+def test_no_key_is_kept_for_another_child(probe: Prober):
+    probe("keep_key", "physics-grader")
+    assert probe("kept_key", "physics-grader") is False
+
+
+@needs("mount-namespace")
+def test_the_scratch_folder_is_small_and_ends_with_the_child(probe: Prober):
+    limits = Limits()
+    assert refused(probe("fill", limits.scratch_mb + 1), "OSError")
+    assert refused(probe("many", limits.scratch_files + 1), "OSError")
+    assert probe("fill", limits.scratch_mb // 2) is True
+    assert list(Path(probe.setup.scratch).iterdir()) == []
+
+
+# ---------------------------------------------------------------- a root of its own
+
+
+@needs("own-root")
+def test_what_lies_outside_has_no_name(probe: Prober, tmp_path: Path):
+    other = tmp_path / "other" / "integrators.py"
+    other.parent.mkdir()
+    other.write_text("x = 1\n", encoding="utf-8")
+    before = other.stat()
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(path := f"/tmp/own-root-{os.getpid()}")
+        try:
+            server.listen()
+            assert refused(probe("connect", path), "FileNotFoundError")
+        finally:
+            os.unlink(path)
+    for name in ("look", "change_mode", "change_times", "change_attribute"):
+        assert refused(probe(name, str(other)), "FileNotFoundError")
+    after = other.stat()
+    assert (after.st_mode, after.st_ctime_ns) == (before.st_mode, before.st_ctime_ns)
+    names = str(probe("in_root"))
+    needed = [*confinement.readable_paths(()), *confinement.links_to_libraries()]
+    (own,) = set(names.split()) - {each.parts[1] for each in needed} - {"dev"}
+    assert own in {top.strip("/") for top in TOPS}  # the second where the kit lies below the first
+
+
+@needs("own-root")
+def test_what_lies_inside_stays_as_it_is(probe: Prober):
+    library, before = str(probe("a_library")), Path(os.__file__).stat()
+    assert library == os.__file__
+    for name in ("change_mode", "change_times", "change_attribute"):
+        assert refused(probe(name, library), "OSError", "PermissionError")
+    assert refused(probe("fill_at", "/new"), "OSError", "PermissionError")
+    assert probe("mount_anew") == -1
+    after = Path(os.__file__).stat()
+    assert (after.st_mode, after.st_mtime_ns, after.st_ctime_ns) == (
+        before.st_mode,
+        before.st_mtime_ns,
+        before.st_ctime_ns,
+    )
+
+
+@needs("user-namespace")
+def test_no_capability_is_left(probe: Prober):
+    assert probe("capabilities") == 0
+    assert probe("bounding", 21) == 0  # CAP_SYS_ADMIN, which the namespace's root would have
+
+
+def test_a_kit_among_the_packages_is_left_out_however_deep(tmp_path: Path):
+    kit = tmp_path / "lib" / "python" / "packages" / "grader"
+    for folder in (kit, kit.parent / "numpy", tmp_path / "lib" / "python" / "json"):
+        folder.mkdir(parents=True)
+    left = set(confinement.all_but({kit}, tmp_path))
+    assert left == {kit.parent / "numpy", tmp_path / "lib" / "python" / "json"}
+
+
+# ---------------------------------------------------------------- Landlock
+
+
+@needs("landlock-files")
+@pytest.mark.parametrize(
+    "path", ["/proc/self/environ", "/etc/hostname", "/root", "/home", "/tmp", "/var", str(KIT)]
+)
+def test_neither_the_machine_nor_the_kit_can_be_read(probe: Prober, path: str):
+    asked = probe("visible" if Path(path).is_dir() else "read", path)
+    assert asked is False or refused(asked, "PermissionError", "FileNotFoundError")
+
+
+@needs("landlock-files")
+def test_another_submission_is_out_of_sight(probe: Prober, tmp_path: Path):
+    other = tmp_path / "other" / "integrators.py"
+    other.parent.mkdir()
+    other.write_text("x = 1\n", encoding="utf-8")
+    assert refused(probe("read", str(other)), "PermissionError")
+
+
+@needs("landlock-files")
+def test_no_program_of_the_machine_can_be_run(probe: Prober):
+    assert refused(probe("run", "/bin/true"), "PermissionError", "FileNotFoundError")
+
+
+@needs("landlock-tcp")
+def test_no_port_can_be_opened(probe: Prober):
+    assert refused(probe("listen"), "PermissionError")
+
+
+# ---------------------------------------------------------------- without
+
+
+def test_strict_refuses_where_files_or_network_are_open(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(WarmWorker, "open", without_layers(WarmWorker.open))
+    with pytest.raises(CannotGrade, match="cannot confine files and network"):
+        grade(KIT / "starter", Options(shipped_reference(), isolation="strict"))
+
+
+def without_layers(usual):
+    def open_child(self: WarmWorker, setup: ChildSetup) -> Child:
+        child = usual(self, setup)
+        child.ready.layers.clear()
+        self.layers = []
+        return child
+
+    return open_child
+
+
+def test_what_is_open_is_named():
+    assert unconfined(["processes", "rlimits"]) == ["files", "network", "other processes"]
+    assert unconfined(sorted(expected_layers())) == []
+
+
+def test_all_that_the_page_names_is_there():
+    """Each claim has a test: a page that names one which is gone claims what nobody tries."""
+    page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
+    files = set(re.findall(r"`((?:tests|grader)/[\w/]+\.\w+)`", page))
+    assert len(files) >= 20
+    assert [each for each in sorted(files) if not (KIT / each).is_file()] == []
+    bank = {member.name for member in members(KIT) if member.kind in ("hostile", "right")}
+    assert {"brings-pytest-along", "shadows-libraries", "stale-bytecode"} <= bank

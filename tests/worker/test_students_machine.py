@@ -1,0 +1,89 @@
+"""A submission runs as on its student's machine: in its folder, with what it may import."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import HandIn
+
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult, Result
+from grader.source.regions import read_source
+from grader.worker.imports import LIBRARIES, RULE
+
+INTEGRATORS = read_source(KIT / "solution" / "integrators.py")
+PROGRAM = read_source(KIT / "solution" / "pymunk_scene.py")
+OPTIONS = Options(shipped_reference(), only=frozenset({"8a"}))
+
+
+def graded(folder: Path, todo: str = "8a") -> Result:
+    return grade(folder, Options(shipped_reference(), only=frozenset({todo})))
+
+
+def checks(result: Result) -> list[CheckResult]:
+    return [check for todo in result.todos for check in todo.checks]
+
+
+@pytest.mark.parametrize(
+    "habit",
+    [
+        "import json\nassert json.load(open('settings.json')) == {'dt': 1}",
+        "from pathlib import Path\nPath(__file__).with_name('settings.json').read_text()",
+        "import logging\nlogging.basicConfig(filename='run.log')\nlogging.error('here')",
+        "import pathlib\npathlib.Path(__file__).with_name('run.log').write_text('here')",
+        "import os\nassert os.path.samefile(os.getcwd(), os.path.dirname(__file__))",
+        "import argparse\nargparse.ArgumentParser().parse_args()",
+        "import sys\nassert sys.argv[0].endswith('integrators.py') and not sys.argv[1:]",
+        "import numpy\nassert numpy.hypot(3, 4) == 5",
+        "import sys\nsys.path.append('lib')\nimport own",
+        "try:\n    import scipy\nexcept ImportError:\n    scipy = None",
+        "import threading, multiprocessing, sqlite3, decimal",
+    ],
+)
+def test_a_habit_costs_nothing(habit: str, hand_in: HandIn):
+    files = {"settings.json": '{"dt": 1}', "lib__own_py": "x = 1\n"}
+    result = graded(hand_in(integrators_py=f"{habit}\n{INTEGRATORS}", **files))
+    assert result.points == result.max_points, checks(result)[0].got
+
+
+@pytest.mark.parametrize("library", ["scipy", "msgspec", "rich", "grader.checks.exact", "psutil"])
+def test_any_other_import_meets_the_rule_and_its_line(library: str, hand_in: HandIn):
+    result = graded(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
+    check = checks(result)[0]
+    assert result.points == 0 and RULE in check.got
+    assert check.where is not None and (check.where.file, check.where.line) == ("integrators.py", 1)
+
+
+def test_a_forbidden_import_costs_what_needs_it_and_no_more(hand_in: HandIn):
+    program = PROGRAM.replace("def draw(", "import scipy\n\n\ndef draw(", 1)
+    result = graded(hand_in("solution", pymunk_scene_py=program), "8a")
+    assert result.points == result.max_points
+
+
+def test_the_lab_sheet_says_what_may_be_imported():
+    sheet = (KIT / "handouts" / "lab-sheet.md").read_text(encoding="utf-8")
+    assert all(f"`{name}`" in sheet or name in sheet for name in LIBRARIES)
+
+
+def test_what_a_check_leaves_in_the_folder_is_gone_for_the_next(hand_in: HandIn):
+    habit = (
+        "import pathlib\nnote = pathlib.Path(__file__).with_name('note')\n"
+        "assert not note.exists()\nnote.write_text('here')\n"
+    )
+    result = graded(hand_in(integrators_py=habit + INTEGRATORS))
+    assert result.points == result.max_points
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="there is another way to be elsewhere")
+def test_the_working_folder_of_whoever_grades_changes_nothing(hand_in: HandIn, tmp_path: Path):
+    folder = hand_in(integrators_py=INTEGRATORS)
+    program = [sys.executable, "-m", "grader", "grade", str(folder), "--todo", "8a", "--json"]
+    results = []
+    for number, cwd in enumerate((KIT, Path("/"))):
+        out = tmp_path / f"{number}.json"
+        environment = {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(KIT)}
+        done = subprocess.run([*program, str(out)], cwd=cwd, env=environment, capture_output=True)
+        assert done.returncode == 0, done.stderr
+        results.append(out.read_bytes())
+    assert results[0] == results[1]

@@ -1,0 +1,110 @@
+"""Which layer stops which attack: each alone, and none, as the table of the security page says.
+
+The members are those of the bank that answer rightly where their attack went through, and wrongly
+where it was refused. `make verify` grades them with all layers.
+"""
+
+import os
+import re
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from test_security import SWITCHES, expected_layers
+
+from grader.bank.members import patch
+from grader.judge.children import Worker, start_worker
+from grader.judge.grade import KIT, Options, sandbox_for
+from grader.judge.submission import Submission
+from grader.protocol import Import, Integrate, Items, Returned, Vec
+
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux"
+    or not {"system-calls", "own-root", "landlock-scope"} <= expected_layers(),
+    reason="the table is of a Linux that has all layers",
+)
+
+PAGE = KIT / "handouts" / "instructor" / "security.md"
+MEMBERS = {
+    path.stem: path
+    for path in sorted((KIT / "tests" / "bank" / "hostile").glob("*.py"))
+    if "refused: no points" in path.read_text(encoding="utf-8")
+}
+WHY = re.compile(r'^\[hostile\.(\S+)\]\nwhy = "(.+)"\n', re.MULTILINE)
+NAMESPACES = {"user-namespace", "network-namespace", "pid-namespace"}
+ALONE = {  # a column of the table, and what its world has
+    "filter": {"system-calls"},
+    "own root": {"user-namespace", "own-root"},
+    "Landlock": {"landlock-files"},
+    "namespaces": NAMESPACES,
+}
+# What root's capabilities would allow: every child that is confined at all has given them up.
+NEEDS_RIGHTS = {
+    "mounts-a-folder",
+    "pins-itself-to-every-core",
+    "poisons-the-bytecode",
+    "reads-the-graders-memory",
+    "slows-the-grader-down",
+    "traces-the-grader",
+}
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[dict[str, Worker]]:
+    worlds = ALONE | {"nothing": set(), "everything": SWITCHES}
+    started = {name: start_worker(without=SWITCHES - has) for name, has in worlds.items()}
+    yield started
+    for worker in started.values():
+        worker.close()
+
+
+def goes_through(member: str, worker: Worker, work: Path) -> bool:
+    """Whether the attack does, in the second of two children: the first may leave a word."""
+    tree = work / "tree"
+    tree.mkdir(parents=True)
+    shutil.copy(KIT / "solution" / "integrators.py", tree)
+    patch(MEMBERS[member], tree)
+    sandbox = sandbox_for(Submission(member, tree), work, worker, Options(trusted=True))
+    reply: object = None
+    for _ in range(2):
+        child = sandbox.open_child(10)
+        child.ask(Import("integrators"))
+        question = Integrate("integrators:semi_implicit_euler", 1.0, 0.0, 0.5, [-4.0])
+        reply = child.ask(question).reply
+        child.end()
+    assert isinstance(reply, Returned) and isinstance(reply.value, Items), reply
+    (answer,) = reply.value.items
+    assert answer in (Vec(1.0, 0.0), Vec(0.0, -2.0))
+    return answer == Vec(0.0, -2.0)
+
+
+def row(member: str, why: str, stopped: dict[str, bool]) -> str:
+    cells = ["stops" if stopped[column] else "" for column in ALONE]
+    return f"| {' | '.join([f'`{member}`', why, *cells])} |"
+
+
+def on_the_page(member: str) -> str:
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    return next((line for line in lines if line.startswith(f"| `{member}` |")), "not there")
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("member", MEMBERS)
+def test_what_stops_it_is_what_the_page_says(member: str, workers, tmp_path: Path):
+    through = {
+        world: goes_through(member, worker, tmp_path / world) for world, worker in workers.items()
+    }
+    assert not through["everything"]
+    assert through["nothing"] or member in NEEDS_RIGHTS, "this is no attack: nothing refuses it"
+    why = dict(WHY.findall((KIT / "tests" / "bank" / "bank.toml").read_text(encoding="utf-8")))
+    stopped = {world: not through[world] for world in ALONE}
+    if member in NEEDS_RIGHTS and os.geteuid() != 0:
+        return  # an ordinary user may do some of these to processes of the same account
+    assert on_the_page(member) == row(member, why[member], stopped)
+
+
+def test_every_attack_is_on_the_page():
+    assert len(MEMBERS) >= 40
+    assert [member for member in MEMBERS if on_the_page(member) == "not there"] == []
