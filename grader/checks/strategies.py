@@ -2,7 +2,6 @@
 
 import math
 
-from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 
 from grader.checks.exact import (
@@ -16,19 +15,20 @@ from grader.checks.exact import (
     Rod,
     Rubbing,
 )
+from grader.judge.drawing import between
 from grader.judge.lab import STEP
 
 MAX_STEPS = 8  # in a frame
 
-coordinates = st.integers(-1600, 1600).map(lambda n: n / 8)  # px
-places_around = st.integers(-800, 8000).map(lambda n: n / 8)  # px, in the window or beside it
-radii = st.integers(8, 320).map(lambda n: n / 8)  # px
-half_extents = st.integers(8, 1600).map(lambda n: n / 8)  # px
-speeds = st.integers(-4000, 4000).map(lambda n: n / 8)  # px/s
-spins = st.integers(-160, 160).map(lambda n: n * 129 / 1024)  # rad/s; none is round but 0
-masses = st.integers(1, 400).map(lambda n: n / 8)  # kg
+coordinates = between(-1600, 1600).map(lambda n: n / 8)  # px
+places_around = between(-800, 8000).map(lambda n: n / 8)  # px, in the window or beside it
+radii = between(8, 320).map(lambda n: n / 8)  # px
+half_extents = between(8, 1600).map(lambda n: n / 8)  # px
+speeds = between(-4000, 4000).map(lambda n: n / 8)  # px/s
+spins = between(-160, 160).map(lambda n: n * 129 / 1024)  # rad/s; none is round but 0
+masses = between(1, 400).map(lambda n: n / 8)  # kg
 masses_or_static = st.just(0.0) | masses
-impulses = st.integers(0, 800).map(lambda n: n / 8)  # kg px/s
+impulses = between(0, 800).map(lambda n: n / 8)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.sampled_from(RATES) | st.sampled_from(RATES[:4])  # 1/s; often small ones
 step_sizes = st.sampled_from(STEP_SIZES)  # s
@@ -37,36 +37,25 @@ damped_steps = st.sampled_from(DAMPED_STEPS)  # s
 # The simplest is not 0, so that the very first answer says something.
 near_and_far = st.one_of(
     st.integers(-32, 32).map(lambda n: (n + 5) / 8),
-    st.integers(-8000, 8000).map(lambda n: n / 8),
+    between(-4000, 4000).map(lambda n: n / 4),
     st.sampled_from([0.0, 1 / 64, -1 / 64]),
 )
 states = st.tuples(near_and_far, near_and_far)  # x in px, v in px/s
 gentle_forces = st.tuples(
     *[st.integers(-8, 8).map(lambda n: (n + 1) / 4)] * 4
 )  # up to the cubic term
-falls = st.integers(3918, 3922).map(lambda n: (n / 4, 0.0, 0.0, 0.0))  # px/s²; gravity, or nearly
+falls = between(3918, 3922).map(lambda n: (n / 4, 0.0, 0.0, 0.0))  # px/s²; gravity, or nearly
 forces = gentle_forces | falls
-seeds = st.integers(0, 999)  # of a random.Random
+seeds = between(0, 999)  # of a random.Random
 # From long ones, by which integrators are told apart, to short ones that are no round numbers.
 time_steps = st.sampled_from([2.0, 1.0, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480])  # s
 
-# For a property that plays a program: a play takes as long as hundreds of calls, so no shrinking.
-once = settings(
-    max_examples=1,
-    phases=[Phase.generate],
-    deadline=None,
-    database=None,
-    derandomize=True,
-    report_multiple_bugs=False,
-    print_blob=False,
-    suppress_health_check=list(HealthCheck),
-)
-frame_rates = st.integers(24, 360)  # frames per second
-frame_lengths = st.integers(1, 58) | st.integers(59, 2000)  # ms; some below the cap, some above
+frame_rates = between(24, 360)  # frames per second
+frame_lengths = st.integers(1, 58) | between(59, 2000)  # ms; some below the cap, some above
 frame_lists = st.builds(
     lambda before, slow, after: [*before, slow, *after],
     st.lists(frame_lengths, max_size=4),
-    st.integers(80, 2000),
+    between(80, 2000),
     st.lists(frame_lengths, min_size=1, max_size=4),
 )
 
@@ -95,7 +84,7 @@ rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.28, -0.96)])
 velocities = st.tuples(speeds, speeds)
 
-arms = st.integers(-320, 320).map(lambda n: n / 8)  # px
+arms = between(-320, 320).map(lambda n: n / 8)  # px
 
 # TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
 low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
@@ -126,7 +115,7 @@ pulls = st.sampled_from([(0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -98
 
 
 # For a broad phase: bodies in and around the window, most of them small.
-crowd_radii = radii | st.integers(40, 400).map(float)  # px
+crowd_radii = radii | between(40, 400).map(float)  # px
 crowd_discs = st.builds(Disc, coordinates, coordinates, crowd_radii)
 crowd_rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 
@@ -170,7 +159,7 @@ def levers(draw: st.DrawFn, masses: st.SearchStrategy[float] = any_masses) -> Le
 
 
 static_levers = levers(st.just(0.0))
-lengths = st.integers(8, 2400).map(lambda n: n / 8)  # px
+lengths = between(8, 2400).map(lambda n: n / 8)  # px
 strains = st.just(0.0) | st.integers(-64, 64).map(lambda n: n / 64) | coordinates  # px
 
 

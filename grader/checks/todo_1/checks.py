@@ -4,13 +4,13 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
 from grader.checks.strategies import any_velocities, belts, circles, discs_near_boxes, pairs
 from grader.checks.telling import want_told
+from grader.judge.drawing import given
 from grader.judge.lab import NOTHING, Broke, Lab, Thing
 from grader.protocol import ContactValue
 

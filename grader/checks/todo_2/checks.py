@@ -3,13 +3,13 @@
 import math
 from typing import Any
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import Lever, cross
 from grader.checks.strategies import directions, levers, static_levers, wherever
 from grader.checks.telling import want_told
+from grader.judge.drawing import given
 from grader.judge.lab import NOTHING, Lab, Pair, Thing
 from grader.protocol import BodyValue
 

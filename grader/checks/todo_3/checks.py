@@ -3,13 +3,13 @@
 import math
 from collections.abc import Sequence
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import BETA, Rod
 from grader.checks.strategies import any_spins, any_surface, rods
 from grader.checks.telling import want_told
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Broke, Lab, Pair, Thing
 from grader.protocol import BodyValue
 

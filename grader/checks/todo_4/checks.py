@@ -8,7 +8,6 @@ friction is at its limit however easily they turn.
 import math
 from typing import NamedTuple
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
@@ -27,6 +26,7 @@ from grader.checks.strategies import (
     wide_velocities,
 )
 from grader.checks.telling import decimals_to_tell
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Frame, Lab, Pair, Thing
 from grader.protocol import BodyValue
 
@@ -54,8 +54,8 @@ class Setting(NamedTuple):
 
 
 USUAL, FRAMED = Setting(), Setting(framed=True)
-settings = st.builds(
-    Setting,
+settings = st.builds(  # a lambda, for hypothesis would draw the other fields as well
+    lambda place, restitution, depth: Setting(place, restitution, depth),
     place=PLACE["pos"],
     restitution=st.tuples(surfaces, surfaces),
     depth=st.sampled_from([DEPTH, 3.140625]),

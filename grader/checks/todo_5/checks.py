@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import astuple
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.strategies import any_speeds, damped_steps, pulls, rates, wide_velocities
 from grader.checks.telling import decimals_to_tell
+from grader.judge.drawing import given
 from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
 

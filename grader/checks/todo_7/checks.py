@@ -7,11 +7,10 @@ import math
 import random
 from typing import Any, NamedTuple
 
-from hypothesis import given
-
 from grader.checks import exact
 from grader.checks.strategies import places_around, seeds
 from grader.checks.telling import decimals_to_tell
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
 

@@ -5,12 +5,11 @@ from collections.abc import Callable
 from itertools import islice, pairwise
 from typing import NamedTuple
 
-from hypothesis import given
-
 from grader.checks import exact
 from grader.checks.exact import Accel, State
 from grader.checks.strategies import forces, near_and_far, states, time_steps
 from grader.checks.telling import want_told
+from grader.judge.drawing import given
 from grader.judge.lab import Lab
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
