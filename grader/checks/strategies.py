@@ -20,15 +20,20 @@ from grader.judge.lab import STEP
 
 MAX_STEPS = 8  # in a frame
 
-coordinates = between(-1600, 1600).map(lambda n: n / 8)  # px
-places_around = between(-800, 8000).map(lambda n: n / 8)  # px, in the window or beside it
-radii = between(8, 320).map(lambda n: n / 8)  # px
-half_extents = between(8, 1600).map(lambda n: n / 8)  # px
-speeds = between(-4000, 4000).map(lambda n: n / 8)  # px/s
+
+def eighths(number: int) -> float:
+    return number / 8
+
+
+coordinates = between(-1600, 1600).map(eighths)  # px
+places_around = between(-800, 8000).map(eighths)  # px, in the window or beside it
+radii = between(8, 320).map(eighths)  # px
+half_extents = between(8, 1600).map(eighths)  # px
+speeds = between(-4000, 4000).map(eighths)  # px/s
 spins = between(-160, 160).map(lambda n: n * 129 / 1024)  # rad/s; none is round but 0
-masses = between(1, 400).map(lambda n: n / 8)  # kg
+masses = between(1, 400).map(eighths)  # kg
 masses_or_static = st.just(0.0) | masses
-impulses = between(0, 800).map(lambda n: n / 8)  # kg px/s
+impulses = between(0, 800).map(eighths)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.sampled_from(RATES) | st.sampled_from(RATES[:4])  # 1/s; often small ones
 step_sizes = st.sampled_from(STEP_SIZES)  # s
@@ -84,7 +89,7 @@ rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.28, -0.96)])
 velocities = st.tuples(speeds, speeds)
 
-arms = between(-320, 320).map(lambda n: n / 8)  # px
+arms = between(-320, 320).map(eighths)  # px
 
 # TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
 low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
@@ -159,7 +164,7 @@ def levers(draw: st.DrawFn, masses: st.SearchStrategy[float] = any_masses) -> Le
 
 
 static_levers = levers(st.just(0.0))
-lengths = between(8, 2400).map(lambda n: n / 8)  # px
+lengths = between(8, 2400).map(eighths)  # px
 strains = st.just(0.0) | st.integers(-64, 64).map(lambda n: n / 64) | coordinates  # px
 
 
@@ -176,22 +181,3 @@ def rods(
     distance = max(length + draw(strains), length / 4)
     x, y = draw(directions())
     return Rod(a, b, length, (distance * x, distance * y), vel_a, vel_b, draw(any_step_sizes))
-
-
-@st.composite
-def discs_near_boxes(draw: st.DrawFn) -> tuple[Disc, Rect]:
-    """A box of any size anywhere, and a disc whose centre is at most a radius beyond its faces.
-
-    Inside, beside a face and at a corner come up alike, however large the one and small the other.
-    """
-    scale, x, y = draw(scales), draw(places), draw(places)
-    rect, r = draw(rects), scale * draw(radii)
-    rect = Rect(x + scale * rect.x, y + scale * rect.y, scale * rect.hx, scale * rect.hy)
-    return Disc(rect.x + draw(ways(rect.hx, r)), rect.y + draw(ways(rect.hy, r)), r), rect
-
-
-@st.composite
-def ways(draw: st.DrawFn, half: float, r: float) -> float:
-    """How far a centre is from the middle of a box along one axis, px."""
-    share = draw(st.sampled_from([-1.0, 0.0, 1.0]) | st.integers(-64, 64).map(lambda n: n / 64))
-    return math.copysign(half + abs(share) * r, share) if draw(st.booleans()) else share * half
