@@ -10,7 +10,6 @@ from grader.checks.exact import (
     STEP_SIZES,
     Disc,
     Discs,
-    Lever,
     Rect,
     Rod,
     Rubbing,
@@ -89,8 +88,6 @@ rects = st.builds(Rect, coordinates, coordinates, half_extents, half_extents)
 units = st.sampled_from([(1.0, 0.0), (0.0, -1.0), (0.6, 0.8), (-0.8, 0.6), (-0.28, -0.96)])
 velocities = st.tuples(speeds, speeds)
 
-arms = between(-320, 320).map(eighths)  # px
-
 # TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
 low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
 any_speeds = speeds | low_speeds | st.sampled_from([-2e4, 2e4])
@@ -156,14 +153,6 @@ def directions(draw: st.DrawFn) -> tuple[float, float]:
     return math.cos(angle), math.sin(angle)
 
 
-@st.composite
-def levers(draw: st.DrawFn, masses: st.SearchStrategy[float] = any_masses) -> Lever:
-    """A disc of any size, and an arm that is as long as discs of this size have them, or short."""
-    scale, part = draw(scales), draw(st.sampled_from([1.0, 1.0, 1 / 64]))
-    return Lever(draw(masses), scale * draw(radii), *(scale * part * draw(arms) for _ in "xy"))
-
-
-static_levers = levers(st.just(0.0))
 lengths = between(8, 2400).map(eighths)  # px
 strains = st.just(0.0) | st.integers(-64, 64).map(lambda n: n / 64) | coordinates  # px
 

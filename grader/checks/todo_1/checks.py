@@ -209,7 +209,7 @@ class Size(NamedTuple):
 SIDES = (-1, 0), (1, 0), (0, -1), (0, 1)
 CORNERS = (-1, -1), (-1, 1), (1, -1), (1, 1)
 SCALES = (1.0, 1 / 8, 256.0)
-FAR_AWAY = (0.0, 0.0), (500_000.0, -40_000.0)  # px
+PLACES = (-48.0, 32.0), (500_000.0, -40_000.0)  # px, near and far away
 MIDDLE, CLOSE, HARDLY = 0.5, 1 / 64, 63 / 64  # shares of a way
 
 
@@ -261,9 +261,9 @@ def any_circle_and_box_agree_with_the_geometry(
     for n, scale in enumerate(SCALES):
         lengths = (long + 40.0, short / 2, r) if n % 2 else (short / 2, long + 40.0, r)
         size = Size(*(scale * each for each in lengths))
-        one = pair(lab, Disc(0, 0, size.r), Rect(0, 0, size.hx, size.hy), moving[n % 2], box)
+        one = pair(lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box)
         for number, (dx, dy) in enumerate(regions(size, share)):
-            x, y = FAR_AWAY[number % 2]
+            x, y = PLACES[number % 2]
             disc, rect = Disc(x + dx, y + dy, size.r), Rect(x, y, size.hx, size.hy)
             lab.put(one[0], pos=(disc.x, disc.y))
             lab.put(one[1], pos=(rect.x, rect.y))
