@@ -11,7 +11,6 @@ from grader.checks.exact import (
     Disc,
     Discs,
     Rect,
-    Rod,
     Rubbing,
 )
 from grader.judge.drawing import between
@@ -113,7 +112,6 @@ touching = st.builds(
     turning=st.booleans(),
 )
 rubbings = st.lists(st.builds(Rubbing, any_impulses, any_speeds, speeds), min_size=1, max_size=3)
-pulls = st.sampled_from([(0.0, 0.0), (0.0, 980.0), (-120.375, 35.5), (0.125, -980.25)])  # px/s²
 
 
 # For a broad phase: bodies in and around the window, most of them small.
@@ -154,19 +152,3 @@ def directions(draw: st.DrawFn) -> tuple[float, float]:
 
 
 lengths = between(8, 2400).map(eighths)  # px
-strains = st.just(0.0) | st.integers(-64, 64).map(lambda n: n / 64) | coordinates  # px
-
-
-@st.composite
-def rods(
-    draw: st.DrawFn,
-    masses_a: st.SearchStrategy[float] = any_masses,
-    masses_b: st.SearchStrategy[float] = any_masses,
-) -> Rod:
-    """A rod of any length in any direction, as long as it is meant to be or not; statics rest."""
-    a, b = draw(masses_a), draw(masses_b)
-    vel_a, vel_b = (draw(any_velocities) if mass else (0.0, 0.0) for mass in (a, b))
-    length = draw(scales) * draw(lengths)
-    distance = max(length + draw(strains), length / 4)
-    x, y = draw(directions())
-    return Rod(a, b, length, (distance * x, distance * y), vel_a, vel_b, draw(any_step_sizes))

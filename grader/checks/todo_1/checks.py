@@ -258,9 +258,10 @@ def any_circle_and_box_agree_with_the_geometry(
 ) -> None:
     """A circle anywhere in and around any box, also where both have been moved"""
     moving = circle, {**circle, "vel": slow}
+    wide, tall = (long + 40.0, short / 2, r), (short / 2, long + 40.0, r)
+    shapes = wide, tall, (short / 4, short / 8, short + 4 * r)  # the last is a speck in the circle
     for n, scale in enumerate(SCALES):
-        lengths = (long + 40.0, short / 2, r) if n % 2 else (short / 2, long + 40.0, r)
-        size = Size(*(scale * each for each in lengths))
+        size = Size(*(scale * each for each in shapes[n]))
         one = pair(lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box)
         for number, (dx, dy) in enumerate(regions(size, share)):
             x, y = PLACES[number % 2]

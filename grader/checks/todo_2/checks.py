@@ -181,7 +181,7 @@ def a_sliding_ball_comes_to_roll_on_a_floor(lab: Lab) -> None:
 def a_sliding_ball_comes_to_roll_on_a_large_one(lab: Lab) -> None:
     """A ball set sliding on a large static ball comes to roll"""
     ground = lab.circle((0.0, 60_400.0), 60_000.0, 0.0, friction=0.6)
-    for radius, mass in ((12.0, 1.5), (30.0, 5.0)):
+    for radius, mass in ((12.0, 1.5), (30.0, 9.0)):
         want_to_roll(lab, ground, (0.0, 400.0 - radius), radius, mass, "static ball, r 60000")
 
 
