@@ -97,12 +97,12 @@ def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
 def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
     """Speed and spin are damped by a rate of their own, and a rate of 0 loses nothing"""
     for usual, walls in (((1.0, 0.25), 0), ((0.0, 2.0), 0), ((2.0, 0.0), 24), ((0.25, 1.0), 0)):
-        rates = tuple(lab.about(rate, min(rate / 4, 1 / 16)) for rate in usual)
-        lab.ran(f"linear_damping = {rates[0]:g}, angular_damping = {rates[1]:g}, half a second")
+        linear, angular = (lab.about(rate, min(rate / 4, 1 / 16)) for rate in usual)
+        lab.ran(f"linear_damping = {linear:g}, angular_damping = {angular:g}, half a second")
         motion = lab.about(SPEED), lab.about(SPIN)
-        got = damp(lab, *rates, 1 / 120, 60, motion, walls)
-        want_shares(lab, got, (rates[0], rates[1]), 0.5)
-        for rate, share in zip(rates, got, strict=True):
+        got = damp(lab, linear, angular, 1 / 120, 60, motion, walls)
+        want_shares(lab, got, (linear, angular), 0.5)
+        for rate, share in zip((linear, angular), got, strict=True):
             lab.want(rate > 0 or share == 1.0, "all of it left at a rate of 0", say(share, 6))
     motion = lab.about(SPEED), lab.about(SPIN)
     lab.ran("one ball, both dampings 0, for one second")
@@ -128,7 +128,7 @@ def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
     first, second = damped_ball(lab, 0.5, 2.0), damped_ball(lab, 2.0, 0.5)
     motion = lab.about(SPEED), lab.about(SPIN)
     slow, fast = lab.about(0.5), lab.about(2.0)
-    for each, rates, steps in (
+    for each, (linear, angular), steps in (
         (first, (slow, fast), 120),
         (second, (fast, slow), 120),  # another world, the same step
         (first, (fast, slow), 120),  # other rates
@@ -138,11 +138,11 @@ def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
         (first, (slow, fast), 120),  # as at first
     ):
         lab.ran(
-            f"worlds that are changed: linear_damping = {rates[0]:g}, angular_damping = "
-            f"{rates[1]:g}, {steps // 2} steps of {say_step(1 / steps)}"
+            f"worlds that are changed: linear_damping = {linear:g}, angular_damping = "
+            f"{angular:g}, {steps // 2} steps of {say_step(1 / steps)}"
         )
-        got = each.shares(*rates, 1 / steps, steps // 2, motion)
-        want_shares(lab, got, rates, 0.5)
+        got = each.shares(linear, angular, 1 / steps, steps // 2, motion)
+        want_shares(lab, got, (linear, angular), 0.5)
 
 
 MANY_RATES = (0.05, 0.001, 0.625, 3.0, 20.0, 0.0)  # 1/s; at 0.603 and 60 Hz 0.99 a step is right
