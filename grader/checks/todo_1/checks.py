@@ -208,7 +208,7 @@ class Size(NamedTuple):
 
 SIDES = (-1, 0), (1, 0), (0, -1), (0, 1)
 CORNERS = (-1, -1), (-1, 1), (1, -1), (1, 1)
-SCALES = (1.0, 1 / 8, 256.0)
+SCALES = (1.0, 1 / 8, 256.0, 1 / 4)
 PLACES = (-48.0, 32.0), (500_000.0, -40_000.0)  # px, near and far away
 MIDDLE, CLOSE, HARDLY = 0.5, 1 / 64, 63 / 64  # shares of a way
 
@@ -259,7 +259,8 @@ def any_circle_and_box_agree_with_the_geometry(
     """A circle anywhere in and around any box, also where both have been moved"""
     moving = circle, {**circle, "vel": slow}
     wide, tall = (long + 40.0, short / 2, r), (short / 2, long + 40.0, r)
-    shapes = wide, tall, (short / 4, short / 8, short + 4 * r)  # the last is a speck in the circle
+    speck = short / 4, short / 8, short + 4 * r  # inside the circle
+    shapes = wide, tall, speck, (4 * r + long, 4 * r + long - 1.0, r)  # last, a large square
     for n, scale in enumerate(SCALES):
         size = Size(*(scale * each for each in shapes[n]))
         one = pair(lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box)

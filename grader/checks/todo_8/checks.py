@@ -101,13 +101,13 @@ def formula(force: Polynomial) -> str:
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 
-def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> State:
-    """Where the spring's body is after so many steps; it is let go at x0."""
+def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> list[State]:
+    """The states of the spring's body after each of so many steps; it is let go at x0."""
     start, dt = (x0, 0.0), seconds / steps
     states = lab.integrate(method.name, start, dt, SPRING, steps)
     for before, answer in islice(pairwise([start, *states]), TELLING):
         lab.saw(method.name, (*before, dt, SPRING), answer)
-    return states[-1]
+    return states
 
 
 # What a failed check asks besides, to tell what is wrong: single steps, none of them round.
@@ -139,7 +139,13 @@ def want_a_swing(lab: Lab, method: Method) -> None:
     look_closely(lab, method)
     x0 = lab.about(X0)
     lab.ran(f"{method.name} on the spring for 10 s, dt = 1/30 s, from x = {x0:g} px at rest")
-    x, v = swing(lab, method, 300, 10.0, x0)
+    states = swing(lab, method, 300, 10.0, x0)
+    (x, v), farthest = states[-1], min(x for x, _ in states)
+    lab.want(
+        farthest < -0.9 * x0,
+        f"it swings to about x = {-x0:g} px, on the other side",
+        f"it comes to x = {farthest:.1f} px at the farthest",
+    )
     error, scale = abs(x - x0), x0 / X0
     change = 100 * ((v**2 + OMEGA**2 * x**2) / (OMEGA**2 * x0**2) - 1)
     lab.want(
