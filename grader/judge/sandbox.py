@@ -63,7 +63,7 @@ class Sandbox:
         self.used = [each for each in self.used if not each[0].over]
 
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
-        """Return the sandbox of a copy of the tree with other text in some of its files, by their names.
+        """Return the sandbox of a copy of the tree, with other text in the files named.
 
         Both share what is compiled. A changed file is younger by more than Python's second, so
         that nothing old is taken for it.

@@ -72,7 +72,7 @@ class Frame:
         return found
 
     def changes(self) -> list[Change]:
-        """Return what is not as it was: of an argument, ref is minus its number; of a constant, 0."""
+        """Return the changes: ref is minus its number for an argument, and 0 for a constant."""
         after = self.state()
         return [
             Change(ref, name)
@@ -118,7 +118,7 @@ def numbers_in(value: Any) -> Numbers:
 
 
 def alike(before: Numbers, after: Numbers) -> bool:
-    """Return whether both are equal but for rounding: to keep a normal at length 1 changes nothing."""
+    """Return whether both are equal but for rounding, as a normal kept at length 1 is."""
     return before == after or (
         len(before) == len(after)
         and all(

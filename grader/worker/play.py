@@ -119,7 +119,7 @@ def steps_of(owner: type) -> list[FunctionType]:
 
 
 def advance_of(subject: Subject, module: str) -> FunctionType | None:
-    """Return a program's `advance`, if it takes what the lab sheet says and not, say, milliseconds."""
+    """Return a program's `advance`, if it takes what the lab sheet says."""
     try:
         function = plain_function(subject.find(f"{module}:advance"))
     except ContractError:
@@ -129,7 +129,7 @@ def advance_of(subject: Subject, module: str) -> FunctionType | None:
 
 
 def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Returned:
-    """Return the answer of a call that steps a world, and the steps, which are counted and not run."""
+    """Return the answer of a call that steps a world, and the steps, counted and not run."""
     kind = type(world)
     if kind not in subject.counters:
         subject.counters[kind] = StepCounter(kind, physics=False, trail_every=0)
@@ -302,7 +302,7 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
 
 
 def contact_row(subject: Subject, contact: Any) -> ContactRow:
-    """Return one contact, with the limit of its friction as the friction of both bodies gives it."""
+    """Return one contact, with the limit of its friction by both bodies."""
     a, b = field(contact, "a"), field(contact, "b")
     friction = field_number(a, "friction") * field_number(b, "friction")
     normal = as_pair(field(contact, "normal"))

@@ -235,7 +235,7 @@ class Pressed:
 
 
 class FrameClock:
-    """The clock that `pygame.time.Clock()` returns here; the frame rate asked for does not matter."""
+    """The clock that `pygame.time.Clock()` returns here; any frame rate asked for is ignored."""
 
     def __init__(self, script: ScriptedClock) -> None:
         self.script = script

@@ -148,7 +148,7 @@ class Subject:
             return False
 
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
-        """Return the reference's function, compiled to use the submission's classes and functions."""
+        """Return the reference's function, compiled to use the submission's names."""
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, REFERENCE, "exec"), namespace)
         exec(compile(piece.source, REFERENCE, "exec"), namespace)

@@ -177,7 +177,7 @@ def stray_pids() -> list[int]:
 
 
 def has_children() -> bool:
-    """Return whether any process is left: orphans become children of this one (see isolate_server)."""
+    """Return whether any process is left: orphans become our children (see isolate_server)."""
     try:
         os.waitpid(-1, os.WNOHANG)
     except ChildProcessError:
