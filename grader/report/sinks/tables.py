@@ -1,15 +1,12 @@
 """Plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
 
-import csv
-import io
-import unicodedata
 from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from grader.judge.result import Result
 from grader.judge.wording import place_of
-from grader.text import clean
+from grader.text import clean, format_csv
 
 COLUMNS = (
     "submission",
@@ -24,13 +21,12 @@ COLUMNS = (
     "got",
     "where",
 )
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def csv_table(results: Iterable[Result]) -> bytes:
     """A line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
     table = [COLUMNS, *(row.values() for row in rows(results))]
-    return as_csv(table).encode("utf-8-sig")
+    return format_csv(table).encode("utf-8-sig")
 
 
 def json_lines(results: Iterable[Result]) -> bytes:
@@ -57,18 +53,3 @@ def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
                     clean(place_of(check)),
                 )
                 yield dict(zip(COLUMNS, values, strict=True))
-
-
-def as_csv(table: Iterable[Iterable[str | float]]) -> str:
-    """The rows of a table for a spreadsheet, with CRLF behind each; no text is a formula."""
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n")
-    for row in table:
-        writer.writerow([harmless(each) if isinstance(each, str) else each for each in row])
-    return out.getvalue()
-
-
-def harmless(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
-    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
-    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
