@@ -43,7 +43,7 @@ class Page:
 
 
 class Lms:
-    """A learning system; this one is any other, with a gradebook that asks which column is which."""
+    """A learning system; this one is any other, whose gradebook asks which column is which."""
 
     name = "plain"
     title_sign = ""  # what follows an assignment's title in a column of the gradebook
@@ -115,7 +115,7 @@ class Lms:
         return ()
 
 
-def pick(row: Row, columns: list[str]) -> list[str]:
+def pick(row: Row, columns: Iterable[str]) -> list[str]:
     return [row[name] for name in columns]
 
 

@@ -1,8 +1,8 @@
 """Find the lab's files in what was handed in, at any depth, under names that others have changed.
 
 Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
-own. Python can import no such name, so nobody match_name it for a file of their own: it is taken as what
-it was, and that is said. Where two files could be the same one, a person must choose.
+own. Python can import no such name, so nobody meant it for a file of their own. It is taken as what
+it was, with a note. Where two files could be the same one, a person must choose.
 """
 
 import re

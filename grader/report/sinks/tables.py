@@ -1,4 +1,4 @@
-"""Plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
+"""Write plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
 
 from collections.abc import Iterable, Iterator
 
@@ -23,19 +23,19 @@ COLUMNS = (
 )
 
 
-def csv_table(results: Iterable[Result]) -> bytes:
-    """A line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
-    table = [COLUMNS, *(row.values() for row in rows(results))]
+def write_csv(results: Iterable[Result]) -> bytes:
+    """Return a line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
+    table = [COLUMNS, *(row.values() for row in make_rows(results))]
     return format_csv(table).encode("utf-8-sig")
 
 
-def json_lines(results: Iterable[Result]) -> bytes:
-    """An object per check; no value is changed for a spreadsheet's sake."""
-    return b"".join(msgspec.json.encode(row) + b"\n" for row in rows(results))
+def write_json_lines(results: Iterable[Result]) -> bytes:
+    """Return an object per check, with no value changed for spreadsheets."""
+    return b"".join(msgspec.json.encode(row) + b"\n" for row in make_rows(results))
 
 
-def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
-    """Bonus TODOs have lines as well: their names begin with a B."""
+def make_rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
+    """Return a row per check, also of bonus TODOs, whose ids begin with a B."""
     for result in results:
         for todo in result.todos:
             for check in todo.checks:
