@@ -59,13 +59,7 @@ def say_why(cannot: str, words: str) -> None:
     Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {words}")
 
 
-app = typer.Typer(
-    cls=Commands,
-    help="Grades submissions of the physics-engine assignment.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
+app = typer.Typer()
 
 
 @dataclass(frozen=True)
@@ -263,24 +257,31 @@ def end_like_ctrl_c() -> None:
             signal.signal(name, stopped)
 
 
-def add_commands() -> typer.Typer:
+def make_app() -> typer.Typer:
     """Return the command line with all commands that are installed here."""
-    app.add_typer(student.app)
-    app.add_typer(export.app)
+    whole = typer.Typer(
+        cls=Commands,
+        help="Grades submissions of the physics-engine assignment.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+    )
+    apps = [app, student.app, export.app]
     if find_spec("grader.classroom"):  # students get none of these folders
         from grader.cli import classroom, dev, questions
 
-        for each in (classroom.app, dev.app, questions.app):
-            app.add_typer(each)
+        apps += [classroom.app, dev.app, questions.app]
     else:
         from grader.cli import practice
 
-        app.add_typer(practice.app)
-    return app
+        apps += [practice.app]
+    for each in apps:
+        whole.add_typer(each)
+    return whole
 
 
 def main() -> None:
     """Run the command that the arguments name."""
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
-    add_commands()(prog_name="grader")
+    make_app()(prog_name="grader")

@@ -19,7 +19,7 @@ class Counter:
         here = console.is_terminal
         self.bar = Progress(*columns, more, console=console, transient=True, disable=not here)
         self.task = self.bar.add_task("", total=total, more="")
-        self.told = time.monotonic()
+        self.printed = time.monotonic()
 
     def __enter__(self) -> Self:
         self.bar.start()

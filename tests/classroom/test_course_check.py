@@ -5,10 +5,9 @@ from pathlib import Path
 import classes
 import packed
 import pytest
-from typer.testing import CliRunner
+from command_line import run_grader
 
-from grader.classroom.course_check import Files, faults_of_course
-from grader.cli import classroom as commands
+from grader.classroom.course_check import Files, find_problems
 
 GOOD = "Email address,Group\nann@x.edu,1\nben@x.edu,1\n"
 
@@ -27,13 +26,13 @@ def told(place: Path, **texts: str) -> list[str]:
     for name, text in {"roster": GOOD, **texts}.items():
         (place / names[name]).write_text(text, encoding="utf-8")
         files[name] = place / names[name]
-    return list(faults_of_course(Files(submissions=place / "class", **files)))
+    return list(find_problems(Files(submissions=place / "class", **files)))
 
 
 def test_of_what_is_well_nothing_is_said(place):
     assert told(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
     words = ["course-check", str(place / "class"), "--roster", str(place / "list.csv")]
-    done = CliRunner().invoke(commands.app, words)
+    done = run_grader(*words)
     assert done.exit_code == 0 and "Nothing would go wrong" in done.output
 
 
