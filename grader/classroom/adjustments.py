@@ -228,6 +228,14 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
     return adjustments
 
 
+RULES = {  # by what msgspec says
+    "Expected `int` >= 0": "must be a whole number, 0 or more",
+    "Expected `int": "must be a whole number",
+    r"'^\\d+%$'": 'must be points, or a share as "10%"',
+    r"'\\S'": "must not be empty",
+}
+
+
 def name_value(words: str, document: dict[str, Any]) -> str:
     """Write a complaint of msgspec's with the line of the file that it is about."""
     found = re.fullmatch(r"(.*) - at `\$\.(late|adjust\[(\d+)\])(?:\.(\w+))?.*`", words)
@@ -236,7 +244,8 @@ def name_value(words: str, document: dict[str, Any]) -> str:
     complaint, place, number, name = found.groups()
     line = document["adjust"][int(number)] if number else document.get("late", {})
     who = f"the decision about {line.get('student')!r}" if number else place
-    return f"{who}: {f'{name} = {line.get(name)!r}: ' if name else ''}{complaint}"
+    rule = next((rule for sign, rule in RULES.items() if sign in complaint), complaint)
+    return f"{who}: {name} = {line.get(name)!r} {rule}" if name else f"{who}: {rule}"
 
 
 def convert_dates(document: dict[str, Any]) -> None:

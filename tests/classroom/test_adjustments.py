@@ -71,11 +71,11 @@ def test_nobody_else_is_touched(tmp_path):
     "text, words",
     [
         ("[[adjust]]\nstudent = 'a'\nadd = 1\n", "reason"),
-        ("[[adjust]]\nstudent = 'a'\nreason = ' '\nadd = 1\n", "needs a reason"),
+        ("[[adjust]]\nstudent = 'a'\nreason = ' '\nadd = 1\n", "reason = . . must not be empty"),
         (adjust(), "one of"),
         (adjust(add=1, points=2), "one of"),
         (adjust(late=True), "late = false"),
-        (adjust(add=1.5), "add = 1.5 of .Ann. must be a whole number"),
+        (adjust(add=1.5), "about .Ann.: add = 1.5 must be a whole number"),
         (adjust(ad=1), "ad"),
         ("[late]\nper_day = -1\n", "0 or more"),
         ("[late]\nper_day = 1\ndue = 2026-05-04T22:00:00\n", "time zone"),
@@ -91,8 +91,8 @@ def test_a_date_alone_is_the_end_of_that_day_in_the_schools_zone(tmp_path):
     """As in course.toml; people write extensions so."""
     text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
     decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
-    assert decided.due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
-    assert decided.due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
+    assert decided.find_due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
+    assert decided.find_due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
     with pytest.raises(Stop, match="due = 2026-05-04 23:59:59 needs its time zone"):
         loaded(tmp_path, "[late]\ndue = 2026-05-04\n")
 
@@ -100,9 +100,9 @@ def test_a_date_alone_is_the_end_of_that_day_in_the_schools_zone(tmp_path):
 @pytest.mark.parametrize(
     "line, words",
     [
-        ("points = 70.5", "points = 70.5 of 'Ann' must be a whole number"),
-        ("add = '5'", "add = '5' of 'Ann' must be a whole number"),
-        ("bonus = true", "bonus = True of 'Ann' must be a whole number"),
+        ("points = 70.5", "about 'Ann': points = 70.5 must be a whole number"),
+        ("add = '5'", "about 'Ann': add = '5' must be a whole number"),
+        ("bonus = true", "about 'Ann': bonus = True must be a whole number"),
         ("due = '09.05.2026'", "must be a date without quotes, as in due = 2027"),
     ],
 )

@@ -13,13 +13,14 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from grader.classroom import cluster, fingerprint
+from grader.classroom import cluster
 from grader.classroom.cluster import grade_here
 from grader.classroom.executor import ExecutorFailed
 from grader.classroom.fingerprint import pack_reference
 from grader.classroom.grading import ClassOptions, run_class
 from grader.errors import Stop
 from grader.intake.found import Package
+from grader.judge import fingerprint
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
 from grader.report.files import as_json

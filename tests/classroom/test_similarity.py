@@ -102,7 +102,7 @@ def test_what_many_have_tells_nothing(right):
 
 def test_the_same_pairs_whatever_the_hash_seed_is():
     text = "a = b + c * d - e / f\n" * 9
-    code = f"from grader.classroom.similarity import runs_of; print(sorted(runs_of({text!r})))"
+    code = f"from grader.classroom.similarity import hash_runs; print(sorted(hash_runs({text!r})))"
     told = {
         subprocess.run(
             [sys.executable, "-c", code],
