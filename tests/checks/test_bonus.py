@@ -132,7 +132,7 @@ def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Re
 
 def told(result: Result) -> str:
     console = Console(width=80, record=True, file=io.StringIO())
-    Printer(console).tell(result)
+    Printer(console).print(result)
     show_next(result, console)
     return console.export_text()
 

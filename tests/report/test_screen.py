@@ -107,7 +107,7 @@ def test_make_says_nothing_of_its_own(hand_in):
 
 
 @pytest.mark.parametrize(
-    ("text", "printed"),
+    ("text", "told"),
     [
         (f"x = {10**71} px", "x = 1e+71 px"),
         (f"{1e70:.3f} px/s", "1e+70 px/s"),
