@@ -118,7 +118,9 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
             reasons += [f"{late_for}: 0", *(f"excused: {words}" for words in excuses)]
             return points
         if found.handed_in is None and any(each.due for each in decisions):
-            reasons.append("late says the LMS, and not when: nothing is taken off an extension")
+            reasons.append(
+                "the LMS marks it late without a time: nothing is taken off an extension"
+            )
             return points
         if late.closed_after is not None and days > late.closed_after:
             reasons.append(f"{late_for}: no points after {plural(late.closed_after, 'day')}")

@@ -125,10 +125,6 @@ def grade_command(
     if path is None:
         demonstrate(options)
     elif class_:
-        if not find_spec("grader.classroom"):
-            raise Stop(
-                "this is the students' grader, and --class needs the whole kit: leave it out"
-            )
         # Imported here: students have none of it, and it would add 80 ms to every start.
         from grader.classroom.grading import ClassOptions
 
@@ -148,6 +144,8 @@ def refuse_what_is_ignored(
     """Stop at options that this way of grading would pass over in silence."""
     if path is None and class_:
         raise Stop("--class needs the submissions: name a folder or a zip of them")
+    if class_ and not find_spec("grader.classroom"):
+        raise Stop("--class needs the whole kit, and this is the students' grader: leave it out")
     if path is None:
         refuse_ignored(context, (*FOR_ONE, *FOR_CLASS, "out"), "without a submission: name one")
     elif class_:
@@ -247,14 +245,14 @@ def interrupt() -> None:
 def end_like_ctrl_c() -> None:
     """Clean up as after Ctrl-C, and only once, when the system or the terminal ends us."""
 
-    def stopped(number: int, _: object) -> NoReturn:
+    def end(number: int, _: object) -> NoReturn:
         for name in ENDINGS:
             signal.signal(name, signal.SIG_IGN)
         raise KeyboardInterrupt
 
     for name in ENDINGS:
         if signal.getsignal(name) == signal.SIG_DFL:  # nohup has a terminal's end ignored
-            signal.signal(name, stopped)
+            signal.signal(name, end)
 
 
 def make_app() -> typer.Typer:

@@ -60,7 +60,7 @@ class Blackboard(Lms):
         return set(COLUMNS[:3]) <= columns
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Blackboard knows people by their username, and a column by the id behind its title."""
+        """Return rows by username; Blackboard knows a column by the id behind its title."""
         own = [name for name in COLUMNS if name in roster.columns]
         title = find_title(roster, f"{marks.title} [", marks.title)
         return [[*own, title], *([*pick(each.row, own), each.mark] for each in marks.rows)]

@@ -47,13 +47,13 @@ class Brightspace(Lms):
         return END_OF_LINE in columns or "OrgDefinedId" in columns
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Brightspace wants an identifier, the points, and a sign at the end of each row."""
+        """Return an identifier, the points, and a sign at the end of each row."""
         own = [name for name in ("OrgDefinedId", "Username") if name in roster.columns]
         table = [[*own, f"{marks.title} Points Grade", END_OF_LINE]]
         return [*table, *([*pick(each.row, own), each.mark, "#"] for each in marks.rows)]
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
-        """Brightspace takes the folders of its download, with other files in them."""
+        """Return the folders of the download, with other files in them."""
         if match := NAME.fullmatch(source.name):
             folder = f"{match['ids']} - {match['name']} - {match['when']}"
             yield from ((f"{folder}/{each.file}", each.content) for each in pages)

@@ -50,7 +50,7 @@ class Canvas(Lms):
         return read_first_cell(row) not in ("", POINTS_POSSIBLE, TEST_STUDENT)
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Canvas takes back its own first columns and one column per assignment."""
+        """Return Canvas's own first columns and one column per assignment."""
         own = [name for name in COLUMNS if name in roster.columns]
         table = [[*own, find_title(roster, f"{marks.title} (", marks.title)]]
         if any(read_first_cell(row) == POINTS_POSSIBLE for row in roster.other_rows):
@@ -60,7 +60,7 @@ class Canvas(Lms):
     def name_pages(
         self, source: Path, pages: list[Page]
     ) -> Iterator[tuple[str, bytes | dict[str, bytes]]]:
-        """Canvas takes the very names that it gave, so a zip stays one and a text a text."""
+        """Return files of the very names that Canvas gave: a zip stays one, and a text a text."""
         if match_file(source) is None:
             return
         if source.suffix.lower() == ".zip":

@@ -100,7 +100,7 @@ class Moodle(Lms):
         return columns if len(set(columns)) == len(columns) else titles
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """The worksheet goes back as it came, with two columns filled in."""
+        """Return the worksheet as it came, with two columns filled in."""
         table = [[roster.titles.get(name, name) for name in roster.columns]]
         for row, mark, summary in marks.rows:
             cells = row | {"Grade": mark, "Feedback comments": summary}
@@ -123,7 +123,7 @@ class Moodle(Lms):
         return f"{name.replace('_', ' ')}_{number}_assignsubmission_file_{file}"
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
-        """Moodle takes a participant's number and the kind of upload from a file's name."""
+        """Return files whose names hold a participant's number and the kind of upload."""
         if match := NAME.fullmatch(source.name):
             first = f"{match['name']}_{match['id']}"
             for each in pages:

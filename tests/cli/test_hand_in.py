@@ -7,7 +7,7 @@ import pytest
 from command_line import run_grader
 
 from grader.bank.sync import students_files
-from grader.cli import pack_tree as packing
+from grader.cli import hand_in as packing
 from grader.cli.hand_in import PACKED, find_missing, pack_tree
 from grader.errors import Stop
 from grader.intake.found import Found
