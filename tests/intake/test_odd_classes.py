@@ -67,6 +67,8 @@ def people_of(path: Path, text: str | bytes) -> ClassList:
 
 CHANGED = (
     *("integrators (1).py", "integrators-2.py", "integrators - Copie (2).py", "INTEGRATORS.PY"),
+    *("integrators(2).py", "integrators-12.py", "integrators - Copy.py", "integrators copy 2.py"),
+    *("integrators 2.py", "Copy of integrators.py", "integrators%20(1).py", "Integrators.py"),
     *("Kopie von integrators.py", "integrators \u2013 Kopie.py", "integrators - コピー.py"),
     *("integrators - 副本.py", "integrators — копия.py", "integrators - Cópia.py"),
     *("integrators final.py", "integrators (final).py", "my integrators.py", "ann-integrators.py"),

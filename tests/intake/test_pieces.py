@@ -208,32 +208,6 @@ def test_the_nearer_of_two_counts_and_the_other_is_said(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "integrators (1).py",
-        "integrators(2).py",
-        "integrators-2.py",
-        "integrators-12.py",
-        "integrators - Copy.py",
-        "integrators - Copy (2).py",
-        "integrators - Kopie.py",
-        "integrators copy.py",
-        "integrators copy 2.py",
-        "integrators 2.py",
-        "Copy of integrators.py",
-        "integrators%20(1).py",
-        "integrators.py.txt",
-        "Integrators.py",
-    ],
-)
-def test_a_changed_name_is_taken_as_what_it_was_and_said(tmp_path, name):
-    changed = {key: text for key, text in PROGRAM.items() if key != "integrators.py"}
-    package = pack(write(tmp_path, changed | {name: "x = 1\n"}))
-    assert names(package) == ALL
-    assert f"{name} is taken as integrators.py" in package.notes
-
-
-@pytest.mark.parametrize(
     "name", ["integrators2.py", "integrators_1.py", "my integrators.py", "integrators-old.py"]
 )
 def test_a_name_of_ones_own_stays(name):

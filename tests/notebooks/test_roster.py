@@ -7,7 +7,15 @@ import msgspec
 import pytest
 
 from grader.classroom.book import Outcome
-from grader.classroom.marks import Marking, Part, compute_mark, load_marking, make_marks, make_parts
+from grader.classroom.marks import (
+    Marking,
+    Part,
+    Scores,
+    compute_mark,
+    load_marking,
+    make_marks,
+    make_parts,
+)
 from grader.errors import Stop
 from grader.intake.roster import list_people
 from grader.intake.systems import read_roster
@@ -44,7 +52,7 @@ def rows(made, delimiter=","):
 
 def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
     roster = listed(tmp_path, CANVAS)
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made) == [
         ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Physics engine (4711)"],
         ["    Points Possible", "", "", "", "", "100"],
@@ -57,7 +65,7 @@ def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
 def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
     text = "Student,ID,SIS Login ID,Section\nZoe,17,zoe,A\n"
     roster = listed(tmp_path, text)
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made)[0][-1] == "Physics engine" and rows(made)[1] == [
         "Zoe",
         "17",
@@ -69,7 +77,7 @@ def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
 
 def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
     roster = listed(tmp_path, CANVAS.replace(",", ";").replace("Müller;", "Müller,"), "utf-8-sig")
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert made.text.startswith("\ufeffStudent;ID;")
     assert rows(made, ";")[2][0] == "Müller, Zoë" and rows(made, ";")[2][-1] == "86.0"
 
@@ -79,7 +87,7 @@ def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
 
 def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
     roster = listed(tmp_path, MOODLE)
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE, "ben": {}}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "ben": {}}, MARKING))
     assert rows(made) == [
         ["First name", "Last name", "ID number", "Email address", "Grade", "Feedback"],
         ["Zoë", "Müller", "s-17", "zoe@school.example", "86.0", "engine 80 / 100; quiz 8 / 8"],
@@ -89,7 +97,7 @@ def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
 
 def test_the_key_may_be_another_column(tmp_path):
     roster = listed(tmp_path, MOODLE)
-    made = make_marks(roster, roster.choose_key("ID number"), {"s-17": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key("ID number"), Scores({"s-17": ZOE}, MARKING))
     assert rows(made)[1][4] == "86.0"
     with pytest.raises(Stop, match="no column 'Login'"):
         roster.choose_key("Login")
@@ -97,7 +105,7 @@ def test_the_key_may_be_another_column(tmp_path):
 
 def test_names_match_whatever_the_case_and_the_form_of_accents(tmp_path):
     roster = listed(tmp_path, "Email address\nZo\u00eb@x.example\n")
-    made = make_marks(roster, roster.choose_key(), {"zoe\u0308": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe\u0308": ZOE}, MARKING))
     assert rows(made)[1][0] == "Zo\u00eb@x.example" and rows(made)[1][1] == "86.0"
 
 
@@ -135,16 +143,16 @@ def test_the_total_and_the_decimals_are_the_instructors():
 def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
     marking = msgspec.structs.replace(MARKING, shares={"engine": 70, "quiz": 20, "journal": 10})
     roster = listed(tmp_path, CANVAS)
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE}, marking)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking))
     assert rows(made)[2][-1] == "" and made.given == 1
     assert made.notes[0] == "zoe: no mark yet, journal must be graded by hand"
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE}, marking, so_far=True)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking, so_far=True))
     assert rows(made)[2][-1] == "76.0"
 
 
 def test_who_is_not_in_the_list_is_named(tmp_path):
     roster = listed(tmp_path, CANVAS)
-    made = make_marks(roster, roster.choose_key(), {"zoe": ZOE, "guest": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "guest": ZOE}, MARKING))
     assert "guest: handed in, but is not in the class list under 'SIS Login ID'" in made.notes
 
 
@@ -181,7 +189,7 @@ def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
     csv.writer(buffer).writerows([["First name", "Last name", "Email address"]])
     csv.writer(buffer).writerows([each, each, f"u{i}@x"] for i, each in enumerate(bad))
     roster = listed(tmp_path, buffer.getvalue())
-    made = make_marks(roster, roster.choose_key(), {}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({}, MARKING))
     cells = [cell for row in rows(made)[1:] for cell in row]
     assert len(cells) == 5 * len(bad)
     assert not any(cell.startswith(("=", "+", "-", "@", "\t")) for cell in cells)
