@@ -376,7 +376,7 @@ class Contacts(Effect):
 
 
 def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
-    """Return the balls that touch a body, directly or through others; static ones end the search."""
+    """Return the balls that touch a body, directly or through others; statics end the search."""
     beside: dict[Body, list[Body]] = {}
     for c in contacts:
         beside.setdefault(c.a, []).append(c.b)
