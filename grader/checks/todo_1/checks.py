@@ -210,7 +210,7 @@ SIDES = (-1, 0), (1, 0), (0, -1), (0, 1)
 CORNERS = (-1, -1), (-1, 1), (1, -1), (1, 1)
 SCALES = (1.0, 1 / 8, 256.0, 1 / 4)
 PLACES = (-48.0, 32.0), (500_000.0, -40_000.0)  # px, near and far away
-MIDDLE, CLOSE, HARDLY = 0.5, 1 / 64, 63 / 64  # shares of a way
+CLOSE, HARDLY = 1 / 64, 63 / 64  # shares of a way
 
 
 def regions(size: Size, share: float) -> Iterator[Pair]:
