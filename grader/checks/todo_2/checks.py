@@ -138,6 +138,7 @@ def any_two_bodies_agree_with_the_formula(
     fields: tuple[Fields, Fields],
 ) -> None:
     """Two bodies of any mass and size, pushed anywhere along any axis, and then changed"""
+    slow = [{**each, "omega": 1 / 64, "vel": (1 / 64, 0.0)} for each in fields]
     n = 0
     for quadrant in QUADRANTS:
         for kind in KINDS:
@@ -159,7 +160,7 @@ def any_two_bodies_agree_with_the_formula(
                     strict=True,
                 )
             )
-            both = discs(lab, a, b, *fields)
+            both = discs(lab, a, b, *(slow if n % 2 else fields))
             want_exact(lab, a, b, axis, both)
             want_exact(lab, a._replace(rx=a.ry, ry=-a.rx), b, axis, both)
             if n % 4 == 0:  # what can no longer be moved

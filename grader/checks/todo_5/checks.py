@@ -171,9 +171,10 @@ def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> N
     once = damped.shares(linear, angular, dt, 1)
     often = damped.shares(linear, angular, dt / parts, parts)
     right = exact.damped(linear, dt), exact.damped(angular, dt)
+    within = SINGLE * (1 + max(rates) * dt)  # the exponent is rounded as well
     n = decimals((*right, *right), (*once, *often))
     lab.want(
-        alike(once, right, SINGLE) and alike(often, right, parts * SINGLE),
+        alike(once, right, within) and alike(often, right, parts * within),
         f"{say(right[0], n)} of the speed, {say(right[1], n)} of the spin, both times",
         f"{say(once[0], n)} and {say(once[1], n)} in one step, "
         f"{say(often[0], n)} and {say(often[1], n)} in many",
@@ -232,7 +233,9 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
             keep = exact.damped(linear, step), exact.damped(angular, step)
             meant = [stepped(each, pull, keep, step) for each in meant]
             for ball, right in zip(balls, meant, strict=True):
-                want_moment(lab, moment(lab.state(ball)), right, step)
+                want_moment(
+                    lab, moment(lab.state(ball)), right, step, 1 + max(linear, angular) * step
+                )
             meant = [moment(lab.state(ball)) for ball in balls]
     want_unmoved(lab, still, belt)
 
@@ -272,11 +275,11 @@ def moment(body: BodyValue) -> Moment:
     return Moment(body.pos.x, body.pos.y, body.vel.x, body.vel.y, body.angle, body.omega)
 
 
-def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float) -> None:
-    """After a step of dt: its speeds up to what SINGLE allows them, and where these lead."""
+def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float) -> None:
+    """After a step of dt: its speeds up to `times` what SINGLE allows, and where these lead."""
     got, meant = astuple(answer), astuple(right)
     n = decimals_to_tell(meant, got, 4)
-    vx, vy, omega = (SINGLE * abs(speed) for speed in (right.vx, right.vy, right.omega))
+    vx, vy, omega = (times * SINGLE * abs(speed) for speed in (right.vx, right.vy, right.omega))
     most = vx * dt, vy * dt, vx, vy, omega * dt, omega
     lab.want(
         all(
