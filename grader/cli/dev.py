@@ -11,7 +11,6 @@ from grader.cli.shared import (
     course_in,
     known_todos,
     needs_checkout,
-    refuse_ignored,
     stop,
 )
 from grader.judge.grade import KIT
@@ -117,28 +116,14 @@ def mutants_command(
 
 @app.command("bench")
 def bench_command(
-    context: typer.Context,
-    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
-    class_: Annotated[
-        int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
-    ] = 0,
-    greedy: Annotated[
-        bool, typer.Option("--greedy", help="Instead: twelve, of which three want all there is.")
-    ] = False,
+    rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
+    size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,
 ) -> None:
-    """Measure what a grade costs and what the isolation adds to it; or what a class does."""
+    """Measure how long a student waits, and what a grade, its isolation and a class cost.
+
+    A round takes about two minutes.
+    """
     needs_checkout("bench")
-    if greedy:
-        refuse_ignored(context, ("class_",), "with --greedy")
-        from grader.bench.greedy import bench_greedy
+    from grader.bench.figures import bench
 
-        bench_greedy(rounds, console)
-    elif class_:
-        refuse_ignored(context, ("rounds",), "with --class")
-        from grader.bench.classes import bench_class
-
-        bench_class(console, class_)
-    else:
-        from grader.bench.single import bench
-
-        bench(rounds, console)
+    bench(rounds, size, console)
