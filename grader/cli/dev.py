@@ -1,5 +1,6 @@
 """The commands of those who look after the kit: each says whether all is sound."""
 
+import random
 from pathlib import Path
 from typing import Annotated
 
@@ -103,15 +104,18 @@ def mutants_command(
     With --alone, neither what the others lose nor names are looked at.
     """
     needs_checkout("mutants")
-    from grader.bank.mutants import all_mutants, campaign, chosen_from
+    from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
 
     todos = known_todos(todo)
     known = sorted({mutant.operator for mutant in all_mutants()})
     for name in operator or ():
         if name not in known:
             stop(f"there is no operator {name}; there are {', '.join(known)}", "go on")
-    mutants = chosen_from(all_mutants(), todos, frozenset(operator or ()))
-    raise typer.Exit(0 if campaign(mutants, count, seed, jobs, console, alone).sound else 1)
+    mutants = choose_mutants(todos, operator or ())
+    if count:
+        mutants = random.Random(seed).sample(mutants, min(count, len(mutants)))
+    outcomes = run_mutants(mutants, jobs, console, alone)
+    raise typer.Exit(1 if any(each.complaint for each in outcomes) else 0)
 
 
 @app.command("bench")
