@@ -1,8 +1,8 @@
-"""What a fork bomb, a sleeper and a memory hog in a class of twelve cost the other nine.
+"""Measure what a fork bomb, a sleeper and a memory hog in a class of twelve cost the other nine.
 
-Time that passes says little on a busy machine. So what counts is the processor time of each
-submission: that of its judge, of the warm process and of all its children together. The class is
-graded with the three and without, in turns, and of each submission the least counts.
+Wall time says little on a busy machine, so processor time counts: that of the judge, the warm
+process and all children together. The class is graded with the three and without, in turns, and the
+least of each submission counts.
 """
 
 import os
@@ -14,9 +14,6 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
-
-from rich.console import Console
-from rich.table import Table
 
 from grader.bank.members import fill_every_todo
 from grader.judge.grade import KIT
@@ -56,7 +53,7 @@ print(grade(Path(sys.argv[1]), Options(shipped_reference(), trusted=True)).point
 
 @dataclass(frozen=True)
 class Cost:
-    """Of one grade, with its warm process and all children; `memory` is of the largest process."""
+    """The cost of one grade: its judge, warm process and children; `memory` of the largest one."""
 
     cpu: float  # s
     seconds: float
@@ -65,12 +62,12 @@ class Cost:
 
 
 def make_greedy(folder: Path, code: str) -> None:
-    """The solution, with this code in every TODO."""
+    """Copy the solution, with this code in every TODO."""
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
     fill_every_todo(folder, code)
 
 
-def cost_of(folder: Path) -> Cost:
+def measure_grade(folder: Path) -> Cost:
     """Grade it in a process of its own, whose descendants are all waited for."""
     start = time.monotonic()
     process = subprocess.Popen(
@@ -88,15 +85,15 @@ def cost_of(folder: Path) -> Cost:
     return Cost(used.ru_utime + used.ru_stime, seconds, used.ru_maxrss / 1024, points)
 
 
-def graded(folders: list[Path]) -> dict[str, Cost]:
-    """All of them, so many at a time as there are cores."""
+def grade_all(folders: list[Path]) -> dict[str, Cost]:
+    """Grade them, as many at a time as there are cores; return the cost of each."""
     with ThreadPoolExecutor(CORES) as pool:
-        costs = pool.map(cost_of, folders)
+        costs = pool.map(measure_grade, folders)
         return {each.name: cost for each, cost in zip(folders, costs, strict=True)}
 
 
 def compare(rounds: int) -> tuple[dict[str, list[Cost]], dict[str, list[Cost]]]:
-    """The costs of each round, by submission: without the three, and with them."""
+    """Return the costs of each round by submission, without the three and with them."""
     without: dict[str, list[Cost]] = {}
     together: dict[str, list[Cost]] = {}
     before = os.sched_getaffinity(0)
@@ -116,26 +113,12 @@ def compare(rounds: int) -> tuple[dict[str, list[Cost]], dict[str, list[Cost]]]:
                 every += [each, *good[number * third : (number + 1) * third]]
             for _ in range(rounds):
                 for folders, found in ((good, without), (every, together)):
-                    for name, cost in graded(folders).items():
+                    for name, cost in grade_all(folders).items():
                         found.setdefault(name, []).append(cost)
     finally:
         os.sched_setaffinity(0, before)
     return without, together
 
 
-def least(costs: list[Cost]) -> float:
+def least_cpu(costs: list[Cost]) -> float:
     return min(each.cpu for each in costs)
-
-
-def bench_greedy(rounds: int, console: Console) -> None:
-    """Print what the three cost, and how much more each of the others did beside them."""
-    without, together = compare(rounds)
-    table = Table("submission", "points", "processor s", "without the three", "ratio", "MB")
-    table.title = f"a class of {CLASS} on {CORES} cores, the least of {rounds} rounds"
-    for name, costs in together.items():
-        alone = f"{least(without[name]):.2f}" if name in without else ""
-        ratio = f"{least(costs) / least(without[name]):.3f}" if name in without else ""
-        memory = max(each.memory for each in costs)
-        points = str(costs[0].points)
-        table.add_row(name, points, f"{least(costs):.2f}", alone, ratio, f"{memory:.0f}")
-    console.print(table)
