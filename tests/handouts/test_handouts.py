@@ -45,6 +45,10 @@ def name_of(page: Path) -> str:
     return page.relative_to(HANDOUTS).as_posix()
 
 
+def place_of(page: Path) -> str:
+    return page.relative_to(KIT).as_posix()
+
+
 def text_of(name: str) -> str:
     return (HANDOUTS / name).read_text(encoding="utf-8")
 
@@ -102,13 +106,13 @@ def trouble_with(page: Path, link: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize("page", [*PAGES, *GUIDES], ids=lambda page: page.relative_to(KIT).as_posix())
+@pytest.mark.parametrize("page", [*PAGES, *GUIDES], ids=place_of)
 def test_every_link_and_picture_is_there(page: Path) -> None:
     found = [link for link in links(page.read_text(encoding="utf-8")) if link not in ON_GITHUB]
     assert not list(filter(None, (trouble_with(page, link) for link in found)))
 
 
-@pytest.mark.parametrize("page", [*PAGES, *GUIDES], ids=lambda page: page.relative_to(KIT).as_posix())
+@pytest.mark.parametrize("page", [*PAGES, *GUIDES], ids=place_of)
 def test_every_path_of_the_kit_that_is_named_is_there(page: Path) -> None:
     assert not [path for path in paths_in(page) if not (KIT / path).exists()]
 
