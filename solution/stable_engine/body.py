@@ -1,10 +1,10 @@
-"""A body: a shape with a place, a velocity and a mass."""
+"""A body: a shape with a position, a velocity and a mass."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import hypot, isfinite
-from typing import TYPE_CHECKING
+from typing import Any
 
 from pygame import Vector2
 
@@ -12,12 +12,36 @@ from .reading import read
 from .shapes import Box, Circle
 from .validate import finite, not_negative, number, pair, refuse, require
 
-if TYPE_CHECKING:
-    from .sleep import Island
-    from .world import World
-
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
+
+
+class Listeners:
+    """The part of a world that its bodies call when something of them is set."""
+
+    static_moved_hooks: list[Callable[..., Any]]
+    body_changed_hooks: list[Callable[..., Any]]
+    lighter_hooks: list[Callable[..., Any]]
+
+
+class Island:
+    """Bodies that fell asleep together and wake together. on_wake is called when they do."""
+
+    def __init__(self, bodies: list[Body], on_wake: Callable[[], None]) -> None:
+        self.bodies = bodies
+        self.on_wake = on_wake
+        for body in bodies:
+            body.island = self
+            body.asleep = body.idle = True
+            body.vx = body.vy = body.w = 0.0
+
+    def wake(self) -> None:
+        """Wake all its bodies."""
+        for body in self.bodies:
+            body.island = None
+            body.asleep = body.idle = False
+            body.still = 0.0
+        self.on_wake()
 
 
 class Body:
@@ -57,7 +81,7 @@ class Body:
         else:
             refuse("Body.shape", shape, "a Circle or a Box")
         self.shape = shape
-        self.world: World | None = None
+        self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
         self.restitution_given = self.friction_given = False
         self.e, self.mu = RESTITUTION, FRICTION

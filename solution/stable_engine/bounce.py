@@ -4,8 +4,7 @@ from math import sqrt
 
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect
-from .world import World
+from .effect import Effect, WorldState
 
 PASSES = 20  # within one step, in which an impact travels from ball to ball
 
@@ -21,7 +20,7 @@ class Bounce(Effect):
 
     rank = 6
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 

@@ -1,21 +1,16 @@
 """What a scene calls for and does not declare, and what it declares and has no use for."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .joint import Joint
-    from .world import World
+from .body import Body
+from .effect import WorldState
+from .joint import Joint
 
 
-def complaints(world: World) -> list[str]:
+def complaints(world: WorldState) -> list[str]:
     """One sentence for each effect that is called for and missing, or declared and not used."""
     return [*missing(world), *unused(world)]
 
 
-def missing(world: World) -> list[str]:
+def missing(world: WorldState) -> list[str]:
     """A sentence for each effect that the scene calls for and does not declare.
 
     Friction and restitution that were given call for their effects, above 0 and where something
@@ -41,7 +36,7 @@ def missing(world: World) -> list[str]:
     ]
 
 
-def tied(body: Body, world: World) -> bool:
+def tied(body: Body, world: WorldState) -> bool:
     """Whether a rod or spring is tied to the body."""
     joints: list[Joint] = []
     for effect in world.effects.values():
@@ -49,7 +44,7 @@ def tied(body: Body, world: World) -> bool:
     return any(body in (joint.a, joint.b) for joint in joints)
 
 
-def unused(world: World) -> list[str]:
+def unused(world: WorldState) -> list[str]:
     """A sentence for each declared effect that nothing in the scene has a use for."""
     return [
         f"This scene declares {name}(), but has no use for it. Leave it out, or add what it is for."

@@ -6,11 +6,10 @@ from math import hypot
 from .body import Body
 from .broad_phase import Bounds, BroadPhase
 from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
-from .effect import Effect
+from .effect import Effect, WorldState
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import NO_HIT, first_hit, stop_at_first_hit
 from .validate import refuse
-from .world import World
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
@@ -63,7 +62,7 @@ class Contacts(Effect):
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the impulses that are kept
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.begin_contact_hooks = world.hooks("begin_contact")
         self.after_impact_hooks = world.hooks("after_impact")

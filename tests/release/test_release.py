@@ -467,7 +467,7 @@ def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
     files = students_files(KIT)
     for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
         files[f"notebooks/{path.name}"] = path
-    assert {"accuracy.py", "experiments/window.py", "stable_engine/world.py"} < set(files)
+    assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(files)
     made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
     there = [name for name, _ in releases.files_in(released.tree)]
     assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
