@@ -2,6 +2,7 @@
 
 import re
 import tomllib
+from itertools import chain
 from typing import Any
 
 import pytest
@@ -59,3 +60,10 @@ def test_a_commit_is_held_to_what_ci_runs():
     (hook,) = read(".pre-commit-config.yaml")["repos"][0]["hooks"]
     steps = read(".github/workflows/ci.yml")["jobs"]["lint"]["steps"]
     assert hook["entry"] in [step.get("run") for step in steps]
+
+
+def test_every_dependency_has_a_reason():
+    rows = (KIT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("\n| package |")[2]
+    named = set(re.findall(r"[\w-]+", " ".join(re.findall(r"^\| ([^|]+) \|", rows, re.M))))
+    wanted = chain(PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
+    assert {re.split("[<>=]", each)[0] for each in wanted} <= named

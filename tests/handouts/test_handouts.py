@@ -28,7 +28,6 @@ HANDOUTS, SOLUTION, STARTER = KIT / "handouts", KIT / "solution", KIT / "starter
 STUDENTS = sorted(HANDOUTS.glob("*.md"))
 PAGES = sorted(HANDOUTS.rglob("*.md"))
 GUIDES = [KIT / "README.md", KIT / "CONTRIBUTING.md"]
-CONTRIBUTING = GUIDES[1].read_text(encoding="utf-8")
 ON_GITHUB = {f"../../actions/workflows/ci.yml{end}" for end in ("", "/badge.svg")}  # no files
 CHECKS = KIT / "grader" / "checks"
 RUBRIC = tomllib.loads((CHECKS / "rubric.toml").read_text(encoding="utf-8"))
@@ -120,18 +119,6 @@ def test_every_path_of_the_kit_that_is_named_is_there(page: Path) -> None:
 def paths_in(page: Path) -> list[str]:
     folders = "grader|handouts|solution|starter|tests"
     return re.findall(rf"`((?:{folders})/[^`\s]*)`", page.read_text(encoding="utf-8"))
-
-
-def test_what_the_map_of_the_code_names_stands_in_that_file() -> None:
-    rows = "\n".join(" | ".join(row) for row in table_below(CONTRIBUTING, "### Where is ..."))
-    found = re.findall(r"((?:`\w+`(?: and )?)+) in `(\S+\.py)`", rows)
-    assert len(found) >= 10
-    for names, path in found:
-        text = (KIT / path).read_text(encoding="utf-8")
-        for name in re.findall(r"\w+", names.replace(" and ", " ")):
-            assert re.search(rf"^ *(?:def |class )?{name}\b", text, re.M), f"{name} in {path}"
-    for folder in ("grader", "grader/classroom", "grader/maintain", "grader/report"):
-        assert (KIT / folder / "commands.py").is_file()
 
 
 @pytest.mark.parametrize("link", ["nowhere.md", "lesson.md#no-such-heading", "figures/none.png"])
