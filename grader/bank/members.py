@@ -30,7 +30,6 @@ A right member must get every point. Where it differs from the solution in one T
   mini_engine.py there replaces the package.
 - `bank.toml` has the marks of members without a NAME.toml.
 - `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
-- `old_package/` is the package as it was handed out before its bonus tasks had a folder.
 """
 
 import os
@@ -62,6 +61,7 @@ Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
 CLEAN = shutil.ignore_patterns("__pycache__", "notebooks", ".*")  # no submission has these
+TREES = ("solution", "starter")
 IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
 SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
 
@@ -82,7 +82,7 @@ class Variant(Struct, frozen=True, forbid_unknown_fields=True):
 class Entry(Variant, frozen=True):
     """A member, as TOML describes it: what it changes, and the marks it must get."""
 
-    base: str = "solution"  # or "starter", "old package", "empty", or a right member
+    base: str = "solution"  # or "starter", "empty", or the name of a right member
     remove: list[str] = []
     copy: dict[str, str] = {}  # new file, old file
     everywhere: str = ""  # code for every TODO
@@ -187,7 +187,7 @@ class Member:
     def lineage(self) -> Iterator["Member"]:
         """Yield the member itself and the right members that it is based on."""
         yield self
-        if self.entry.base not in BASES:
+        if self.entry.base not in (*TREES, "empty"):
             yield from base_of(self, KIT).lineage
 
     def belongs_to(self, course: Course) -> bool:
@@ -201,8 +201,10 @@ class Member:
 
     def build(self, kit: Path, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
-        if self.entry.base in BASES:
-            BASES[self.entry.base](kit, folder)
+        if self.entry.base == "empty":
+            folder.mkdir(parents=True)
+        elif self.entry.base in TREES:
+            shutil.copytree(kit / self.entry.base, folder, ignore=CLEAN)
         else:
             base_of(self, kit).build(kit, folder)
         if self.form == "single file":
@@ -363,30 +365,7 @@ def solution_code() -> dict[str, str]:
     return {r.id: textwrap.dedent("\n".join(r.lines)) for t in texts for r in regions_in(t)}
 
 
-# ---------------------------------------------------------------- bases and edits
-
-
-def copy_tree(tree: str) -> Callable[[Path, Path], None]:
-    def copy(kit: Path, folder: Path) -> None:
-        shutil.copytree(kit / tree, folder, ignore=CLEAN)
-
-    return copy
-
-
-def copy_old_package(kit: Path, folder: Path) -> None:
-    """Copy the solution, but with the package as it was handed out at first."""
-    shutil.copytree(kit / "solution", folder, ignore=CLEAN)
-    shutil.rmtree(folder / "mini_engine")
-    old = kit / "tests" / "bank" / "old_package" / "mini_engine"
-    shutil.copytree(old, folder / "mini_engine", ignore=CLEAN)
-
-
-BASES: dict[str, Callable[[Path, Path], None]] = {
-    "solution": copy_tree("solution"),
-    "starter": copy_tree("starter"),
-    "old package": copy_old_package,
-    "empty": lambda kit, folder: folder.mkdir(parents=True),
-}
+# ---------------------------------------------------------------- edits
 
 
 def use_single_file(kit: Path, folder: Path) -> None:
