@@ -128,7 +128,7 @@ class Member:
     def regions(self) -> Regions:
         """Return the code that replaces regions, by TODO."""
         if self.source is not None and self.source.suffix == ".py":
-            return {region.id: region.lines for region in regions_in(read_source(self.source))}
+            return regions_of(self.source)
         if self.entry.code or self.entry.change or self.is_rung:
             todo = self.name.partition("-")[0]
             return {todo: tuple(self.entry.rewrite(solution_code()[todo]).splitlines())}
@@ -425,6 +425,15 @@ def make_mistake(name: str, folder: Path) -> None:
     """Put the code of a wrong member into the files of `folder`."""
     wrong = wrong_members(KIT / "tests" / "bank")
     put_regions(next(member for member in wrong if member.name == name).regions, folder)
+
+
+def patch(source: Path, folder: Path) -> None:
+    """Put the regions of one file in the place of the same ones in `folder`."""
+    put_regions(regions_of(source), folder)
+
+
+def regions_of(source: Path) -> Regions:
+    return {region.id: region.lines for region in regions_in(read_source(source))}
 
 
 def put_regions(regions: Regions, folder: Path) -> None:
