@@ -1,18 +1,24 @@
-"""Text for people: a submission's words made safe, numbers, lists and times in words."""
+"""Write text for people: a submission's words made safe, tables, numbers, lists and times."""
 
+import csv
+import io
 import math
+import unicodedata
+from collections.abc import Callable, Iterable
 from datetime import datetime
 
 MAX_WORDS = 400  # characters of a submission in one line
 
 
 def harmless(words: str) -> str:
-    """Words without control and direction characters: whoever reads a result may just show it."""
+    """Return words without control and direction characters: whoever reads a result may just show
+    it.
+    """
     return words.translate(HARMLESS)
 
 
 class Harmless(dict[int, int]):
-    """What each letter is shown as, by their numbers; they are looked at when they first come."""
+    """The letters to show, by number of letter; each is looked up when it first comes."""
 
     def __missing__(self, number: int) -> int:
         letter = chr(number)
@@ -24,12 +30,12 @@ HARMLESS = Harmless()
 
 
 def printable(words: str) -> str:
-    """Words without line breaks, control and direction characters."""
+    """Return words without line breaks, control and direction characters."""
     return harmless(words).replace("\n", " ")
 
 
 def clean(words: str) -> str:
-    """A submission's words on one line, with nothing that a terminal would obey."""
+    """Return a submission's words on one line, with nothing that a terminal would obey."""
     return printable(words)[:MAX_WORDS]
 
 
@@ -51,7 +57,7 @@ NUMBERS = (
 
 
 def number(count: int) -> str:
-    """A small number as a word: `three`."""
+    """Return a small number as a word: `three`."""
     return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
@@ -61,10 +67,35 @@ def listed(words: list[str]) -> str:
 
 
 def digits(value: float) -> str:
-    """Six digits, without the noise that rounding leaves around 0."""
+    """Return six digits, without the noise that rounding leaves around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
 
 
 def about(value: float) -> str:
-    """Three digits, or all before the point."""
+    """Return three digits, or all before the point."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
+# ---------------------------------------------------------------- tables for spreadsheets
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")  # how a cell begins that a spreadsheet would run
+
+
+def escape_formula(cell: str) -> str:
+    """Put an apostrophe before a cell that a spreadsheet would take for a formula."""
+    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
+    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
+
+
+def format_csv(
+    table: Iterable[Iterable[object]],
+    delimiter: str = ",",
+    line_end: str = "\r\n",
+    escape: Callable[[str], str] = escape_formula,
+) -> str:
+    """Return the rows of a table as CSV, each text in it escaped."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, delimiter=delimiter, lineterminator=line_end)
+    for row in table:
+        writer.writerow([escape(each) if isinstance(each, str) else each for each in row])
+    return out.getvalue()

@@ -1,4 +1,4 @@
-"""The hash of the grader: as long as it stays, nothing is graded again.
+"""Hash the grader: as long as the hash stays, nothing is graded again.
 
 A file of the grader counts if it can decide about points: the checks, the judge that weighs their
 answers, the worker that runs the submission, and what these share. Reports and commands do not.
@@ -11,7 +11,10 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-DECIDING = ("checks", "judge", "source", "worker", "protocol.py", "text.py")  # of grader/
+DECIDING = (  # of grader/
+    *("checks", "judge", "source", "worker"),
+    *("errors.py", "protocol.py", "text.py"),
+)
 READ = (".py", ".toml", ".json", ".ini")  # by Python and by the checks
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 

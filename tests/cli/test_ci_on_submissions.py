@@ -23,7 +23,7 @@ from grader.cli.main import finish
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.release.build import build
-from grader.report.ci import own_folder
+from grader.report.ci import is_free_folder
 from grader.source.regions import python_files
 
 WORKFLOW, PIPELINE = ".github/workflows/grade.yml", ".gitlab-ci.yml"
@@ -313,12 +313,12 @@ def test_nothing_can_be_forged(attacked: Run):
 
 
 def test_reports_go_into_a_folder_and_through_no_link(tmp_path: Path):
-    assert own_folder(tmp_path / "new")
+    assert is_free_folder(tmp_path / "new")
     (tmp_path / "empty").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "empty")
     (tmp_path / "file").touch()
-    assert own_folder(tmp_path / "empty")
-    assert not own_folder(tmp_path / "link") and not own_folder(tmp_path / "file")
+    assert is_free_folder(tmp_path / "empty")
+    assert not is_free_folder(tmp_path / "link") and not is_free_folder(tmp_path / "file")
 
 
 # ---------------------------------------------------------------- elsewhere, and the policy

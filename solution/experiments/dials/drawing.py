@@ -10,7 +10,8 @@ from collections import namedtuple
 import pygame
 from pygame import Vector2
 
-from .scenes import Ball
+from ..scenes import Ball
+from .show import LOOK_FOR
 from .strips import draw_strips, room_for
 
 SIZE = (1160, 720)  # px
@@ -87,16 +88,16 @@ class Camera:
             self.scale = max(min(self.scale, fits), self.furthest)
 
     def place(self, pos):
-        """A place of the scene in px of the screen."""
+        """Convert a position in the scene to px of the screen."""
         return (Vector2(pos) - self.middle) * self.scale + self.view.center
 
     def scene_place(self, pos):
-        """What of the scene is at a place of the screen."""
+        """Convert a position on the screen to a position in the scene."""
         return (Vector2(pos) - self.view.center) / self.scale + self.middle
 
 
 def room(scene):
-    """What to show of a scene: (left, top, right, bottom) in its own px.
+    """Return the part of a scene to show: (left, top, right, bottom) in its own px.
 
     All balls, where rods let them swing, and of each block the nearest part. Without gravity
     balls fly further.
@@ -118,7 +119,7 @@ def room(scene):
 
 
 def half(body):
-    """Half the width and height of a body of the scene."""
+    """Return half the width and height of a body of the scene."""
     return Vector2(body.half if not isinstance(body, Ball) else (body.radius, body.radius))
 
 
@@ -128,7 +129,7 @@ def union(boxes):
 
 
 def swing(scene):
-    """Where a ball on rods can hang from the static end: to its sides and below."""
+    """Return the box in which a ball on rods can swing: beside and below the static end."""
     pegs = [i for rod in scene.rods for i in rod if scene.bodies[i].mass == 0]
     if not pegs:
         return union(
@@ -155,7 +156,7 @@ class Picture:
 
     @property
     def camera(self):
-        """That of the first engine."""
+        """Return the camera of the first engine."""
         return self.sides[0].camera
 
     def draw(self, show, timed=True, beside=(), contacts=False, strips=False):
@@ -200,11 +201,11 @@ class Picture:
         self.sides = sides
 
     def side_at(self, pos):
-        """The engine whose view this place of the screen is in, or None."""
+        """Return the engine whose view contains this position of the screen, or None."""
         return next((side for side in self.sides if side.view.collidepoint(pos)), None)
 
     def key_at(self, pos):
-        """The key that a button at this place stands for, or None."""
+        """Return the key of the button at this position, or None."""
         return next((key for place, key in self.buttons if place.collidepoint(pos)), None)
 
     # ------------------------------------------------------------ the scene
@@ -234,7 +235,7 @@ class Picture:
             pygame.draw.line(self.screen, WARN, places[hand.held], camera.place(hand.at), 2)
 
     def draw_contacts(self, touches, camera):
-        """Points and normals; the longer the arrow, the larger the impulse, in both directions."""
+        """Draw points and normals; the longer the arrow, the larger the impulse."""
         largest = max((touch.impulse or 0.0 for touch in touches), default=0.0)
         for x, y, nx, ny, impulse in touches:
             place, normal = camera.place((x, y)), Vector2(nx, ny)
@@ -243,7 +244,7 @@ class Picture:
             pygame.draw.circle(self.screen, TOUCH, place, 3)
 
     def draw_name(self, side):
-        """Which engine this is, above its view, with the figures that differ most."""
+        """Write the engine's name above its view, with the figures that differ most."""
         show = side.show
         found = show.figures
         words = f"{show.engine_name}   overlap {found.overlap:.2f} px"
@@ -254,7 +255,7 @@ class Picture:
             self.write(show.note[:60], (side.view.left + 8, 8 + LINE), WARN)
 
     def color(self, engine, i):
-        """Static bodies are dark grey, sleepers light grey."""
+        """Return a body's colour: dark grey if static, light grey if asleep."""
         if engine.scene.bodies[i].mass == 0:
             return STATIC
         if getattr(engine.bodies[i], "asleep", False):
@@ -262,7 +263,7 @@ class Picture:
         return BALLS[i % len(BALLS)]
 
     def draw_ball(self, ball, place, angle, color, camera):
-        """A moving ball has a spoke that shows how it turns."""
+        """Draw a ball; a moving one has a spoke that shows how it turns."""
         radius = max(ball.radius * camera.scale, 2.0)
         if not VIEW.inflate(2 * radius, 2 * radius).collidepoint(place):
             return
@@ -286,7 +287,7 @@ class Picture:
         self.screen.blit(self.font.render(text, True, color), pos)
 
     def draw_panel(self, show, timed):
-        """Dials, figures, effects, and what there is to say, from the top down.
+        """Draw dials, figures, effects and notes, from the top down.
 
         Returns how far down (px) it came.
         """
@@ -302,13 +303,11 @@ class Picture:
         for letter, effect, on in show.effects():
             self.write(letter, (LEFT, y), DIM)
             self.write(effect.lower(), (LEFT + 20, y), INK if on else DIM)
-            share = show.times.shares.get(effect) if timed else None
-            cost = "" if share is None else f"   {100 * share:.0f} % of a step"
-            self.write(f"on{cost}" if on else "off", (VALUES, y), INK if on else DIM)
+            self.write("on" if on else "off", (VALUES, y), INK if on else DIM)
             self.buttons.append((pygame.Rect(LEFT, y - 3, VALUES + 20, LINE), ord(letter.lower())))
             y += LINE
         y += LINE // 2
-        for text, color in ((show.look_for(), DIM), (show.note, WARN)):
+        for text, color in ((LOOK_FOR[show.scene_name], DIM), (show.note, WARN)):
             for line in self.wrapped(text):
                 self.write(line, (LEFT, y), color)
                 y += LINE - 3
@@ -316,14 +315,14 @@ class Picture:
         return y
 
     def signs(self, label, y):
-        """The two buttons beside a dial that turn it down and up."""
+        """Draw the two buttons beside a dial that turn it down and up."""
         for number, key in enumerate(DIAL_KEYS.get(label, ())):
             if key is not None:
                 place = pygame.Rect(PANEL - 56 + number * (SIGN + 5), y - 3, SIGN, SIGN)
                 self.button(place, "-+"[number] if label != "scene" else "<>"[number], key)
 
     def draw_buttons(self, show, beside, contacts, strips):
-        """A row of buttons below the scene; what is on is lit."""
+        """Draw a row of buttons below the scene; a button is lit while its state is on."""
         lit = {pygame.K_SPACE: show.paused, pygame.K_v: beside}
         lit |= {pygame.K_x: contacts, pygame.K_t: strips}
         x = LEFT
@@ -339,7 +338,7 @@ class Picture:
         self.buttons.append((place, key))
 
     def wrapped(self, text):
-        """The text in lines that fit into the panel."""
+        """Split the text into lines that fit the panel."""
         lines = [""]
         for word in text.split():
             longer = f"{lines[-1]} {word}".strip()
@@ -351,7 +350,7 @@ class Picture:
 
 
 def dials(show):
-    """The dials as label and text."""
+    """Return the dials as label and text."""
     name = show.engine_name
     return [
         ("scene", show.scene_name),
@@ -364,7 +363,7 @@ def dials(show):
 
 
 def figures(show, timed=True):
-    """The figures as label and text."""
+    """Return the figures as label and text."""
     found, scene = show.figures, show.engine.scene
     lines = [
         ("time", f"{show.time:.2f} s"),
@@ -378,14 +377,14 @@ def figures(show, timed=True):
 
 
 def percent(drift):
-    """A change of energy, as text."""
+    """Return a change of energy, as text."""
     if drift is None:
         return "n/a"
     return f"{drift:+.2f} %" if abs(drift) < 1000 else f"{drift:+.0e} %"
 
 
 def zigzag(start, end, turns=10, width=7.0):
-    """The points of a spring drawn from start to end."""
+    """Return the points of a spring drawn from start to end."""
     along = end - start
     if along.length() == 0:
         return [start, end]

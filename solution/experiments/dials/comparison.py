@@ -2,7 +2,7 @@
 
 import pygame
 
-from .engines import ENGINES
+from ..engines import ENGINES
 from .hand import Hand, new_ball
 from .show import Show
 
@@ -27,8 +27,6 @@ class Comparison:
         for show in self.shows:
             show.advance(seconds)
 
-    # ------------------------------------------------------------ keys
-
     def press(self, key, shift=False):
         """Do what a key is for, in every engine that is shown."""
         if key == pygame.K_v:
@@ -45,7 +43,7 @@ class Comparison:
                 show.press(key, shift)
 
     def put_beside(self):
-        """One engine more, up to three of those that are not shown yet; then the first alone."""
+        """Show one engine more, up to three; after that, the first one alone."""
         shown = [show.engine_name for show in self.shows]
         others = [name for name in ENGINES if name not in shown]
         if len(self.shows) == MOST or not others:
@@ -59,7 +57,7 @@ class Comparison:
         self.begin_together()
 
     def begin_together(self):
-        """All start the scene again, and none shows the engine of another one twice."""
+        """Start the scene again in all engines, each of them another one."""
         if len(self.shows) == 1:
             return
         shown = [self.first.engine_name]
@@ -70,8 +68,6 @@ class Comparison:
         self.hand.let_go()
         for show in self.shows:
             show.start()
-
-    # ------------------------------------------------------------ mouse
 
     def take(self, show, at):
         """Pick up the ball there, by what one of the shows has there, or drop a new one."""

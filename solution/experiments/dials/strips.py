@@ -9,7 +9,7 @@ INK, DIM, LINE = (225, 228, 235), (150, 156, 170), (110, 175, 235)
 
 
 def kinds(show):
-    """What each strip shows: its name, unit and how to read it, and the least that fills it."""
+    """Return each strip's name, unit, reading, and the least value that fills it."""
     kinds = [("energy", "%", lambda figures: figures.drift, 1.0)]
     if show.engine.scene.rods:
         kinds.append(("rod error", "px", lambda figures: figures.rod_error, 0.1))
@@ -17,7 +17,7 @@ def kinds(show):
 
 
 def room_for(show):
-    """How high the strips of a show are, px."""
+    """Return the height (px) of the strips of a show."""
     return HEIGHT * len(kinds(show))
 
 
@@ -40,7 +40,7 @@ def draw_strips(screen, font, show, area):
 
 
 def curve(points, now, most, box):
-    """The curve in its box. Zero is at the bottom, or in the middle where some are below."""
+    """Return the curve in its box. Zero is at the bottom, or in the middle if some are below."""
     if len(points) < 2:
         return []
     below = any(value < 0 for _, value in points)

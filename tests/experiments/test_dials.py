@@ -10,11 +10,12 @@ from pathlib import Path
 import pygame
 import pytest
 
-from experiments import drawing, measures, window
+from experiments import measures
+from experiments.dials import drawing, window
+from experiments.dials.show import EFFECT_KEYS, KEYS, LOOK_FOR, MEASURE_EVERY, Show
+from experiments.dials.window import FRAME
 from experiments.engines import BUILDERS, ENGINES, Stable
 from experiments.scenes import NAMED
-from experiments.show import EFFECT_KEYS, KEYS, LOOK_FOR, MEASURE_EVERY, Show
-from experiments.window import FRAME
 
 KIT = Path(__file__).parents[2]
 
@@ -384,7 +385,7 @@ def test_frames_must_be_one_or_more(capsys):
 
 def run_in(tree, picture, engine, **environment):
     """The screenshot that the window's program makes, started in a folder."""
-    program = [sys.executable, "-m", "experiments.window", "--scene", "lab", "--engine", engine]
+    program = [sys.executable, "-m", "experiments.dials", "--scene", "lab", "--engine", engine]
     program += ["--screenshot", str(picture), "--frames", "60"]
     env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment}
     subprocess.run(program, cwd=tree, env=env, check=True, timeout=60)

@@ -6,7 +6,7 @@ does in each.
 
 import math
 
-from .scenes import Ball
+from ..scenes import Ball
 
 CATCH_UP = 0.06  # s in which a ball comes to the hand
 FASTEST = 1500.0  # px/s, so that no ball is pulled through a wall in one step
@@ -43,10 +43,10 @@ class Hand:
         return True
 
     def let_go(self):
-        """The ball keeps the speed that the hand has given it."""
+        """Release the ball; it keeps the speed that the hand gave it."""
         self.held = None
 
 
 def new_ball(at):
-    """A ball to be dropped at a place."""
+    """Return a ball to be dropped at a place."""
     return Ball(tuple(at), **NEW)

@@ -1,4 +1,4 @@
-"""The window with dials: `python -m experiments.window [--scene NAME] [--engine NAME]`.
+"""The window with dials: `python -m experiments.dials [--scene NAME] [--engine NAME]`.
 
 Any scene in any engine, or in up to three at once. What is shown is in show.py and comparison.py,
 how it looks in drawing.py, what hands do in hand.py.
@@ -13,18 +13,16 @@ import pygame
 
 from lab_runtime import frame_budget
 
+from ..engines import ENGINES
+from ..scenes import NAMED
 from .comparison import Comparison
-from .compiled import use_compiled
 from .drawing import Picture
-from .engines import ENGINES
-from .record import Recorder, cannot_record
-from .scenes import NAMED
 
 FRAME = 1 / 60  # s, one frame of a screenshot
 
 
 def one_of(names):
-    """A type for argparse: a name from the list, or a sentence with the right ones."""
+    """Return a type for argparse: a name from the list, or an error with the right ones."""
 
     def check(name):
         if name not in names:
@@ -35,16 +33,13 @@ def one_of(names):
 
 
 def read_options(arguments):
-    parser = argparse.ArgumentParser(prog="python -m experiments.window", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m experiments.dials", description=__doc__)
     parser.add_argument("--scene", type=one_of(NAMED), default="lab", help=", ".join(NAMED))
     parser.add_argument("--engine", type=one_of(ENGINES), default="stable", help=", ".join(ENGINES))
     parser.add_argument("--screenshot", type=Path, help="write this PNG at the end; no window")
-    parser.add_argument("--record", type=Path, help="write a film as this HTML page at the end")
     parser.add_argument("--beside", type=int, default=0, help="show so many more engines, 1 or 2")
     parser.add_argument("--frames", type=int, help="end after so many (a screenshot: 120)")
     options = parser.parse_args(arguments)
-    if options.record and (why := cannot_record(options.record)):
-        parser.error(why)
     if not 0 <= options.beside <= 2:
         parser.error(f"--beside is {options.beside}, but it must be 0, 1 or 2.")
     if options.frames is None:
@@ -86,7 +81,6 @@ def main(arguments=None):
     comparison = Comparison(options.scene, options.engine)
     for _ in range(options.beside):
         comparison.put_beside()
-    recorder = Recorder() if options.record else None
     frames = 0
     running = True
     while running and frames < options.frames and frame_budget():
@@ -97,16 +91,7 @@ def main(arguments=None):
         show, *beside = comparison.shows
         drawn = {"contacts": comparison.contacts, "strips": comparison.strips}
         picture.draw(show, timed=not options.screenshot, beside=beside, **drawn)
-        if recorder:
-            recorder.look(comparison.shows)
         frames += 1
     if options.screenshot:
         pygame.image.save(picture.screen, options.screenshot)
-    if recorder:
-        print(recorder.write(options.record))
     pygame.quit()
-
-
-if __name__ == "__main__":
-    print(use_compiled())
-    main()

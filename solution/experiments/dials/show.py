@@ -12,10 +12,9 @@ import pygame
 
 from mini_engine import ITERATIONS, MAX_STEPS, STEP
 
-from .effect_times import EffectTimes
-from .engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
-from .measures import deepest_overlap, energy, finite, states, worst_stretch
-from .scenes import NAMED, NEED_CONTACTS, Ball
+from ..engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
+from ..measures import deepest_overlap, energy, finite, states, worst_stretch
+from ..scenes import NAMED, NEED_CONTACTS, Ball
 
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
 MEASURE_EVERY = 6  # frames
@@ -100,19 +99,18 @@ class Show:
         self.frames = 0
         self.milliseconds = 0.0  # per step, smoothed
         self.history = deque(maxlen=KEPT)  # of (time, figures)
-        self.times = EffectTimes(self.engine)
         self.begin_measuring()
         self.measure()
 
     def begin_measuring(self):
-        """From now on energy may not change. Said again whenever a person has put some in."""
+        """Measure energy from now on; called again whenever a person adds some."""
         self.begun_with = energy(self.engine, self.dt)
         self.lowest = self.depths()
         self.begun_at = sum(self.lowest)
         self.motion = self.begun_with + self.begun_at
 
     def complaint(self):
-        """What is said of an effect that the scene calls for and that is switched off."""
+        """Return the complaint about an effect that the scene needs and that is switched off."""
         called_for = [f"calls for {name}()" for name in self.scene.effects]
         for sentence in self.engine.complaints:
             if any(words in sentence for words in called_for):
@@ -126,7 +124,7 @@ class Show:
         return settings
 
     def effects_on(self):
-        """The effects chosen that this engine can do, without those that lack contacts."""
+        """Return the effects chosen that this engine can do, without those that lack contacts."""
         can = [name for name in self.chosen if name not in CANNOT[self.engine_name]]
         return tuple(n for n in can if n not in NEED_CONTACTS or "Contacts" in can)
 
@@ -145,7 +143,7 @@ class Show:
             self.measure()
 
     def step(self):
-        """One step. An engine that gives up says why, and the scene stands still."""
+        """Run one step. An engine that gives up says why, and the scene pauses."""
         if self.failed:
             return
         held = self.hand is not None and self.hand.pull(self.engine)
@@ -156,7 +154,6 @@ class Show:
             self.give_up(str(error))
             return
         taken = (time.perf_counter() - start) * 1000
-        self.times.stepped += taken / 1000
         self.milliseconds += (taken - self.milliseconds) * (SHARE if self.milliseconds else 1)
         self.time += self.dt
         if not finite(self.engine):
@@ -174,14 +171,14 @@ class Show:
     # ------------------------------------------------------------ figures
 
     def depths(self):
-        """How far down each ball is, as energy (kg px²/s²): mass x gravity x place."""
+        """Return the depth of each ball as energy (kg px²/s²): mass x gravity x position."""
         scene = self.engine.scene
         gx, gy = scene.gravity
         now = states(self.engine)
         return [scene.bodies[i].mass * (gx * now[i].x + gy * now[i].y) for i in scene.moving()]
 
     def drift(self):
-        """Energy gained since the start, in % of what the scene had to give, or None for nothing.
+        """Return the energy gained since the start, in % of what the scene had, or None.
 
         It had its motion, its springs, and the height that its balls have fallen so far.
         """
@@ -198,7 +195,6 @@ class Show:
             counts = engine.contacts(), engine.asleep()
             self.figures = Figures(worst_stretch(engine), drift, deepest, *counts)
             self.history.append((self.time, self.figures))
-            self.times.settle()
 
     # ------------------------------------------------------------ dials
 
@@ -214,7 +210,7 @@ class Show:
         self.choose_engine(names[(names.index(self.engine_name) + 1) % len(names)])
 
     def choose_scene(self, way):
-        """The scene that is so many places further in the list, with its own effects."""
+        """Choose the scene so many places further in the list, with its own effects."""
         names = list(NAMED)
         self.scene_name = names[(names.index(self.scene_name) + way) % len(names)]
         self.scene = NAMED[self.scene_name]()
@@ -246,12 +242,12 @@ class Show:
         self.dt = STEPS[place]
 
     def turn_rate(self, way):
-        """Slow motion, or less of it."""
+        """Make the motion slower or faster."""
         place = min(max(RATES.index(self.rate) + way, 0), len(RATES) - 1)
         self.rate = RATES[place]
 
     def reset(self):
-        """All dials and effects as they were in the beginning."""
+        """Reset all dials and effects."""
         self.usual_dials()
         self.chosen = self.scene.effects
         self.start("All dials are as in the beginning.")
@@ -284,16 +280,12 @@ class Show:
             self.start(f"With {effect.lower()}, the scene starts again.")
 
     def effects(self):
-        """All effects as (key, name, whether it is on)."""
+        """Return all effects as (key, name, whether it is on)."""
         on = self.effects_on()
         return [(letter, name, name in on) for letter, name in EFFECT_KEYS.items()]
 
-    def look_for(self):
-        """What is to be seen in this scene."""
-        return LOOK_FOR.get(self.scene_name, "")
-
     def users(self, effect):
-        """Whether anything in the scene would notice the effect."""
+        """Return true if the effect would change anything in the scene."""
         balls = [body for body in self.scene.bodies if isinstance(body, Ball)]
         use = {
             "Rods": self.scene.rods,
