@@ -20,7 +20,9 @@ from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission, load_given
 from grader.protocol import CodeLine
+from grader.source.flaws import Flaw
 
+INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
 SURVEY = 2  # s of processor time, for that
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
@@ -72,6 +74,8 @@ class CheckLoop:
 
     def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
         """The result of a check that need not run."""
+        if flaw := self._flaw_of(todo, check):
+            return self._refused(todo, check, title, flaw)
         begun = self.submission.begun
         waiting = [each for each in check.needs if not begun.get(each, True)]
         todos = [each.id for each in self.rubric.counted if each.function]
@@ -280,6 +284,29 @@ class CheckLoop:
         child = (opener or self.open_child)(self.budget.cpu_for(todo.id, check.cpu_seconds))
         child.rest_seconds = self.budget.rest_for(todo.id)
         return child
+
+    # ------------------------------------------------------------ code that is no Python
+
+    def _flaw_of(self, todo: Todo, check: Check) -> Flaw | None:
+        """Return why the code that a check is about cannot run at all."""
+        if todo.function:
+            return self.submission.flaws.get(todo.id)
+        return self.submission.outside.get(check.module or todo.module)
+
+    def _refused(self, todo: Todo, check: Check, title: str, flaw: Flaw) -> CheckResult:
+        where, ran = Where(flaw.file, flaw.line), f"import {flaw.file}"
+        what = f"This part of TODO {todo.id} is" if todo.function else "This code is"
+        return self._result(
+            todo,
+            check,
+            title,
+            "error",
+            ran=ran,
+            expected="code that Python accepts",
+            got=flaw.words,
+            meaning=f"{what} no Python, so none of it runs. {flaw.advice} {INSTEAD}",
+            where=where,
+        )
 
     # ------------------------------------------------------------ results
 

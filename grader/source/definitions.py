@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
+from grader.source.flaws import misplaced
 from grader.source.regions import parsed
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
@@ -82,6 +83,7 @@ class Module:
     """What the names of a module are bound to, and which others its import loads."""
 
     empty: bool = True  # nothing in it, or no Python
+    refused: bool = False  # whether it may be no Python, or has statements where none may be
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
@@ -157,7 +159,7 @@ class Program:
             return Module()
         self.read += len(text)
         tree = statements(text)
-        module = Module(empty=not tree)
+        module = Module(not tree, not tree or any(misplaced(ast.Module(tree, []))))
         module.imports = dict.fromkeys(self._imports(name, tree))
         for number, node in enumerate(top_level(tree)):
             match node:
