@@ -206,9 +206,11 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         if found is not None:
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
-        elif module in submission.outside and not todo.bonus:
-            submission.flaws.setdefault(todo.id, submission.outside[module])
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    for module, flaw in submission.outside.items():
+        own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
+        if not any(id in submission.functions for id in own):  # nothing but what is no Python
+            submission.flaws |= dict.fromkeys(own, flaw)
     for id, flaw in submission.flaws.items():
         submission.begun[id], submission.where[id] = True, Where(flaw.file, flaw.line)
     giants = {each for each in submission.folder.rglob("*.py") if each.is_file()} - {
@@ -225,9 +227,10 @@ def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
     """
     mender, mended_once = Mender(handed_out()), set[Path]()
     modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    started = [*modules, *(f"{module}.__main__" for module in modules)]
     while True:
         program = Program(texts)
-        loaded = dict.fromkeys(part for module in modules for part in program.loaded(module))
+        loaded = dict.fromkeys(part for module in started for part in program.loaded(module))
         refused = {
             path: flaw
             for name in loaded

@@ -24,6 +24,7 @@ NEAREST = 8  # parts of a file that are replaced in pairs
 REFUSED = "\0"  # no file of Python may have one
 OUTSIDE = ""  # in the place of a TODO's id: the flaw is in no TODO
 
+MAIN = 'if __name__ == "__main__":'
 CLASS = re.compile(r"class[ \t]+(\w+)")
 DEF = re.compile(r"(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>\w+)")
 NEXT = re.compile(r"(?P<indent>[ \t]*)(?:async |def |class |@|if __name__|# (?:END )?TODO )")
@@ -76,7 +77,8 @@ class Mender:
 
     def mend(self, flaw: Flaw, text: str) -> Mended | None:
         """Return the file with as little replaced as possible; None where nothing helps."""
-        file, patches = flaw.file, list(self._patches(flaw.file, text))
+        file = flaw.file
+        patches = [*self._patches(file, text), *line_patches(text, flaw)]
         original = self.given.files.get(file)
         if flaw.undecoded:
             text = text.replace(UNDECODED, REFUSED)
@@ -234,6 +236,16 @@ def flaw_in(text: str, todo: str) -> Flaw | None:
             flaw = find_flaw(f"def region():\n{own}\n")
             return flaw and replace(flaw, line=flaw.line + region.start)
     return None
+
+
+def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
+    """Yield patches of a single line: the one that Python complains of, and the first one."""
+    lines = text.splitlines()
+    for index in dict.fromkeys((flaw.line - 1, 0)):
+        line = lines[index]
+        head = CLASS.match(line)
+        new = f"class {head[1]}:" if head else MAIN if line.startswith("if __name__") else "pass"
+        yield Patch(index, index + 1, (indented(new, line),), invented=True)
 
 
 # ---------------------------------------------------------------- reading what is no Python
