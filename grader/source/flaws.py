@@ -24,7 +24,9 @@ NEWER: tuple[tuple[Version, re.Pattern[str], str], ...] = (
     ((3, 12), re.compile(r"^\s*(async\s+)?(def|class)\s+\w+\["), "leave out the [...]"),
     (
         (3, 12),
-        re.compile(r"(?<![\"'\w])[fF][rR]?(?P<quote>[\"'])(?:(?!(?P=quote))[^{])*\{[^}]*((?P=quote)|\\)"),
+        re.compile(
+            r"(?<![\"'\w])[fF][rR]?(?P<quote>[\"'])(?:(?!(?P=quote))[^{])*\{[^}]*((?P=quote)|\\)"
+        ),
         "inside the braces of an f-string use the other kind of quote, and no backslash",
     ),
     ((3, 14), re.compile(r"^\s*except\*?\s+[\w.]+\s*,"), "put the exceptions into brackets"),

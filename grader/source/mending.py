@@ -11,7 +11,7 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import combinations, islice
+from itertools import combinations, islice, pairwise
 
 from grader.source.definitions import statements
 from grader.source.flaws import UNDECODED, Flaw, find_flaw
@@ -200,7 +200,7 @@ def is_no_code(lines: Sequence[str]) -> bool:
 def apart(patches: Sequence[Patch]) -> bool:
     """Return whether no patch reaches into another one."""
     order = sorted(patches, key=lambda each: each.start)
-    return all(a.stop <= b.start for a, b in zip(order, order[1:], strict=False))
+    return all(a.stop <= b.start for a, b in pairwise(order))
 
 
 def patched(text: str, patches: Sequence[Patch]) -> str:
@@ -330,5 +330,3 @@ def fitted(source: str, count: int) -> tuple[str, ...]:
     """Return the lines of a source with empty ones behind them, so that there are as many."""
     lines = source.splitlines()
     return (*lines, *[""] * (count - len(lines)))
-
-
