@@ -55,6 +55,7 @@ class Submission:
     uses_numpy: bool = False
     flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
     outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
+    starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
 
     def holds(self, file: str) -> bool:
         """Whether there is such a file in it: what a child says may name any."""
@@ -207,6 +208,13 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    for module in dict.fromkeys(todo.module for todo in rubric.todos):
+        main = program.definition(module, "main")
+        if main is not None:
+            file = program.paths[main.module].as_posix()
+            submission.starts[module] = Where(file, main.function.lineno if main.function else 1)
+        elif module in program.paths:
+            submission.starts[module] = Where(program.paths[module].as_posix(), 1)
     for module, flaw in submission.outside.items():
         own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
         if not any(id in submission.functions for id in own):  # nothing but what is no Python

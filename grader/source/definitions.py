@@ -18,6 +18,7 @@ from grader.source.flaws import misplaced
 from grader.source.regions import parsed
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
+MAX_CALLED = 200  # names that are followed from a function
 MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
 
 
@@ -143,6 +144,35 @@ class Program:
                 seen.add(name)
                 waiting += self._module(name).imports
         return sorted(seen)
+
+    def names_used(self, module: str, path: str) -> set[str]:
+        """Return the names in a function and in those that it calls, as far as the text tells."""
+        found: set[str] = set()
+        seen: set[tuple[str, str]] = set()
+        waiting = [(module, path)]
+        while waiting and len(seen) < MAX_CALLED:
+            asked = waiting.pop()
+            seen.add(asked)
+            defined = self.definition(*asked)
+            if defined is None or defined.function is None:
+                continue
+            found.add(asked[1].rpartition(".")[2])
+            owner = asked[1].rpartition(".")[0]
+            for node in ast.walk(
+                ast.Module(statements(self.source(defined.module, defined.function)), [])
+            ):
+                match node:
+                    case ast.Name(id=name):
+                        called = defined.module, name
+                    case ast.Attribute(attr=name):
+                        called = defined.module, f"{owner}.{name}" if owner else name
+                    case _:
+                        continue
+                found.add(name)
+                if called not in seen:
+                    seen.add(called)
+                    waiting.append(called)
+        return found
 
     # ------------------------------------------------------------ reading a module
 

@@ -100,9 +100,7 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
-        with suppress(RegionError):
-            whole = tuple(as_given(text, given).splitlines())
-            yield from difference(file, file, lines, Piece(0, len(lines)), whole)
+        yield from change_of_file(file, text, given)
         return
     own, ours = with_markers(pieces(body), text), given_pieces(given)
     elsewhere = imported_names(body)
@@ -124,6 +122,14 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
         yield Changed(
             name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
         )
+
+
+def change_of_file(file: str, text: str, given: str) -> Iterator[Changed]:
+    """Yield all that differs outside the regions as one change, what was added included."""
+    lines = text.splitlines()
+    with suppress(RegionError):
+        whole = tuple(as_given(text, given).splitlines())
+        yield from difference(file, file, lines, Piece(0, len(lines)), whole)
 
 
 def gone(
