@@ -15,6 +15,7 @@ from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
 
 OUTSIDE = "No TODO is to blame for this: look at the code around them."
+MISSING = "This program is not there: hand it in with the others."
 FINISH = "TODO {ids} must be right before this can be checked: finish it first."
 
 
@@ -29,7 +30,7 @@ class Evidence:
     blamed: Mapping[str, Blamed] = field(default_factory=dict)
     earlier: Mapping[str, list[str]] = field(default_factory=dict)  # TODOs that it fails in first
     hint: Callable[[CheckResult], str] = lambda check: ""  # about names and arguments
-    where: Mapping[str, Where] = field(default_factory=dict)  # where no other place is known
+    where: Mapping[str, Where] = field(default_factory=dict)  # where the program begins
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
@@ -99,7 +100,9 @@ def describe_answers(evidence: Evidence, check: CheckResult) -> str:
 
 def point_outside(evidence: Evidence, check: CheckResult) -> str:
     """Say of the program as a whole that the reason is in no TODO."""
-    return "" if evidence.todo.function else OUTSIDE
+    if evidence.todo.function:
+        return ""
+    return OUTSIDE if check.id in evidence.where else MISSING
 
 
 Explainer = Callable[[Evidence, CheckResult], str]
