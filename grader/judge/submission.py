@@ -21,10 +21,9 @@ from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
-    RegionError,
     python_files,
+    read_regions,
     read_source,
-    regions_in,
     shape_of,
 )
 
@@ -301,7 +300,7 @@ def look_at(
 
     A region counts inside the function alone: a copy of it further up is not what runs.
     """
-    region = region_of(text, todo.id)
+    region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
     if function is not None:
         source = source_of(text, function)
         submission.functions[todo.id] = shape_of(source)
@@ -324,14 +323,6 @@ def first_code_line(region: Region) -> int:
 
 def is_comment(line: str) -> bool:
     return line.strip().startswith("#") or not line.strip()
-
-
-def region_of(text: str, todo: str) -> Region | None:
-    """The region of a TODO; None where the markers of the file do not pair up."""
-    try:
-        return next((region for region in regions_in(text) if region.id == todo), None)
-    except RegionError:
-        return None
 
 
 def module_of(inside: PurePath) -> str:

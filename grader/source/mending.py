@@ -16,7 +16,7 @@ from itertools import combinations, islice, pairwise
 from grader.source.definitions import statements
 from grader.source.flaws import UNDECODED, Flaw, find_flaw
 from grader.source.given import given_pieces, pieces, with_regions
-from grader.source.regions import END, START, Region, RegionError, parsed, regions_in, replaced
+from grader.source.regions import parsed, read_regions, regions_in, replaced
 
 MAX_READ = 4 * 1024 * 1024  # characters that are parsed to mend one submission
 MAX_FUNCTIONS = 200  # of a file that are looked at
@@ -95,7 +95,7 @@ class Mender:
 
     def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Mended | None:
         """Keep only the regions; a TODO that has none any more is handed out anew."""
-        regions = {region.id: region.lines for region in paired_regions(text)}
+        regions = {region.id: region.lines for region in read_regions(text)[0]}
         base = replaced(original, regions)
         lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
         again = self._flaw(base)
@@ -134,7 +134,7 @@ class Mender:
     def _patches(self, file: str, text: str) -> Iterator[Patch]:
         """Yield the parts of a file that can be replaced, regions first."""
         yield from self._region_patches(text)
-        marked = {region.id for region in paired_regions(text)}
+        marked = {region.id for region in read_regions(text)[0]}
         module = file.partition("/")[0].removesuffix(".py")
         for path, start, stop in islice(functions_in(text.splitlines()), MAX_FUNCTIONS):
             todo = next((t for t, p in self.given.functions.items() if p == f"{module}:{path}"), "")
@@ -152,7 +152,7 @@ class Mender:
 
     def _region_patches(self, text: str) -> Iterator[Patch]:
         lines = text.splitlines()
-        for region in paired_regions(text):
+        for region in read_regions(text)[0]:
             if region.id in self.given.stubs and region.lines:
                 stub = one_line(self.given.stubs[region.id])
                 new = fitted(indented(stub, lines[region.start]), len(region.lines))
@@ -230,7 +230,7 @@ def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
 
 def flaw_in(text: str, todo: str) -> Flaw | None:
     """Return what is wrong in a region by itself, at its line in the file."""
-    for region in paired_regions(text):
+    for region in read_regions(text)[0]:
         if region.id == todo:
             own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")
             flaw = find_flaw(f"def region():\n{own}\n")
@@ -249,25 +249,6 @@ def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
 
 
 # ---------------------------------------------------------------- reading what is no Python
-
-
-def paired_regions(text: str) -> list[Region]:
-    """Return the regions of a file, also where some of its markers do not pair up."""
-    try:
-        return regions_in(text)
-    except RegionError:
-        pass
-    found: dict[str, Region] = {}
-    lines = text.splitlines()
-    opened: tuple[int, str, str] | None = None
-    for number, line in enumerate(lines):
-        if start := START.match(line):
-            opened = number, start["id"], start["task"]
-        elif (end := END.match(line)) and opened and opened[1] == end["id"]:
-            between = tuple(lines[opened[0] + 1 : number])
-            found.setdefault(end["id"], Region(end["id"], opened[2], opened[0], number, between))
-            opened = None
-    return list(found.values())
 
 
 def functions_in(lines: Sequence[str]) -> Iterator[tuple[str, int, int]]:
