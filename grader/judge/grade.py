@@ -218,9 +218,9 @@ class Grading:
         for id in {id for id, _ in blame.seen}:
             answers = [each for key, each in loop.seen.items() if key[0] == id]
             self.observations[id] = [each for some in answers for each in some]
-        with_a_function = {todo.id for todo in self.rubric.todos if todo.function}
+        todos = {todo.id: todo for todo in self.rubric.todos}
         for key, blamed in blame.found.items():
-            if blamed.mended and key[0] in with_a_function:
+            if blamed.mended and self.keeps_points(todos[key[0]]):
                 check = loop.results[key]
                 loop.failing.pop(key, None)
                 loop.results[key] = msgspec.structs.replace(
@@ -232,6 +232,11 @@ class Grading:
                     meaning=blamed.in_words,
                     where=blamed.place(check),
                 )
+
+    def keeps_points(self, todo: Todo) -> bool:
+        """Return whether a TODO is its function's code alone: called as it was handed out."""
+        path = todo.function.partition(":")[2]
+        return bool(path) and path not in self.names.changed(todo.module)
 
     def open_right(self, cpu_seconds: int) -> Child:
         """A child of the reference itself, to see what should happen."""
