@@ -368,6 +368,7 @@ class Lab(Decoder):
         physics: bool = True,
         trail_every: int = 0,
         pictures: bool = False,
+        photos: Sequence[int] = (),
         module: str = "",
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
@@ -377,7 +378,15 @@ class Lab(Decoder):
         if self.played:
             self.start_anew()
         self.played = True
-        request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
+        request = Play(
+            module or self.module,
+            frames,
+            list(events),
+            physics,
+            trail_every,
+            pictures,
+            list(photos),
+        )
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
