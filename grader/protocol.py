@@ -1,4 +1,4 @@
-"""The messages between the judge and the worker's children: all that both sides share.
+"""Define the messages between the judge and the worker's children: all that both sides share.
 
 Everything that crosses is plain data in MessagePack, decoded into the strict types below: a number
 stays a number, a bool is never one, and an unknown shape is a `ProtocolError`. A message is framed
@@ -48,7 +48,7 @@ Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
 
 
 def cut(text: str, most: int) -> str:
-    """At most so many characters of a text; what is missing is told by its last one.
+    """Return at most so many characters of a text; its last one shows that some are missing.
 
     Halves of letters, which no message can hold, become their numbers.
     """
@@ -272,7 +272,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
 
 
 class Event(Struct, frozen=True):
-    """What the person does when so many frames, one or more, are over."""
+    """The input of a person after so many frames, one or more."""
 
     frame: int
     kind: Literal["click", "key"]
@@ -378,7 +378,7 @@ class Photo(Struct, frozen=True, array_like=True):
 
 
 class Played(Struct, frozen=True, tag="played"):
-    """What a program did, frame by frame; the last entry is for what came after the last frame."""
+    """The record of a program, frame by frame; the last entry covers what came after."""
 
     steps: list[int]  # fixed steps that ran in each frame
     clock: list[float]  # the scripted time when they had run, ms since the start
@@ -404,7 +404,7 @@ class ShapeLook(Struct, frozen=True, array_like=True):
 
 
 class BodyLook(Struct, frozen=True):
-    """What does not change about a body that is shown."""
+    """The fixed properties of a body that is shown."""
 
     ref: int  # 0 where no request can name it
     shapes: list[ShapeLook]
@@ -540,7 +540,7 @@ AT_ONCE = getattr(socket, "MSG_DONTWAIT", 0)  # as much as there is room for; no
 
 
 def packed(message: object) -> bytes:
-    """A message as it is sent, its length first."""
+    """Return a message as it is sent, its length first."""
     body = msgspec.msgpack.encode(message)
     if len(body) > MAX_MESSAGE:
         raise ProtocolError(f"a message of {len(body)} bytes is longer than {MAX_MESSAGE}")
@@ -589,7 +589,7 @@ class Channel:
         return True
 
     def complete(self, seconds: float | None = None) -> bool:
-        """Whether all of a message is there, at the latest after so many seconds.
+        """Return whether all of a message is there, at the latest after so many seconds.
 
         Of one that is too long nothing more is waited for: `receive` refuses it.
         """
@@ -602,14 +602,16 @@ class Channel:
 
     @property
     def _end(self) -> int:
-        """Where the first message ends; or its header, while that is missing or says too much."""
+        """Return where the first message ends; or its header, while that is missing or says too
+        much.
+        """
         if len(self.ahead) < HEADER.size:
             return HEADER.size
         (length,) = HEADER.unpack_from(self.ahead)
         return HEADER.size + (length if length <= MAX_MESSAGE else 0)
 
     def receive(self, timeout: float | None = None) -> bytes:
-        """The body of the next message; `timeout` in seconds is for the whole of it."""
+        """Return the body of the next message; `timeout` in seconds is for the whole of it."""
         if not self.complete(timeout):
             raise ChannelTimeout
         (length,) = HEADER.unpack_from(self.ahead)
@@ -620,7 +622,7 @@ class Channel:
         return body
 
     def wait(self, seconds: float) -> bool:
-        """Whether something is there to be read, at the latest after so many seconds.
+        """Return whether something is there to be read, at the latest after so many seconds.
 
         For eager channels only: what is there is taken in at once.
         """

@@ -1,4 +1,4 @@
-"""Text for people: a submission's words made safe, numbers, lists and times in words."""
+"""Write text for people: a submission's words made safe, numbers, lists and times in words."""
 
 import math
 from datetime import datetime
@@ -7,12 +7,14 @@ MAX_WORDS = 400  # characters of a submission in one line
 
 
 def harmless(words: str) -> str:
-    """Words without control and direction characters: whoever reads a result may just show it."""
+    """Return words without control and direction characters: whoever reads a result may just show
+    it.
+    """
     return words.translate(HARMLESS)
 
 
 class Harmless(dict[int, int]):
-    """What each letter is shown as, by their numbers; they are looked at when they first come."""
+    """The letters to show, by number of letter; each is looked up when it first comes."""
 
     def __missing__(self, number: int) -> int:
         letter = chr(number)
@@ -24,12 +26,12 @@ HARMLESS = Harmless()
 
 
 def printable(words: str) -> str:
-    """Words without line breaks, control and direction characters."""
+    """Return words without line breaks, control and direction characters."""
     return harmless(words).replace("\n", " ")
 
 
 def clean(words: str) -> str:
-    """A submission's words on one line, with nothing that a terminal would obey."""
+    """Return a submission's words on one line, with nothing that a terminal would obey."""
     return printable(words)[:MAX_WORDS]
 
 
@@ -51,7 +53,7 @@ NUMBERS = (
 
 
 def number(count: int) -> str:
-    """A small number as a word: `three`."""
+    """Return a small number as a word: `three`."""
     return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
@@ -61,10 +63,10 @@ def listed(words: list[str]) -> str:
 
 
 def digits(value: float) -> str:
-    """Six digits, without the noise that rounding leaves around 0."""
+    """Return six digits, without the noise that rounding leaves around 0."""
     return f"{round(value, 9) + 0.0:.6g}" if math.isfinite(value) else str(value)
 
 
 def about(value: float) -> str:
-    """Three digits, or all before the point."""
+    """Return three digits, or all before the point."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"

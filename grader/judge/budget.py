@@ -1,4 +1,4 @@
-"""What a submission may use up, over all of its checks, so that it holds nobody up.
+"""Limit what a submission may use up over all of its checks, so that it holds nobody up.
 
 One question is bounded, and so is a child. Thousands of questions would not be: a program may rest
 before each answer, or run in circles in every check. So seconds are added up, by TODO and in all.
@@ -57,12 +57,12 @@ class Budget:
 
     @property
     def has_more(self) -> bool:
-        """Whether there is time left to ask what decides about words, pictures and no marks."""
+        """Return whether time is left for questions that decide about words and pictures alone."""
         return self.words_cpu < WORDS_CPU and self.words_rest < WORDS_REST
 
     @property
     def cut(self) -> str:
-        """Why no check is run any more, or nothing."""
+        """Return why no check is run any more, or nothing."""
         if sum(self.cpu.values()) >= END_CPU:
             return f"not run: the checks before it used up {END_CPU:g} s of processor time"
         if sum(self.rest.values()) >= END_REST:
@@ -72,7 +72,7 @@ class Budget:
         return ""
 
     def why_little(self, todo: str) -> str:
-        """What is said of a check that had less than usual, or nothing."""
+        """Return what is said of a check that had less than usual, or nothing."""
         if self.cpu[todo] >= TODO_CPU or self.rest[todo] >= TODO_REST:
             return "; it had less than usual, because the checks of this TODO before it used much"
         if sum(self.cpu.values()) >= SUBMISSION_CPU or sum(self.rest.values()) >= SUBMISSION_REST:
@@ -81,7 +81,9 @@ class Budget:
 
 
 def for_words(open_child: Callable[[int], Child]) -> Callable[[int], Child]:
-    """The same way to open children, which may rest for a shorter time: no marks hang on these."""
+    """Return the same way to open children, which may rest for a shorter time: no marks hang on
+    these.
+    """
 
     def opened(cpu_seconds: int) -> Child:
         child = open_child(cpu_seconds)

@@ -100,7 +100,8 @@ class Child:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
     def ask(self, request: Request | Film) -> Answered:
-        """The one answer to this request, or ChildEnded: anything else ends the child for good.
+        """Return the one answer to this request, or ChildEnded: anything else ends the child for
+        good.
 
         A message costs more than what is done for most requests. So what is set up waits for the
         next request and goes with it, and a state that came with the last answer is not asked for.
@@ -173,7 +174,7 @@ class Child:
         raise ChannelTimeout
 
     def _look(self) -> None:
-        """How long it has rested: the time for its answers, but for what it worked or queued."""
+        """Add up how long it has rested: the time for its answers without work and queueing."""
         busy = busy_seconds(self.worker.pid_of(self))
         if busy is None:  # it has ended
             return
@@ -202,7 +203,7 @@ IDLE = {psutil.STATUS_SLEEPING, *STOPPED}
 
 
 def busy_seconds(pid: int) -> float | None:
-    """For how long a process has worked or waited for a processor, s; None where it is gone.
+    """Return how long a process has worked or waited for a processor, s; None where it is gone.
 
     Where nobody tells of the queue, a process that is not asleep counts as one that has worked ever
     since.
@@ -222,7 +223,7 @@ TELLS_OF_QUEUES = Path("/proc/self/schedstat").exists()
 
 
 def worked_seconds(pid: int) -> float:
-    """For how long a process has worked, s, with all its threads; 0 where nobody tells it finely.
+    """Return how long all threads of a process have worked, s; 0 where the system does not say.
 
     Linux tells it in nanoseconds of the threads that are there, and in hundredths of a second of
     those that have ended, too. Raises OSError where the process is gone.
@@ -237,7 +238,7 @@ def worked_seconds(pid: int) -> float:
 
 
 def seconds_in_queue(pid: int) -> float:
-    """For how long a process has waited for a processor, s; as Linux tells it.
+    """Return how long a process has waited for a processor, s; as Linux tells it.
 
     Of all its threads the one that waited longest counts: a hundred that wait in the same second
     keep nobody waiting for a hundred. See proc(5), schedstat; 0 elsewhere. Raises OSError where the
@@ -247,7 +248,7 @@ def seconds_in_queue(pid: int) -> float:
 
 
 def schedule_of(pid: int, what: int) -> list[float]:
-    """Of each thread of a process the seconds that it worked (0) or waited (1); where Linux tells.
+    """Return the seconds that each thread worked (0) or waited (1), where Linux tells.
 
     A thread may end while it is read. Raises OSError where the process is gone.
     """
@@ -261,7 +262,7 @@ def schedule_of(pid: int, what: int) -> list[float]:
 
 
 class Worker(Protocol):
-    """Where children come from."""
+    """A source of children."""
 
     layers: list[str]  # what shuts all its children in, beyond what each says of itself
 
@@ -270,7 +271,7 @@ class Worker(Protocol):
     def pid_of(self, child: Child) -> int: ...
 
     def end(self, child: Child, gone: bool) -> int | None:
-        """The exit status, a signal negative; None where it took the worker down with it."""
+        """Return the exit status, a signal negative; None where it took the worker down with it."""
 
     def close(self) -> None: ...
 
@@ -282,7 +283,7 @@ def command(module: str, *args: str) -> list[str]:
 
 
 def explain(cpu_seconds: int, code: int | None) -> str:
-    """Why a child is gone, from what its worker says of it."""
+    """Return why a child is gone, from what its worker says of it."""
     if code is None:
         return "it took the worker down with it"
     if code in OUT_OF_TIME:
@@ -344,7 +345,7 @@ class WarmWorker:
         return Child(Channel(ours), self, setup.limits.cpu_seconds)
 
     def pid_of(self, child: Child) -> int:
-        """Its number here: in a namespace of its own it goes by another one."""
+        """Return its number here: in a namespace of its own it has another one."""
         for process in psutil.Process(self.process.pid).children(recursive=True):
             with suppress(OSError):
                 status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
@@ -365,7 +366,7 @@ class WarmWorker:
         return -ended.code if ended.how == "signal" else ended.code
 
     def _hear(self) -> bytes:
-        """What the warm process says; one that a child has stopped is not waited for."""
+        """Return what the warm process says; one that a child has stopped is not waited for."""
         stopped = 0
         for _ in range(int(START_SECONDS)):
             if self.control.wait(1.0):
@@ -376,7 +377,7 @@ class WarmWorker:
         raise ChannelTimeout
 
     def _is_stopped(self) -> bool:
-        """In a PID namespace the warm process is the only child of the one that we started."""
+        """Return whether the warm process is stopped; in a PID namespace it is our only child."""
         try:
             process = psutil.Process(self.process.pid)
             if "pid-namespace" in self.layers:
@@ -499,13 +500,13 @@ def reaped_seconds() -> float:
 
 
 def clean_environment() -> dict[str, str]:
-    """Nothing of the instructor's environment travels: no token, no path, no Python setting."""
+    """Return an environment without the instructor's tokens, paths and Python settings."""
     kept = ("PATH", "SYSTEMROOT", "LD_LIBRARY_PATH")
     return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
 
 
 def start_worker(spawn: bool = False, without: Collection[str] = ()) -> Worker:
-    """The fastest kind this platform has; `spawn` forces the portable one.
+    """Return the fastest kind this platform has; `spawn` forces the portable one.
 
     Its children go without the layers of isolation that `without` names.
     """

@@ -1,4 +1,4 @@
-"""The connection of a check to its child: opening it, asking, and what is left when it is gone."""
+"""Connect a check to its child: open it, ask, and say what is left when it is gone."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ Send = Callable[[Child, Request], Answered]
 
 
 def ask_child(child: Child, request: Request) -> Answered:
-    """The usual `send` of a connection: nothing is recorded."""
+    """Return the usual `send` of a connection: nothing is recorded."""
     return child.ask(request)
 
 
@@ -52,7 +52,7 @@ class Connection:
     watched: bool = False  # whether the child notes what the submission keeps from call to call
 
     def ask(self, request: Request, ran: str) -> Answer:
-        """The answer; raises NotYet or Broke where the submission gave none."""
+        """Return the answer; raises NotYet or Broke where the submission gave none."""
         child = self.child or self.begin(ran)
         return self._ask(child, request, ran)
 
@@ -70,7 +70,9 @@ class Connection:
         return self.child
 
     def remembered(self) -> list[str]:
-        """The names in the submission that hold something else than before the first request."""
+        """Return the names in the submission that hold something else than before the first
+        request.
+        """
         if self.child is None or self.over is not None or not self.watched:
             return []
         try:
@@ -110,6 +112,6 @@ class Connection:
                 return reply
 
     def _stop(self, ran: str, why: ChildEnded) -> NoReturn:
-        """The child is gone: this check has its outcome, whatever else it would have asked."""
+        """End the check: the child is gone, whatever else would have been asked."""
         self.over = Broke(ran, str(why), late=why.late)
         raise self.over

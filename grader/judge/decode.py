@@ -70,7 +70,7 @@ class Decoder:
     # ------------------------------------------------------------ numbers
 
     def number(self, value: Value, what: str) -> float:
-        """The value as a finite number."""
+        """Return the value as a finite number."""
         if isinstance(value, bool) or not isinstance(value, int | float):
             self.refuse("a number", what, value)
         if not math.isfinite(value):
@@ -78,13 +78,13 @@ class Decoder:
         return float(value)
 
     def pair(self, value: Value, what: str) -> Pair:
-        """The value as two finite numbers."""
+        """Return the value as two finite numbers."""
         if not isinstance(value, Vec):
             self.refuse("a pair of numbers", what, value)
         return self.number(value.x, what), self.number(value.y, what)
 
     def items(self, value: Value, what: str) -> list[Value]:
-        """The value as a list; a pair of numbers counts as one of two."""
+        """Return the value as a list; a pair of numbers counts as one of two."""
         if isinstance(value, Vec):
             return [value.x, value.y]
         if not isinstance(value, Items):
@@ -94,7 +94,7 @@ class Decoder:
     # ------------------------------------------------------------ objects
 
     def thing(self, value: Value, what: str = "an object") -> Thing:
-        """The value as an object that lives in the child."""
+        """Return the value as an object that lives in the child."""
         match value:
             case Ref(id=ref) | BodyValue(ref=ref) | ContactValue(ref=ref):
                 pass
@@ -106,7 +106,7 @@ class Decoder:
         return Thing(ref)
 
     def body(self, value: Value) -> BodyValue:
-        """The value as a body with finite numbers."""
+        """Return the value as a body with finite numbers."""
         if not isinstance(value, BodyValue):
             self.fail("a Body", self.describe(value))
         numbers = (*value.pos, *value.vel, value.angle, value.omega)
@@ -115,7 +115,7 @@ class Decoder:
         return value
 
     def contact_or_none(self, value: Value) -> ContactValue | None:
-        """The value as a Contact or None, with finite numbers."""
+        """Return the value as a Contact or None, with finite numbers."""
         if value is None or isinstance(value, ContactValue):
             if value is not None:
                 self.pair(value.normal, "the normal")
@@ -125,13 +125,13 @@ class Decoder:
         self.refuse("a Contact or None", "the answer", value)
 
     def space(self, value: Value) -> SpaceValue:
-        """The value as a pymunk Space, described."""
+        """Return the value as a pymunk Space, described."""
         if not isinstance(value, SpaceValue):
             self.fail("a pymunk Space", self.describe(value))
         return value
 
     def describe(self, value: Value) -> str:
-        """What came instead, in words for the line *Got*."""
+        """Return what came instead, in words for the line *Got*."""
         match value:
             case None:
                 return "None (is there a return missing?)"
@@ -156,7 +156,7 @@ def which_is_none(items: list[Value]) -> str:
 
 
 def in_brief(value: Value) -> str:
-    """One of several things."""
+    """Return one of several things."""
     match value:
         case None:
             return "None"

@@ -1,4 +1,4 @@
-"""How a check fails: the exceptions that carry what its result says."""
+"""Define how a check fails: the exceptions that carry the words of its result."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -48,5 +48,5 @@ class Failing:
 
 
 def secret_of(seed: int | None, todo: Todo, check: Check) -> str | None:
-    """What the numbers of a check are drawn by; None where they are the usual ones."""
+    """Return what the numbers of a check are drawn by; None where they are the usual ones."""
     return None if seed is None else f"{seed} {todo.id} {check.id}"

@@ -1,4 +1,4 @@
-"""The hash of the grader: as long as it stays, nothing is graded again.
+"""Hash the grader: as long as the hash stays, nothing is graded again.
 
 A file of the grader counts if it can decide about points: the checks, the judge that weighs their
 answers, the worker that runs the submission, and what these share. Reports and commands do not.

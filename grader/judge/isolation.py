@@ -1,4 +1,4 @@
-"""What the layers around a submission hold back, told by their names."""
+"""Say what the layers around a submission hold back, by their names."""
 
 import importlib
 import pkgutil
@@ -22,7 +22,7 @@ KEEPS_FILES = LAYERS["files"] | {"own-user"}
 
 
 def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
-    """Why nothing is to be graded behind these layers; empty where it may be.
+    """Return why nothing is to be graded behind these layers; empty where it may be.
 
     `trusted`: the submission is one's own work, which may as well be run without a grader.
     """
@@ -43,7 +43,7 @@ def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
 
 
 def unconfined(layers: list[str]) -> list[str]:
-    """What a submission can still reach."""
+    """Return what a submission can still reach."""
     return [what for what, any_of in LAYERS.items() if not any_of & set(layers)]
 
 

@@ -1,4 +1,4 @@
-"""What a check may ask of a submission: build bodies, call functions, step worlds, play programs.
+"""Ask a submission: build bodies, call functions, step worlds, play programs.
 
 A check speaks to the submission only through a `Lab`. Every answer comes back as plain numbers,
 strictly typed and finite, or the check fails with a sentence that says what was wrong.
@@ -86,12 +86,12 @@ class Lab(Decoder):
 
     @property
     def ended(self) -> bool:
-        """Whether the submission's process ended, or had to be ended, before the check did."""
+        """Return whether the submission's process ended before the check did."""
         return isinstance(self.failure, Broke) and self.failure.raised is None
 
     @property
     def late(self) -> bool:
-        """Whether it had to be ended because its time was over."""
+        """Return whether it had to be ended because its time was over."""
         return isinstance(self.failure, Broke) and self.failure.late
 
     @contextmanager
@@ -108,7 +108,8 @@ class Lab(Decoder):
             self.observations.append(Observation(about, inputs, answer))
 
     def about(self, number: float, within: float | None = None) -> float:
-        """The number; under an instructor's secret seed another one near it, and never the same.
+        """Return the number; under an instructor's secret seed another one near it, and never the
+        same.
 
         It is off by eighths of `within`, which is a quarter of the number where nothing else is
         said: so sums and products of round numbers stay exact. What is asked with the numbers that
@@ -120,7 +121,7 @@ class Lab(Decoder):
         return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, 8) / 8 * most
 
     def whole(self, number: int, within: int) -> int:
-        """The same for a whole number, which is off by 1 to `within`."""
+        """Return the same for a whole number, which is off by 1 to `within`."""
         if self.drawn is None:
             return number
         return number + self.drawn.choice([-1, 1]) * self.drawn.randint(1, within)
@@ -169,7 +170,7 @@ class Lab(Decoder):
         return self._framed(method, request, changes).value
 
     def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
-        """The answer; what was overstepped is kept for the end of the check."""
+        """Return the answer; what was overstepped is kept for the end of the check."""
         returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
@@ -188,7 +189,7 @@ class Lab(Decoder):
         return returned
 
     def _trespass(self, name: str, changes: Frame, beyond: list[Change]) -> NotYet | None:
-        """What a function changed that is none of its business, or None."""
+        """Return what a function changed that is none of its business, or None."""
         if not beyond:
             return None
         allowed = ", ".join(
@@ -224,12 +225,14 @@ class Lab(Decoder):
         return Advance(rest, returned.steps, returned.dts, said)
 
     def work(self, thing: Thing, method: str, *args: Any) -> int:
-        """How many lines of the submission run in a method of an object, however it is written."""
+        """Return how many lines of the submission run in a method of an object, however it is
+        written.
+        """
         arguments = [plain(each) for each in args]
         return self._returned(Call(f"#{thing.ref}.{method}", arguments, work=True)).lines
 
     def get(self, thing: Thing, name: str) -> Value:
-        """An attribute of an object, such as a rod's `length`."""
+        """Return an attribute of an object, such as a rod's `length`."""
         return self._value(Get(thing.ref, name))
 
     def put(self, thing: Thing, **fields: Any) -> None:
@@ -239,11 +242,11 @@ class Lab(Decoder):
     # ------------------------------------------------------------ the lesson's engine
 
     def circle(self, pos: Pair, radius: float = 10.0, mass: float = 1.0, **fields: Any) -> Thing:
-        """A disc, static with mass 0. `fields`: vel, omega, angle, friction, restitution."""
+        """Return a disc, static with mass 0. `fields`: vel, omega, angle, friction, restitution."""
         return self._body("Circle", float(radius), pos, mass, fields)
 
     def box(self, pos: Pair, half: Pair, **fields: Any) -> Thing:
-        """A static box with half extents `half`."""
+        """Return a static box with half extents `half`."""
         return self._body("Box", Vec(*half), pos, 0.0, fields)
 
     def _body(
@@ -271,7 +274,7 @@ class Lab(Decoder):
         return thing
 
     def state(self, body: Thing) -> BodyValue:
-        """A body's numbers, all finite."""
+        """Return a body's numbers, all finite."""
         return self.body(self._value(Get(body.ref)))
 
     def world(
@@ -283,7 +286,7 @@ class Lab(Decoder):
         joints: Sequence[Thing] = (),
         bonus: bool = False,
     ) -> Thing:
-        """A World with these bodies; without gravity and damping unless asked for.
+        """Return a World with these bodies; without gravity and damping unless asked for.
 
         `bonus`: the world of the bonus tasks. Older submissions have one World for everything.
         """
@@ -339,7 +342,8 @@ class Lab(Decoder):
         steps: int = 1,
         twice: bool = False,
     ) -> list[Pair]:
-        """The states (x, v) after each step of an integrator under `force`, a polynomial in x.
+        """Return the states (x, v) after each step of an integrator under `force`, a polynomial in
+        x.
 
         `twice`: the same question must get the same answer, and nothing else may change.
         """
@@ -352,7 +356,7 @@ class Lab(Decoder):
         return states
 
     def places(self, method: str, start: Pair, dt: float, force: Sequence[float]) -> list[float]:
-        """The places at which one step of an integrator asks for the acceleration."""
+        """Return the places at which one step of an integrator asks for the acceleration."""
         target = f"{self.module}:{method}"
         request = Integrate(target, *start, dt, list(force), places=True)
         return [
@@ -423,7 +427,7 @@ class Lab(Decoder):
 
 
 class Advance(NamedTuple):
-    """What `advance` made of a frame."""
+    """The outcome of one frame of `advance`."""
 
     rest: float  # s, the accumulator that it returned
     steps: int  # that ran
@@ -441,7 +445,7 @@ class Run:
         self.seconds_per_frame = seconds_per_frame
 
     def body(self, number: int) -> list["Moment"]:
-        """The states of the watched body with this number, one per recorded step."""
+        """Return the states of the watched body with this number, one per recorded step."""
         return [Moment(*frame[6 * number : 6 * number + 6]) for frame in self.frames]
 
 
@@ -463,7 +467,9 @@ class Moment:
 
 
 def same(first: Value, second: Value) -> bool:
-    """Whether two answers are the same but for who they are: each call makes its own contact."""
+    """Return whether two answers are the same but for who they are: each call makes its own
+    contact.
+    """
     if isinstance(first, ContactValue) and isinstance(second, ContactValue):
         return msgspec.structs.replace(first, ref=second.ref) == second
     if isinstance(first, Ref) and isinstance(second, Ref):
@@ -479,12 +485,12 @@ def refs(*groups: Iterable[Thing]) -> list[int]:
 
 
 def in_words(fields: str) -> str:
-    """The names of fields as the lesson says them."""
+    """Return the names of fields as the lesson says them."""
     return ", ".join(FIELDS.get(each, each) for each in fields.split())
 
 
 def plain(value: Any) -> Argument:
-    """An argument in the form that crosses the pipe."""
+    """Return an argument in the form that crosses the pipe."""
     if isinstance(value, Thing):
         return Ref(value.ref)
     if isinstance(value, tuple):

@@ -18,12 +18,12 @@ def readable(expected: str, got: str) -> tuple[str, str]:
 
 
 def tidied(text: str, digits: int = MAX_DIGITS) -> str:
-    """A text in which no number is longer than it must be, and 0 is 0."""
+    """Return a text in which no number is longer than it must be, and 0 is 0."""
     return NUMBER.sub(lambda found: tidy(found, digits), text)
 
 
 def tidy(found: re.Match[str], digits: int) -> str:
-    """One number: the same where it is short."""
+    """Return one number as text; a short one is unchanged."""
     text = found[0]
     whole = len(re.match(r"-?(\d+)", text)[1])  # type: ignore[index]
     if whole > 300:
@@ -41,5 +41,5 @@ def tidy(found: re.Match[str], digits: int) -> str:
 
 
 def without_minus_zero(text: str) -> str:
-    """A number that is 0 in the digits shown has no sign: -0.000 differs from 0.000 to nobody."""
+    """Return the number without a sign where it is 0 in the digits shown: -0.000 reads as 0.000."""
     return re.sub(r"-(?=0(\.0+)?(?![\d.e]))", "", text)

@@ -27,7 +27,7 @@ def stop_grading(number: int, _: object) -> NoReturn:
 
 
 def begin_process() -> None:
-    """In a process of the pool: Ctrl-C is the parent's, and nobody works on without a parent."""
+    """Prepare a process of the pool: it ignores Ctrl-C, and ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, stop_grading)
     parent = multiprocessing.parent_process()

@@ -1,4 +1,4 @@
-"""What a student's copy of the checks knows by heart instead of by closed forms.
+"""Look up recorded answers, which a student's copy of the checks has instead of closed forms.
 
 Some right answers are worked out by code that is as good as the code of a TODO, and so are the
 known mistakes. A release asks both what the checks can ask, and writes the answers to
@@ -55,7 +55,7 @@ def oracle(*values: Sequence[float]) -> Callable[[Function], Function]:
 
 
 def key(inputs: Any) -> str:
-    """The same text for the same numbers, be they int or float, in a tuple or in a list."""
+    """Return the same text for the same numbers, be they int or float, in a tuple or in a list."""
     return json.dumps(plain(inputs))
 
 
@@ -69,13 +69,13 @@ def plain(value: Any) -> Any:
 
 @cache
 def load_recorded() -> Recorded | None:
-    """The table of this copy of the checks; None in the kit."""
+    """Return the table of this copy of the checks; None in the kit."""
     path = CHECKS / "recorded.json"
     return msgspec.convert(json.loads(path.read_bytes()), Recorded) if path.exists() else None
 
 
 def answer(name: str, *inputs: Any) -> Any:
-    """What the oracle of this name says; a student's copy calls it in the oracle's place."""
+    """Return what the oracle of this name says; a student's copy calls it in the oracle's place."""
     table = load_recorded()
     answers = table.oracles.get(name, {}) if table else {}
     if key(inputs) not in answers:

@@ -1,4 +1,4 @@
-"""What a grade is: the one result that every report and export is made from."""
+"""Define the result of a grade, from which every report and export is made."""
 
 from typing import Literal
 
@@ -43,12 +43,12 @@ class CheckResult(Struct, frozen=True):
 
     @property
     def failed(self) -> bool:
-        """Whether there is something to say about it."""
+        """Return whether there is something to say about it."""
         return self.state in FAILED
 
 
 def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
-    """A check with so many characters in each of its texts at most: some quote a submission.
+    """Return a check with so many characters in each of its texts at most: some quote a submission.
 
     None of them is one that a screen or a terminal obeys, but for the ends of lines.
     """
@@ -58,7 +58,7 @@ def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
 
 
 def is_bonus(todo: str) -> bool:
-    """Whether a TODO's points are counted apart, by its id: B1, B2 and so on."""
+    """Return whether a TODO's points are counted apart, by its id: B1, B2 and so on."""
     return todo.startswith("B")
 
 
@@ -73,12 +73,12 @@ class TodoResult(Struct, frozen=True):
 
     @property
     def bonus(self) -> bool:
-        """Whether its points are counted apart from those of the result."""
+        """Return whether its points are counted apart from those of the result."""
         return is_bonus(self.id)
 
     @property
     def failed(self) -> list[CheckResult]:
-        """The checks that there is something to say about."""
+        """Return the checks that there is something to say about."""
         return [check for check in self.checks if check.failed]
 
 
@@ -94,7 +94,7 @@ class Result(Struct, frozen=True):
     todos: list[TodoResult]
 
     def with_todos(self, todos: list[TodoResult]) -> "Result":
-        """The result with these TODOs for its own, and the points that they add up to."""
+        """Return the result with these TODOs for its own, and the points that they add up to."""
         counted = [todo for todo in todos if not todo.bonus]
         return structs.replace(
             self,
@@ -105,7 +105,7 @@ class Result(Struct, frozen=True):
         )
 
     def in_bounds(self) -> "Result":
-        """The result with texts so short that its JSON has at most MAX_JSON bytes."""
+        """Return the result with texts so short that its JSON has at most MAX_JSON bytes."""
         for most in MAX_WORDS:
             todos = [
                 structs.replace(todo, checks=[in_bounds(each, most) for each in todo.checks])
@@ -118,25 +118,27 @@ class Result(Struct, frozen=True):
 
     @property
     def counted(self) -> list[TodoResult]:
-        """The TODOs whose points add up to those of the result."""
+        """Return the TODOs whose points add up to those of the result."""
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
     def shown(self) -> list[TodoResult]:
-        """What people are shown: bonus tasks only once begun, or where nothing else was asked."""
+        """Return what people are shown: bonus tasks only once begun, or where nothing else was
+        asked.
+        """
         begun = [todo for todo in self.todos if todo.bonus and todo.state != "not started"]
         return [*self.counted, *begun] if self.counted else self.todos
 
     @property
     def complete(self) -> bool:
-        """Whether it has full marks or, where only bonus tasks were asked, all of theirs."""
+        """Return whether it has full marks or, where only bonus tasks were asked, all of theirs."""
         asked = self.counted or self.todos
         earned = all(todo.points == todo.max_points for todo in asked)
         return earned and self.points == self.max_points
 
 
 def state_of(checks: list[CheckResult]) -> State:
-    """A TODO is passed when all its checks are; otherwise the most telling of their states."""
+    """Return "passed" when all checks are; otherwise the most telling of their states."""
     states = {check.state for check in checks}
     order: list[State] = ["error", "not yet", "waiting", "not started"]
     return next((state for state in order if state in states), "passed")

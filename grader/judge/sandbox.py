@@ -1,4 +1,4 @@
-"""The sandbox of one tree: what its children may reach, and which layers of isolation hold them."""
+"""Open children of one tree: what they may reach, and which layers of isolation hold them."""
 
 import os
 import shutil
@@ -35,7 +35,7 @@ class Sandbox:
     used: list[tuple[Child, str]] = field(default_factory=list)  # children, and what they wrote to
 
     def open_child(self, cpu_seconds: int) -> Child:
-        """A child with this budget, of processor seconds.
+        """Return a child with this budget, of processor seconds.
 
         Raises CannotGrade where none can be started: until then the submission has not run a line,
         so this says nothing about it.
@@ -63,7 +63,7 @@ class Sandbox:
         self.used = [each for each in self.used if not each[0].over]
 
     def changed(self, texts: Mapping[str, str]) -> "Sandbox":
-        """That of a copy of the tree with other text in some of its files, by their names.
+        """Return the sandbox of a copy of the tree, with other text in the files named.
 
         Both share what is compiled. A changed file is younger by more than Python's second, so
         that nothing old is taken for it.
@@ -109,7 +109,9 @@ class Sandbox:
         )
 
     def _layers_around(self, child: Child) -> list[str]:
-        """The layers around this child; raises CannotGrade, before it runs, if they are too few."""
+        """Return the layers around this child; raises CannotGrade, before it runs, if they are too
+        few.
+        """
         if self.isolation == "none":
             return ["processes"]
         layers = ["processes", *child.ready.layers, *self.worker.layers]

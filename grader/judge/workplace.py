@@ -24,7 +24,7 @@ NEW_SECONDS = 5  # a folder as young as that may not be locked yet
 
 @contextmanager
 def work_folder() -> Iterator[Path]:
-    """A folder of our own, removed afterwards even where a submission made parts read-only."""
+    """Make a folder of our own, removed afterwards even where a submission made parts read-only."""
     remove_leftovers(tempfile.gettempdir())
     work = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
     lock = locked(work)
@@ -38,7 +38,7 @@ def work_folder() -> Iterator[Path]:
 
 @cache
 def remove_leftovers(place: str) -> None:
-    """Once for each place: remove what a process of ours that was killed has left there."""
+    """Remove, once for each place, what a killed process of ours has left there."""
     if fcntl is None:
         return
     for folder in Path(place).glob(f"{PREFIX}*"):
@@ -53,7 +53,7 @@ def remove_leftovers(place: str) -> None:
 
 
 def locked(folder: Path) -> int | None:
-    """A descriptor that holds the folder's lock; None where another process holds it."""
+    """Return a descriptor that holds the folder's lock; None where another process holds it."""
     if fcntl is None:
         return None
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)

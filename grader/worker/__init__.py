@@ -1,4 +1,4 @@
-"""The only code that meets a submission. Of the rest of the grader it knows `protocol` alone.
+"""Run a submission. Of the rest of the grader, this room imports `protocol` alone.
 
 What happens, in this order:
 

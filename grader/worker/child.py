@@ -1,4 +1,4 @@
-"""One child: confines itself, imports the submission and answers requests until the judge hangs up.
+"""Run one child: confine it, import the submission, answer requests until the judge hangs up.
 
 Each request has a number and gets exactly one answer. An exception of the submission is an answer
 as well, so this loop ends only with the channel or the process.
@@ -107,7 +107,7 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
 def attempt(
     subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, requests: list[Request]
 ) -> Reply:
-    """The answer to the last of these requests, or what came instead of one.
+    """Return the answer to the last of these requests, or what came instead of one.
 
     BaseException, because a submission may call sys.exit() or raise KeyboardInterrupt anywhere.
     """
@@ -197,7 +197,7 @@ NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
 
 
 def own_copy(submission: str, folder: str, setup: ChildSetup) -> list[str]:
-    """The submission once more, for this child alone, and the names of its files.
+    """Return the submission once more, for this child alone, and the names of its files.
 
     It may write there, and it ends with it. Files keep their times, by which Python knows whether
     what was compiled before is still good. What is only to be read is a link to where it is now.
@@ -230,7 +230,7 @@ def own_copy(submission: str, folder: str, setup: ChildSetup) -> list[str]:
 
 
 def make_folder(target: str, compiled: str) -> None:
-    """A folder of a child's copy, and in it a link to what was compiled of it."""
+    """Make a folder of a child's copy, and in it a link to its compiled files."""
     with suppress(OSError):  # more than a child may have, or Windows may not allow links
         os.mkdir(target)
         if os.path.isdir(compiled):
@@ -271,7 +271,7 @@ def compile_all(submission: Path, bytecode: Path, limits: Limits) -> None:
 
 
 def tidy_environment(scratch: str) -> None:
-    """An environment that says nothing about the machine, and an empty folder to work in."""
+    """Set an environment that says nothing about the machine, and enter an empty folder."""
     windows = ("SYSTEMROOT", "PATH") if os.name == "nt" else ()  # it finds its libraries by them
     wanted = {"PATH": os.defpath}
     wanted |= {name: os.environ[name] for name in windows if name in os.environ}

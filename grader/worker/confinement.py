@@ -1,4 +1,4 @@
-"""What a child may not do, in layers. Each is used where the machine has it, and reports name it.
+"""Confine a child, in layers. Each is used where the machine has it, and reports name it.
 
 isolate_server runs once, in the warm process; confine runs in each child, before it imports the
 submission. Each layer is for something else, and a missing one leaves the others in force.
@@ -76,7 +76,7 @@ class PathBeneathAttr(ctypes.Structure):
 
 
 def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
-    """Once for the warm process: leave the network and other processes behind; returns the layers.
+    """Leave the network and other processes behind, once for the warm process; returns the layers.
 
     Without this a submission could send the questions out, or signal and trace the judge. The call
     may return in a child process: the first one of a PID namespace, with which all others in it
@@ -103,7 +103,7 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
 
 
 def bound_namespace() -> None:
-    """A limit on all processes and threads in here: the one for each user does not bind root.
+    """Limit all processes and threads in here: the limit for each user does not bind root.
 
     A PID namespace has a limit of its own since Linux 6.14; before, it is that of the machine.
     """
@@ -150,7 +150,7 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
 
 
 def join_own_keyring() -> None:
-    """A session keyring for this process alone: otherwise a key is there for the next check."""
+    """Join a session keyring of this process alone, so that no key is left for the next check."""
     number = KEYCTL.get(platform.machine())
     if number is not None:
         libc().syscall(number, KEYCTL_JOIN_SESSION_KEYRING, None)
@@ -192,7 +192,7 @@ def become_own_user(setup: ChildSetup) -> list[str]:
 
 
 def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
-    """What all children share, once for the warm process: known in each when it is forked."""
+    """Compute once in the warm process what every forked child needs."""
     kinds_of_paths(tuple(setup.hidden))
     packed()
     if sys.platform.startswith("linux") and not {"own-root", "user-namespace"} & set(without):
@@ -200,14 +200,14 @@ def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
 
 
 def own_root(setup: ChildSetup) -> Root | None:
-    """The shared part of the roots; None where this process has no right over mounts."""
+    """Return the shared part of the roots; None where this process has no right over mounts."""
     hidden = tuple(setup.hidden)
     paths = (*readable_paths(hidden), Path(os.devnull))
     return shared_root(paths, tuple(links_to_libraries()))
 
 
 def enter_own_namespaces(setup: ChildSetup, root: bool) -> tuple[list[str], ChildSetup]:
-    """Files, shared memory, keys and the scratch folder for this child alone; where they are now.
+    """Give this child its own files, shared memory, keys and scratch folder; returns the new setup.
 
     Otherwise one check could leave a message for a later one there, such as the reference's
     answers. The scratch folder becomes a small file system in memory, which ends with the child.
@@ -277,7 +277,8 @@ def set_resource_limits(limits: Limits) -> list[str]:
 
 @cache
 def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
-    """What Python and its packages need to read, and nothing that is hidden, such as the kit.
+    """Return what Python and its packages need to read, and nothing that is hidden, such as the
+    kit.
 
     An installation may put the kit among the packages; then their folder is allowed entry by
     entry, without it. None of the paths is a link.
@@ -287,7 +288,7 @@ def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
 
 
 def all_but(away: set[Path], path: Path) -> Iterator[Path]:
-    """The path, or where some of `away` lie below it, what is beside them."""
+    """Yield the path, or where some of `away` lie below it, what is beside them."""
     if not any(each.is_relative_to(path) for each in away):
         yield path
     elif path not in away:
@@ -297,13 +298,13 @@ def all_but(away: set[Path], path: Path) -> Iterator[Path]:
 
 @cache
 def kinds_of_paths(hidden: tuple[str, ...]) -> list[tuple[str, bool]]:
-    """The same paths, each with whether it is a folder."""
+    """Return the same paths, each with whether it is a folder."""
     return [(str(path), path.is_dir()) for path in readable_paths(hidden)]
 
 
 @cache
 def libraries() -> list[Path]:
-    """Where Python looks, and the C library, by the names they go by."""
+    """Return where Python looks, and the C library, by the names they go by."""
     paths = sysconfig.get_paths()
     roots = [Path(sys.base_prefix, "lib")]
     roots += [Path(paths[name]) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
@@ -314,18 +315,18 @@ def libraries() -> list[Path]:
 
 @cache
 def links_to_libraries() -> list[Path]:
-    """Those that lie elsewhere than their name says, as /lib on most machines."""
+    """Return the links among them, such as /lib on most machines."""
     return [each for each in libraries() if each.resolve() != each]
 
 
 def landlock_version() -> int:
-    """The version of the kernel's Landlock interface; less than 1 where there is none."""
+    """Return the version of the kernel's Landlock interface; less than 1 where there is none."""
     version: int = libc().syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
     return version
 
 
 def restrict_with_landlock(setup: ChildSetup) -> list[str]:
-    """Files: read Python and the submission, write the scratch folder; no TCP, no signals out.
+    """Allow reading Python and the submission, writing the scratch folder, no TCP, no signals out.
 
     This is what keeps the kit, the solution, other submissions and home folders unreadable. Only
     rights that the ruleset handles are denied, so it handles all that this kernel's version knows.

@@ -84,13 +84,13 @@ class Camera:
         self.every = math.ceil(moments / self.film.most) if self.film else 1
 
     def record(self, time: float, steps: int) -> None:
-        """A moment of a run, at `time` in s. One in so many becomes a shot, and always the last."""
+        """Note a moment of a run, at `time` in s. One in so many, and the last, becomes a shot."""
         self.moments += 1
         if self.film and (self.moments % self.every == 0 or self.moments == self.total):
             self._take_shot(time, steps)
 
     def finish(self, reply: Reply) -> Filmed:
-        """The reply with its shots: at least the one of how it ended."""
+        """Return the reply with its shots: at least the one of how it ended."""
         if not self.shots:
             self._take_shot(0.0, 0)
         filmed = Filmed(reply, self.looks, self.shots)
@@ -124,7 +124,7 @@ class Camera:
     # ------------------------------------------------------------ a shot
 
     def _take_shot(self, time: float, steps: int) -> None:
-        """A shot of all that can be described; with an error, of what came before it."""
+        """Take a shot of all that can be described; with an error, of what came before it."""
         shot = Shot(float(time), steps, [], [], [])
         with suppress(Exception):
             for thing in self._visible():
@@ -132,7 +132,9 @@ class Camera:
         self.shots.append(shot)
 
     def _visible(self) -> list[Any]:
-        """What to show: the running program's world, or what this scene has made and is given."""
+        """Return what to show: the running program's world, or what this scene has made and is
+        given.
+        """
         if self.world is not None:
             return [self.world]
         given = [self.subject.objects[ref] for ref in self.given if ref in self.subject.objects]
@@ -171,7 +173,10 @@ class Camera:
                 rows.append(row)
 
     def _body(self, body: Any) -> BodyRow:
-        """Where a body is now. A new one gets a number, and what never changes is noted once."""
+        """Return where a body is now.
+
+        A new one gets a number, and what never changes is noted once.
+        """
         number = self.numbers.get(id(body))
         if number is None:
             number = len(self.bodies) + 1
@@ -185,7 +190,7 @@ class Camera:
         return BodyRow(number, *state)
 
     def _look_of(self, body: Any) -> BodyLook:
-        """What does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
+        """Return what does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
         ref = self.subject.refs.get(id(body), 0)
         if isinstance(body, pymunk.Body):
             shapes = sorted(body.shapes, key=shape_order)[:MAX_SHAPES]
@@ -199,7 +204,7 @@ class Camera:
 
 
 def lesson_shape(shape: Any) -> ShapeLook:
-    """A circle or box of the lesson's engine."""
+    """Return a circle or box of the lesson's engine."""
     if hasattr(shape, "radius"):
         return ShapeLook([(0.0, 0.0)], field_number(shape, "radius"))
     x, y = field_pair(shape, "half")
@@ -207,7 +212,7 @@ def lesson_shape(shape: Any) -> ShapeLook:
 
 
 def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
-    """A shape of pymunk's, in the coordinates of its body; no points for an unknown kind."""
+    """Return a shape of pymunk's, in the coordinates of its body; no points for an unknown kind."""
     match shape:
         case pymunk.Circle():
             points = [shape.offset]
@@ -221,7 +226,7 @@ def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
 
 
 def touch(contact: Any) -> TouchRow:
-    """A contact of the lesson's engine."""
+    """Return a contact of the lesson's engine."""
     point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
     rest = (field_number(contact, name) for name in ("depth", "jn", "jt"))
     row = TouchRow(point.x, point.y, normal.x, normal.y, *rest)
@@ -233,11 +238,11 @@ def touch(contact: Any) -> TouchRow:
 
 
 def lesson_rod(joint: Any) -> Ends:
-    """The two ends of a joint or spring of the lesson's engine, px."""
+    """Return the two ends of a joint or spring of the lesson's engine, px."""
     a, b = (field_pair(field(joint, end), "pos") for end in ("a", "b"))
     return a.x, a.y, b.x, b.y
 
 
 def pymunk_rod(joint: Any) -> Ends:
-    """The two ends of a pymunk constraint with anchors, px."""
+    """Return the two ends of a pymunk constraint with anchors, px."""
     return *joint.a.local_to_world(joint.anchor_a), *joint.b.local_to_world(joint.anchor_b)

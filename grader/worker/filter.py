@@ -1,4 +1,4 @@
-"""The system calls that a child may not make: a filter of seccomp(2), for x86-64 and aarch64.
+"""Refuse system calls of a child: a filter of seccomp(2), for x86-64 and aarch64.
 
 It needs no right, no library and no namespace, so it also holds in a container that refuses them.
 What is refused answers "operation not permitted" (EPERM), so that honest code sees an exception.
@@ -320,14 +320,14 @@ def null(index: int) -> list[Instruction]:
 
 
 def one_of(values: Sequence[int], inside: int, outside: int) -> list[Instruction]:
-    """The one answer for each of these values, fewer than 256, and the other for the rest."""
+    """Return `inside` for each of these values, fewer than 256, and `outside` for the rest."""
     end = len(values)
     tests = [(EQUAL, end - index, 0, value) for index, value in enumerate(values)]
     return tests + answer(outside) + answer(inside)
 
 
 def checked(pid: int) -> dict[str, list[Instruction]]:
-    """The calls that hang on their arguments, for the process with this number."""
+    """Return the calls that hang on their arguments, for the process with this number."""
     own = argument(0) + one_of((pid,), ALLOW, REFUSE)
     clock = argument(0) + when(ANY_BIT, OF_ANOTHER, answer(REFUSE)) + answer(ALLOW)
     return {
@@ -353,7 +353,7 @@ def checked(pid: int) -> dict[str, list[Instruction]]:
 
 
 def program(machine: str, pid: int) -> list[Instruction]:
-    """The filter for a machine such as `x86_64`, and the process that takes it."""
+    """Return the filter for a machine such as `x86_64`, and the process that takes it."""
     column = list(AUDIT_ARCH).index(machine)
     text = load(ARCHITECTURE) + unless_equal(AUDIT_ARCH[machine], answer(REFUSE)) + load(NUMBER)
     text += when(GREATER, LAST, answer(UNKNOWN))
@@ -366,7 +366,8 @@ def program(machine: str, pid: int) -> list[Instruction]:
 
 @cache
 def packed() -> bytes:
-    """The filter of this machine as the kernel takes it, with ANY_PID for the process; or nothing.
+    """Return the filter of this machine as the kernel takes it, with ANY_PID for the process; or
+    nothing.
 
     There is none on another machine than the two, or for a Python of 32 bits. Known before a fork,
     it is known in the child: to put it together takes as long as to make a root.

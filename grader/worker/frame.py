@@ -1,4 +1,4 @@
-"""What a call changed: the bodies, contacts, joints, worlds and constants before and after it.
+"""Compare the bodies, contacts, joints, worlds and constants before and after a call.
 
 A function may change what its docstring names and nothing else. The child only tells what changed;
 what may change is the judge's to say.
@@ -72,7 +72,7 @@ class Frame:
         return found
 
     def changes(self) -> list[Change]:
-        """What is not as it was: of an argument, ref is minus its number; of a constant, 0."""
+        """Return the changes: ref is minus its number for an argument, and 0 for a constant."""
         after = self.state()
         return [
             Change(ref, name)
@@ -83,7 +83,7 @@ class Frame:
 
 @cache
 def own_constants(folder: str, loaded: int) -> list[tuple[str, list[dict[str, Any]]]]:
-    """The constants of a folder's modules, each with the names of all modules that have it.
+    """Return the constants of a folder's modules, each with the names of all modules that have it.
 
     They are looked up anew when more is `loaded`.
     """
@@ -94,7 +94,7 @@ def own_constants(folder: str, loaded: int) -> list[tuple[str, list[dict[str, An
 
 
 def fields_of(thing: Any) -> tuple[str, ...]:
-    """The fields of the lesson that an object has, by what it is."""
+    """Return the fields of the lesson that an object has, by what it is."""
     for mark, fields in FIELDS.items():
         if hasattr(thing, mark):
             return fields
@@ -106,7 +106,7 @@ def size_of(shape: Any) -> Numbers:
 
 
 def numbers_in(value: Any) -> Numbers:
-    """A field as numbers, and objects by who they are."""
+    """Return a field as numbers, and objects by who they are."""
     if type(value) in PLAIN:
         return (value,)
     if type(value) in PAIRS:
@@ -118,7 +118,7 @@ def numbers_in(value: Any) -> Numbers:
 
 
 def alike(before: Numbers, after: Numbers) -> bool:
-    """The same but for rounding: who keeps a normal at length 1 changes nothing."""
+    """Return whether both are equal but for rounding, as a normal kept at length 1 is."""
     return before == after or (
         len(before) == len(after)
         and all(

@@ -1,4 +1,4 @@
-"""What a submission may import: one rule, whatever is installed on the machine that grades it.
+"""Limit what a submission may import: one rule, whatever is installed here.
 
 The standard library, the libraries of the assignment and the submission's own files. Without the
 rule, marks would hang on what an instructor happens to have beside the grader.
@@ -32,13 +32,13 @@ class ImportRule(MetaPathFinder):
     """Stands before all that finds modules, and lets nothing through but what is allowed."""
 
     def __init__(self, files: Iterable[str], bans: Iterable[str] = ()) -> None:
-        """For a submission with these files, which may not import `bans` either."""
+        """Set the rule for a submission with these files, which may not import `bans` either."""
         self.bans = frozenset(bans)
         modules = (path.removesuffix(".py").split("/") for path in files if path.endswith(".py"))
         self.own = {part for parts in modules for part in parts}
 
     def install(self) -> None:
-        """From now on; what the grader itself has loaded is out of reach by name."""
+        """Apply the rule from now on; what the grader has loaded is out of reach by name."""
         put_away()
         for name in [name for name in sys.modules if name.partition(".")[0] in self.bans]:
             AWAY[name] = sys.modules.pop(name)
@@ -73,7 +73,7 @@ def put_away() -> None:
 
 @contextmanager
 def at_hand() -> Iterator[None]:
-    """What was put away is where it was, for a library of ours that looks itself up by name."""
+    """Bring back what was put away, for a library of ours that looks itself up by name."""
     sys.modules.update(AWAY)
     try:
         yield

@@ -66,7 +66,7 @@ class LineCounter:
             self.trouble = self.trouble or "another thread worked"
 
     def answer(self) -> int:
-        """How many there were; raises ContractError where the count was interfered with."""
+        """Return how many there were; raises ContractError where the count was interfered with."""
         if self.trouble:
             raise ContractError(
                 f"while the {self.what} that run were counted, {self.trouble}: so nobody knows how "
@@ -118,7 +118,9 @@ class OpcodeCounter(LineCounter):
 
 
 def opcode_hook(counter: OpcodeCounter) -> tuple[Callable[[], int], Trace]:
-    """How many opcodes there were, and what hears of each: no attribute is looked up for one."""
+    """Return how many opcodes there were, and what hears of each: no attribute is looked up for
+    one.
+    """
     count = 0
 
     def hear(frame: FrameType, event: str, _: object) -> None:  # so it is called again
@@ -157,7 +159,7 @@ def codes_in(code: CodeType) -> Iterator[CodeType]:
 
 
 def codes_of(*modules: ModuleType) -> frozenset[CodeType]:
-    """The code of all functions and methods that these modules define."""
+    """Return the code of all functions and methods that these modules define."""
     things = [thing for module in modules for thing in vars(module).values()]
     things += [each for thing in things if isinstance(thing, type) for each in vars(thing).values()]
     return frozenset(

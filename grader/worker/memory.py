@@ -1,4 +1,4 @@
-"""What a submission keeps from call to call: the data that its modules, functions and classes hold.
+"""Find what a submission keeps between calls: data in its modules, functions and classes.
 
 A global name, a function's own attribute, a default argument that is a list, an attribute of a
 class: what a call leaves there can decide on the answer to the next. Whether that is a mistake is
@@ -30,7 +30,9 @@ class Memory:
         self.before = self.state()
 
     def state(self) -> dict[str, Any]:
-        """What each name holds; functions and classes count under the file they are written in."""
+        """Return what each name holds; functions and classes count under the file they are written
+        in.
+        """
         found: dict[str, Any] = {}
         for module in self.modules.values():
             for name, value in vars(module).items():
@@ -41,14 +43,15 @@ class Memory:
         return found
 
     def changed(self) -> list[str]:
-        """The names that hold something else by now, or are new."""
+        """Return the names that hold something else by now, or are new."""
         after = self.state()
         missing = object()
         return [name for name, value in after.items() if self.before.get(name, missing) != value]
 
 
 def content(value: Any, deep: int) -> Any:
-    """A value as plain data: numbers and texts as they are, and what holds some by what it holds.
+    """Return a value as plain data: numbers and texts as they are, and what holds some by what it
+    holds.
 
     Exact types alone: nothing of the submission is to run meanwhile.
     """

@@ -1,4 +1,4 @@
-"""What a submission prints: the end of it is kept up to a bound, the rest is counted and dropped.
+"""Keep the end of what a submission prints, up to a bound; count and drop the rest.
 
 An endless loop of print() must fill neither the memory nor the report.
 """
@@ -32,7 +32,7 @@ class Output(io.RawIOBase):
         sys.stdout = sys.stderr = self.text
 
     def writable(self) -> bool:
-        """As io.TextIOWrapper demands."""
+        """Return True, as io.TextIOWrapper demands."""
         return True
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
@@ -44,11 +44,11 @@ class Output(io.RawIOBase):
         return len(data)
 
     def so_far(self) -> str:
-        """The text that is kept, and stays so."""
+        """Return the text that is kept, and stays so."""
         return self.kept.decode("utf-8", "replace")
 
     def take(self) -> str:
-        """The text for an answer, with a note on what was dropped; begins anew."""
+        """Return the text for an answer, with a note on what was dropped; begins anew."""
         text = self.so_far()
         if self.dropped:
             text = f"{self.dropped} bytes and then …\n{text}"

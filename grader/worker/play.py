@@ -111,7 +111,7 @@ class StepCounter:
 
 
 def steps_of(owner: type) -> list[FunctionType]:
-    """The `step` of a class and of those derived from it, each once."""
+    """Return the `step` of a class and of those derived from it, each once."""
     classes: list[type] = [owner]
     for each in classes:
         below: list[type] = each.__subclasses__()
@@ -121,7 +121,7 @@ def steps_of(owner: type) -> list[FunctionType]:
 
 
 def advance_of(subject: Subject, module: str) -> FunctionType | None:
-    """A program's `advance`, if it takes what the lab sheet says and not, say, milliseconds."""
+    """Return a program's `advance`, if it takes what the lab sheet says."""
     try:
         function = plain_function(subject.find(f"{module}:advance"))
     except ContractError:
@@ -131,7 +131,7 @@ def advance_of(subject: Subject, module: str) -> FunctionType | None:
 
 
 def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Returned:
-    """The answer of a call that steps a world, and the steps, which are counted and not run."""
+    """Return the answer of a call that steps a world, and the steps, counted and not run."""
     kind = type(world)
     if kind not in subject.counters:
         subject.counters[kind] = StepCounter(kind, physics=False, trail_every=0)
@@ -250,7 +250,7 @@ class Window:
 
 
 def all_bodies(subject: Subject, world: Any) -> list[Any]:
-    """Every body of a world or space; none where the program never stepped one."""
+    """Return every body of a world or space; none where the program never stepped one."""
     if isinstance(world, pymunk.Space):
         value = subject.space(world)
         return list(value.bodies)
@@ -269,7 +269,7 @@ def moving_state(world: Any) -> list[float]:
 
 
 def rod_lengths(world: Any) -> list[tuple[float, float]]:
-    """The distance now and the length meant of every distance joint, px."""
+    """Return the distance now and the length meant of every distance joint, px."""
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
@@ -317,7 +317,7 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
 
 
 def contact_row(subject: Subject, contact: Any) -> ContactRow:
-    """One contact, with the limit of its friction as the friction of both bodies gives it."""
+    """Return one contact, with the limit of its friction by both bodies."""
     a, b = field(contact, "a"), field(contact, "b")
     friction = field_number(a, "friction") * field_number(b, "friction")
     normal = as_pair(field(contact, "normal"))

@@ -1,4 +1,4 @@
-"""A root of a child's own: Python, its packages and the child's folder; nothing else has a name.
+"""Make a root folder for one child: Python, its packages and the child's folder, nothing else.
 
 Landlock says what may be opened. What is not there at all cannot be looked at, changed in its mode
 or spoken to through a socket either.
@@ -37,12 +37,12 @@ TOPS = ("/check", "/check-of-a-grade")  # what a child has of its own is below o
 
 @cache
 def libc() -> ctypes.CDLL:
-    """The C library, for calls that Python lacks; loaded once, before the fork."""
+    """Return the C library, for calls that Python lacks; loaded once, before the fork."""
     return ctypes.CDLL(None, use_errno=True)
 
 
 def mount(source: str | None, target: str, kind: str | None, flags: int, data: str = "") -> None:
-    """As mount(2); raises OSError."""
+    """Call mount(2); raises OSError."""
     words = [each and os.fsencode(each) for each in (source, target, kind)]
     if libc().mount(*words, flags, data.encode() or None):
         raise OSError(ctypes.get_errno(), "mount", target)
@@ -56,7 +56,7 @@ def show(source: str, target: str, flags: int = MS_RDONLY) -> None:
 
 
 def file_system_in_memory(target: str, limits: Limits) -> None:
-    """One of this size, which ends with the last process that sees it."""
+    """Mount a file system in memory of this size, which ends with the last process that sees it."""
     size = f"size={limits.scratch_mb}m,nr_inodes={limits.scratch_files}"
     mount("tmpfs", target, "tmpfs", LOCKED, size)
 
@@ -143,7 +143,7 @@ def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None
 
 
 def free(folder: str, used: Iterable[Path]) -> bool:
-    """Whether nothing that is needed lies in this folder."""
+    """Return whether nothing that is needed lies in this folder."""
     return not any(each.is_relative_to(folder) for each in used)
 
 

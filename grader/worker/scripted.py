@@ -1,4 +1,4 @@
-"""A clock, a keyboard and a mouse for a program that runs without a person.
+"""Script the clock, keyboard and mouse of a program that runs without a person.
 
 Every way of reading time agrees: `Clock.tick`, `get_ticks`, `time.*`. Time stands still unless the
 program ends a frame (`Clock.tick`, or showing the picture where no Clock ticks), sleeps, or reads
@@ -85,7 +85,7 @@ class ScriptedClock:
                 setattr(module, name, replacement)
 
     def _datetime_type(self) -> type[datetime.datetime]:
-        """A datetime whose now() is the scripted time."""
+        """Return a datetime whose now() is the scripted time."""
         clock = self
 
         class ScriptedDatetime(datetime.datetime):
@@ -103,11 +103,11 @@ class ScriptedClock:
 
     @property
     def elapsed(self) -> float:
-        """How long the program has been running, in ms."""
+        """Return how long the program has been running, in ms."""
         return self.now - self.began
 
     def read(self) -> float:
-        """The time now, in ms.
+        """Return the time now, in ms.
 
         After BUSY_READS readings in a row it moves by 0.1 ms with each: otherwise a busy wait would
         never end.
@@ -179,7 +179,7 @@ class ScriptedClock:
     # ------------------------------------------------------------ keyboard and mouse
 
     def _post_input(self, frame: int) -> None:
-        """What the person does at the end of a frame: QUIT after the last, clicks, keys."""
+        """Post the events at the end of a frame: QUIT after the last, clicks, keys."""
         if not pygame.display.get_init():
             return
         if frame >= len(self.frames):
@@ -220,12 +220,12 @@ class ScriptedClock:
 
 
 def keys_in(held: str) -> list[str]:
-    """The keys that are named, as in "left shift+left ctrl"."""
+    """Return the keys that are named, as in "left shift+left ctrl"."""
     return held.split("+") if held else []
 
 
 class Pressed:
-    """What `pygame.key.get_pressed()` gives a program here: no keyboard holds a key down."""
+    """The keys held down, as `pygame.key.get_pressed()` returns them here."""
 
     def __init__(self, real: Any, held: str) -> None:
         self.real, self.held = real, held
@@ -235,7 +235,7 @@ class Pressed:
 
 
 class FrameClock:
-    """What `pygame.time.Clock()` gives a program here; the frame rate asked for does not matter."""
+    """The clock that `pygame.time.Clock()` returns here; any frame rate asked for is ignored."""
 
     def __init__(self, script: ScriptedClock) -> None:
         self.script = script
@@ -257,7 +257,7 @@ class FrameClock:
         return self.length
 
     def get_rawtime(self) -> int:
-        """The same: here no frame waits."""
+        """Return the same as get_time(): here no frame waits."""
         return self.length
 
     def get_fps(self) -> float:

@@ -1,4 +1,4 @@
-"""A child started as a process of its own, where there is no fork: the same, only slower.
+"""Start a child as a new process where there is no fork: the same answers, only slower.
 
 The first argument is the descriptor of its channel, the others name layers that are left out.
 The first message on its channel is the ChildSetup that a forked child gets from the warm process.
@@ -14,7 +14,9 @@ from grader.worker.child import serve
 
 
 def connect() -> Channel:
-    """The channel the judge handed over: a descriptor, or on Windows a share on standard input."""
+    """Return the channel the judge handed over: a descriptor, or on Windows a share on standard
+    input.
+    """
     if sys.platform == "win32":
         return Channel(socket.fromshare(sys.stdin.buffer.read()))
     return Channel(socket.socket(fileno=int(sys.argv[1])))

@@ -40,7 +40,9 @@ def put_in_place(original: FunctionType, stand_in: Function) -> FunctionType:
 
 
 def plain_function(thing: Any) -> FunctionType | None:
-    """The function itself, beneath decorators that say what they wrap; None where there is none."""
+    """Return the function itself, beneath decorators that say what they wrap; None where there is
+    none.
+    """
     if isinstance(thing, staticmethod | classmethod):
         thing = thing.__func__
     try:

@@ -1,4 +1,4 @@
-"""How a program is started: as the lab sheet says it, by what Python runs of it as `__main__`.
+"""Start a program as the lab sheet says: run what Python runs of it as `__main__`.
 
 The module has been imported, with its TODOs swapped and its steps watched, and a second import
 under another name would know nothing of that. So of a package its `__main__.py` is run, and of a
@@ -40,7 +40,7 @@ def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
 
 
 def run_as_main(folder: Path, module: str) -> None:
-    """What `python -m module` runs besides what an import does."""
+    """Run what `python -m module` runs besides an import."""
     path = folder / module / "__main__.py"
     if path.exists():
         code: CodeType | None = compile(path.read_bytes(), path, "exec")
@@ -55,7 +55,7 @@ def run_as_main(folder: Path, module: str) -> None:
 
 @contextmanager
 def known_as_main(program: ModuleType) -> Iterator[None]:
-    """Meanwhile `__main__` is this module, for profilers and tests that look there."""
+    """Make `__main__` this module meanwhile, for profilers and tests that look there."""
     before = sys.modules["__main__"]
     sys.modules["__main__"] = program
     try:
@@ -65,7 +65,7 @@ def known_as_main(program: ModuleType) -> Iterator[None]:
 
 
 def main_block(path: Path) -> CodeType | None:
-    """What a file does only when it is started: its `if __name__ == "__main__":`."""
+    """Return what a file does only when it is started: its `if __name__ == "__main__":`."""
     if not path.exists():
         return None
     tree = ast.parse(path.read_bytes())

@@ -1,4 +1,4 @@
-"""The submission inside a child: its modules, its objects, and both as plain values.
+"""Hold the submission inside a child: its modules and objects, and both as plain values.
 
 Coming in, values are trusted: the judge sent them. Going out, nothing is: a submission may return
 a subclass of float that lies when compared, a list without end, or a world with a field missing. So
@@ -94,7 +94,10 @@ class Subject:
             self.swap(piece)
 
     def find(self, target: str) -> Any:
-        """What a target names: module:path, or #ref.path for an object. Raises ContractError."""
+        """Return what a target names: module:path, or #ref.path for an object.
+
+        Raises ContractError.
+        """
         if target.startswith("#"):
             ref, _, path = target[1:].partition(".")
             thing, label = self.objects[int(ref)], f"{type(self.objects[int(ref)]).__name__}.{path}"
@@ -109,7 +112,7 @@ class Subject:
         return thing
 
     def module_with(self, name: str, module: str) -> types.ModuleType:
-        """The module; of a package that does not export the name, the submodule that has it.
+        """Return the module; of a package that does not export the name, the submodule that has it.
 
         The lab sheet fixes names, and leaves students free to move them between files.
         """
@@ -136,14 +139,16 @@ class Subject:
             put_in_place(original, wanted)
 
     def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
-        """Whether one function of the submission is both: the other TODO's, and the one asked."""
+        """Return whether one function of the submission is both: the other TODO's, and the one
+        asked.
+        """
         try:
             return bool(piece.asked) and plain_function(self.find(piece.asked)) is original
         except ContractError:
             return False
 
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
-        """The reference's function, compiled to use the submission's classes and functions."""
+        """Return the reference's function, compiled to use the submission's names."""
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, REFERENCE, "exec"), namespace)
         exec(compile(piece.source, REFERENCE, "exec"), namespace)
@@ -161,7 +166,7 @@ class Subject:
     # ------------------------------------------------------------ values in
 
     def decode(self, argument: Argument) -> Any:
-        """An argument from the judge, as the submission's functions take it."""
+        """Return an argument from the judge, as the submission's functions take it."""
         match argument:
             case Vec(x, y):
                 return self.pair_type(x, y)
@@ -172,7 +177,9 @@ class Subject:
         return argument
 
     def integrate(self, request: Integrate) -> Items:
-        """What the integrator answers, step by step, as far as each is a state to go on from."""
+        """Return what the integrator answers, step by step, as far as each is a state to go on
+        from.
+        """
         method, accel = self.find(request.target), polynomial(request.force)
         places: list[Value] = []
         if request.places:
@@ -188,7 +195,7 @@ class Subject:
         return Items(places if request.places else answers)
 
     def make_body(self, request: MakeBody) -> Any:
-        """A body of the lesson's engine in one request: most checks make many."""
+        """Return a body of the lesson's engine in one request: most checks make many."""
         module = request.module
         shape = self.find(f"{module}:{request.shape}")(self.decode(request.size))
         body = self.find(f"{module}:Body")(
@@ -215,7 +222,7 @@ class Subject:
     # ------------------------------------------------------------ values out
 
     def ref(self, thing: Any) -> int:
-        """The number of an object, a new one at first sight."""
+        """Return the number of an object, a new one at first sight."""
         number = self.refs.get(id(thing))
         if number is None:
             number = self.refs[id(thing)] = len(self.objects) + 1
@@ -223,12 +230,13 @@ class Subject:
         return number
 
     def called(self, ref: int, thing: Any) -> Any:
-        """The same thing, which goes by a number that the judge has given it."""
+        """Return the same thing, which goes by a number that the judge has given it."""
         self.objects[ref], self.refs[id(thing)] = thing, ref
         return thing
 
     def encode(self, thing: Any) -> Value:
-        """What the submission returned, as a plain value; what is none of these becomes a Ref.
+        """Return what the submission returned, as a plain value; what is none of these becomes a
+        Ref.
 
         Raises ContractError where a body or contact lacks a field or has it in another type.
         """
@@ -254,14 +262,16 @@ class Subject:
         return Ref(self.ref(thing), type_name(thing))
 
     def state(self, ref: int) -> Value:
-        """An object as a plain value; None where it cannot be told, which whoever asks will see."""
+        """Return an object as a plain value; None where it cannot be told, which whoever asks will
+        see.
+        """
         try:
             return self.encode(self.objects[ref])
         except Exception:
             return None
 
     def body(self, body: Any) -> BodyValue:
-        """A body of the lesson's engine, as numbers."""
+        """Return a body of the lesson's engine, as numbers."""
         radius = getattr(getattr(body, "shape", None), "radius", 0.0)
         return BodyValue(
             self.ref(body),
@@ -275,7 +285,7 @@ class Subject:
         )
 
     def contact(self, contact: Any) -> ContactValue:
-        """A contact of the lesson's engine, as numbers and the refs of its bodies."""
+        """Return a contact of the lesson's engine, as numbers and the refs of its bodies."""
         return ContactValue(
             self.ref(contact),
             self.ref(field(contact, "a")),
@@ -288,7 +298,7 @@ class Subject:
         )
 
     def space(self, space: pymunk.Space) -> SpaceValue:
-        """All that stands in a pymunk space, the static body first."""
+        """Return all that stands in a pymunk space, the static body first."""
         return SpaceValue(
             self.ref(space),
             Vec(*space.gravity),
@@ -298,7 +308,7 @@ class Subject:
         )
 
     def space_body(self, body: pymunk.Body) -> SpaceBody:
-        """A pymunk body with its shapes, from left to right: pymunk's own order varies."""
+        """Return a pymunk body with its shapes, from left to right: pymunk's own order varies."""
         kinds = {pymunk.Body.DYNAMIC: "dynamic", pymunk.Body.KINEMATIC: "kinematic"}
         kind: Any = kinds.get(body.body_type, "static")
         return SpaceBody(
@@ -325,7 +335,7 @@ class Subject:
         )
 
     def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
-        """A pymunk constraint; anchors in world coordinates, where it has any."""
+        """Return a pymunk constraint; anchors in world coordinates, where it has any."""
         anchor_a, anchor_b = (
             Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
             for body, name in ((joint.a, "anchor_a"), (joint.b, "anchor_b"))
@@ -343,7 +353,8 @@ class Subject:
     # ------------------------------------------------------------ what went wrong
 
     def raised(self, error: BaseException) -> Raised:
-        """An exception as data, with the submission's own frames only; the reference's stay hidden.
+        """Return an exception as data, with the submission's own frames only; the reference's stay
+        hidden.
 
         The text is untrusted: its __str__ may fail or be long, and it may quote anything.
         """
@@ -371,7 +382,7 @@ class Subject:
 
 
 def type_name(thing: Any) -> str:
-    """What a thing calls its type; a submission may have given it any name."""
+    """Return what a thing calls its type; a submission may have given it any name."""
     return cut(type(thing).__name__, MAX_NAME)
 
 
@@ -388,7 +399,7 @@ def polynomial(coefficients: list[float]) -> Callable[..., float]:
 
 
 def noting(accel: Callable[..., float], places: list[Value]) -> Callable[..., float]:
-    """The same, and the first places at which it is asked are noted."""
+    """Return the same, and the first places at which it is asked are noted."""
 
     def noted(x: float, *others: Any) -> float:
         if len(places) < MAX_ITEMS:
@@ -399,20 +410,20 @@ def noting(accel: Callable[..., float], places: list[Value]) -> Callable[..., fl
 
 
 def refs_in(request: Call) -> list[int]:
-    """The objects that a call is given, its own among them."""
+    """Return the objects that a call is given, its own among them."""
     given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
     own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
     return [*given, *([int(own)] if own else [])]
 
 
 def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
-    """From left to right, then upwards."""
+    """Return the key that sorts shapes from left to right, then upwards."""
     box = shape.cache_bb()
     return box.left, box.bottom
 
 
 def field(thing: Any, name: str) -> Any:
-    """An attribute. Raises ContractError, so that a missing one is told in words."""
+    """Return an attribute. Raises ContractError, so that a missing one is told in words."""
     try:
         return getattr(thing, name)
     except AttributeError:
@@ -420,7 +431,7 @@ def field(thing: Any, name: str) -> Any:
 
 
 def field_number(thing: Any, name: str) -> float:
-    """An attribute as a number."""
+    """Return an attribute as a number."""
     value = field(thing, name)
     if type(value) is float:  # most are, and most of what a child does is this
         return value
@@ -428,7 +439,7 @@ def field_number(thing: Any, name: str) -> float:
 
 
 def field_pair(thing: Any, name: str) -> Vec:
-    """An attribute as a pair of numbers."""
+    """Return an attribute as a pair of numbers."""
     value = field(thing, name)
     pair = as_pair(value)
     if pair is None:
@@ -439,7 +450,8 @@ def field_pair(thing: Any, name: str) -> Vec:
 
 
 def as_number(value: Any, what: str) -> float:
-    """A true int or float, rebuilt from whatever number-like thing the submission made of it.
+    """Return a true int or float, rebuilt from whatever number-like thing the submission made of
+    it.
 
     `int.__int__` and `float.__float__` read the value itself: a subclass may override both.
     Raises ContractError for anything but a number; a bool is none.
@@ -455,7 +467,7 @@ def as_number(value: Any, what: str) -> float:
 
 
 def as_pair(value: Any) -> Vec | None:
-    """A pair of numbers from any sequence of two; None if it is not one."""
+    """Return a pair of numbers from any sequence of two; None if it is not one."""
     if type(value) is pygame.Vector2:
         return Vec(value.x, value.y)
     try:
@@ -468,5 +480,5 @@ def as_pair(value: Any) -> Vec | None:
 
 
 def describe(value: Any) -> str:
-    """What a value is, for a message; its repr() would be the submission's own code."""
+    """Return what a value is, for a message; its repr() would be the submission's own code."""
     return "None" if value is None else f"of type {type_name(value)}"

@@ -1,4 +1,4 @@
-"""The warm process: a fork server, which has the libraries loaded and forks a child for each check.
+"""Run the warm process: a fork server that has the libraries loaded and forks a child per check.
 
 It never imports the submission, so that one check cannot leave anything behind for the next. It
 is the parent of all children and ends whatever they leave running. The judge drives it through
@@ -167,7 +167,9 @@ def end_strays() -> int:
 
 
 def stray_pids() -> list[int]:
-    """Which processes to kill: all (-1) where the namespace holds no others, or all descendants."""
+    """Return which processes to kill: all (-1) where the namespace holds no others, or all
+    descendants.
+    """
     if os.getpid() == 1:
         return [-1]
     with at_hand():
@@ -175,7 +177,7 @@ def stray_pids() -> list[int]:
 
 
 def has_children() -> bool:
-    """Whether any process is left: orphans become children of this one (see isolate_server)."""
+    """Return whether any process is left: orphans become our children (see isolate_server)."""
     try:
         os.waitpid(-1, os.WNOHANG)
     except ChildProcessError:

@@ -310,11 +310,11 @@ def test_every_region_has_something_to_look_for(secrets: list[Secret]):
 
 def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
     names = [path.name for path in released.installed.rglob("*")]
-    assert not {"maintain", "classroom"} & set(names)
-    assert not [name for name in names if name.startswith(("mistakes_", "cases"))]
+    assert not {"bank", "bench", "classroom", "intake", "release"} & set(names)
+    assert not [name for name in names if name.startswith(("mistakes", "cases"))]
     questions = {path.stem for path in released.installed.glob("grader/questions/*.py")}
     assert questions == {
-        *("__init__", "films", "home", "lines", "operators", "page", "pictures", "practice"),
+        *("__init__", "films", "lines", "page", "pictures", "practice"),
         *("program", "question", "reasons", "scene", "sheet"),
     }
     texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
@@ -713,6 +713,8 @@ def test_no_check_imports_an_oracle_by_its_name():
     names = set(recorded.oracles)
     assert names == {name for name in names if callable(getattr(exact, name))}
     for path in CHECKS.rglob("*.py"):
+        if path.name == "mistakes.py":  # students do not get these
+            continue
         text = path.read_text(encoding="utf-8")
         for imported in re.findall(r"from grader.checks.exact import \(?([\w, \n]+)", text):
             assert not names & set(re.findall(r"\w+", imported)), path
