@@ -108,7 +108,7 @@ def the_scene_is_that_of_the_lesson(lab: Lab) -> None:
 
 def want_the_first_scene(lab: Lab, played: Played, when: str) -> None:
     """Insist that a program of the mini engine shows what make_world makes."""
-    expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab) if p.mass}
+    expected = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     found = moving_parts(played)
     lab.want(
         {rounded(row) for row in expected} == {rounded(row) for row in found},
@@ -251,7 +251,7 @@ def want_all_inside(lab: Lab, played: Played) -> None:
             )
     static = [body for body in played.bodies if isinstance(body, BodyValue) and not body.inv_mass]
     places = {(body.pos.x, body.pos.y) for body in static}
-    began = {part.pos for part in world_parts(lab) if not part.mass}
+    began = {part.pos for part in world_parts(lab, SEED) if not part.mass}
     still = all((*body.vel, body.angle, body.omega) == (0, 0, 0, 0) for body in static)
     lab.want(
         places == began and still,
@@ -323,7 +323,7 @@ def want_the_scene_again(lab: Lab, found: set[tuple[float, ...]]) -> bool:
 
     A random generator that goes on gives balls of other sizes.
     """
-    first = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab) if p.mass}
+    first = {(*p.pos, p.shape[0], p.mass) for p in world_parts(lab, SEED) if p.mass}
     bob = (*BOB.pos, *BOB.shape, BOB.mass)
     balls = {row for row in found if rounded(row) != rounded(bob)}
     lab.want(
@@ -469,7 +469,7 @@ def want_a_free_box(lab: Lab, level: int) -> None:
     """A ball hits one box of the stack: that one moves, and leaves the lowest or the top one."""
     speed = lab.about(3000.0, 400.0)
     lab.ran(f"make_space, and a ball at {speed:g} px/s against box {level} of the stack")
-    space, stack = pymunk_scene(lab)
+    space, stack = pymunk_scene(lab, SEED)
     lab.want(len(stack) == 4, "a stack of 4 boxes", f"{len(stack)}")
     thing = lab.thing(space)
     hit_by_a_ball(lab, thing, (650, 542 - 36 * level), speed)

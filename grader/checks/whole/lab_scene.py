@@ -76,7 +76,7 @@ def turning_as_a_disc(part: Part) -> Part:
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 
-def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int = SEED) -> None:
+def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> None:
     """Insist on these parts, on eight balls drawn by this seed, and on nothing else."""
     first = random.Random(seed).randint(10, 22)  # px
     for part in expected:
@@ -124,7 +124,7 @@ def close(first: Sequence[float], second: Sequence[float]) -> bool:
 # ---------------------------------------------------------------- what the submission has
 
 
-def world_parts(lab: Lab, seed: int = SEED) -> list[Part]:
+def world_parts(lab: Lab, seed: int) -> list[Part]:
     """The bodies that make_world(random.Random(12)) puts into the mini engine's world."""
     world = lab.thing(lab.call("make_world", Rng(seed)), "a World")
     bodies = lab.items(lab.get(world, "bodies"), "the bodies of the scene")
@@ -146,7 +146,7 @@ def body_part(lab: Lab, body: BodyValue) -> Part:
     )
 
 
-def pymunk_scene(lab: Lab, seed: int = SEED) -> tuple[SpaceValue, list[Thing]]:
+def pymunk_scene(lab: Lab, seed: int) -> tuple[SpaceValue, list[Thing]]:
     """The space that make_space(random.Random(12)) returns, and the boxes of its stack."""
     items = lab.items(lab.call("make_space", Rng(seed)), "what make_space returns")
     lab.want(len(items) == 2, "make_space to return (space, stack)", f"{len(items)} things")
