@@ -292,6 +292,7 @@ class Play(Struct, frozen=True, tag="play"):
     trail_every: int = 0  # record every moving body after each so many steps; 0 = never
     pictures: bool = False  # False: next to nothing is drawn
     photos: list[int] = []  # the frames at whose end the window is photographed
+    step_ms: float = 0.0  # how long each step takes on the scripted clock
 
 
 Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own

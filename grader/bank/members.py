@@ -8,6 +8,8 @@
   for those whose checks need that very text.
 - `tests/bank/ladders/6/2-keeps-the-rest.py`: a rung of a ladder, graded on its TODO alone. Rung 0
   earns nothing, the last one all, and none less than the one before. See ladders.py.
+- `tests/bank/lesson/`: the lesson's programs as printed, which have all points, and in
+  variants.toml what may be different about them. `verify` grades these first.
 - `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
 - `tests/bank/hostile/NAME.py`, `NAME.toml` or `NAME/`: an attack, and the marks in `bank.toml`.
 - `tests/bank/old_package/`: the package as it was handed out before its bonus tasks had a folder.
@@ -33,7 +35,7 @@ from grader.source.regions import Region, python_files, read_source, regions_in,
 
 Kind = Literal["wrong", "right", "hostile", "ladder"]
 Form = Literal["package", "single file"]
-Base = Literal["solution", "starter", "old package", "empty"]
+Base = Literal["solution", "starter", "old package", "lesson", "empty"]
 
 
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
@@ -59,8 +61,9 @@ class Book(Struct, frozen=True, forbid_unknown_fields=True):
 
 class Replacement(Struct, frozen=True, forbid_unknown_fields=True):
     file: str
-    old: str  # stands there once
+    old: str  # stands there `times` times
     new: str
+    times: int = 1
 
 
 class Edits(Struct, frozen=True, forbid_unknown_fields=True):
@@ -68,6 +71,12 @@ class Edits(Struct, frozen=True, forbid_unknown_fields=True):
 
     replace: list[Replacement] = []
     everywhere: str = ""  # code for every TODO
+    files: dict[str, str] = {}  # more files, by name
+
+    @property
+    def modules(self) -> set[str]:
+        """The programs it is made in."""
+        return {each.file.partition("/")[0].removesuffix(".py") for each in self.replace}
 
 
 class Breach(Edits, frozen=True, kw_only=True):
@@ -75,11 +84,6 @@ class Breach(Edits, frozen=True, kw_only=True):
 
     breaks: str  # the promise
     also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
-
-    @property
-    def modules(self) -> set[str]:
-        """The programs it is made in."""
-        return {each.file.partition("/")[0].removesuffix(".py") for each in self.replace}
 
 
 @dataclass(frozen=True)
@@ -92,6 +96,7 @@ class Member:
     entry: Entry
     source: Path | None  # a patch, edits, a folder to lay over, or nothing but a transform
     course: Course = field(default=FULL, compare=False)  # by which it is graded
+    variant: Edits | None = field(default=None, compare=False)  # of the lesson's programs
 
     @property
     def is_patch(self) -> bool:
@@ -100,6 +105,8 @@ class Member:
 
     @property
     def edits(self) -> Edits | None:
+        if self.variant is not None:
+            return self.variant
         if self.source is None or self.source.suffix != ".toml":
             return None
         kind = Breach if self.kind == "wrong" else Edits
@@ -134,12 +141,13 @@ class Member:
         """
         if self.kind == "ladder":
             return self.todos
+        todos = [todo for todo in load_rubric().todos if todo.function]
+        edits = self.breach or self.variant
+        if edits is not None:
+            near = {t.id for t in todos if t.module in edits.modules and not t.bonus}
+            return frozenset(near | {"whole"})
         if self.kind == "hostile" or not self.todos:
             return frozenset()
-        todos = [todo for todo in load_rubric().todos if todo.function]
-        if self.breach is not None:
-            near = {t.id for t in todos if t.module in self.breach.modules and not t.bonus}
-            return frozenset(near | {"whole"})
         touched = {todo.module for todo in todos if todo.id in self.todos}
         wanted = {
             todo.id
@@ -163,6 +171,9 @@ class Member:
         base = self.entry.base
         if base == "empty":
             folder.mkdir(parents=True)
+        elif base == "lesson":
+            ignored = shutil.ignore_patterns("*.toml", "__pycache__")
+            shutil.copytree(kit / "tests" / "bank" / "lesson", folder, ignore=ignored)
         else:
             ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
             tree = "starter" if base == "starter" else "solution"
@@ -229,6 +240,7 @@ def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
 def every_member(kit: Path) -> Iterator[Member]:
     """All of the bank, wrong ones in each form they can take."""
     bank = kit / "tests" / "bank"
+    yield from lesson_members(bank / "lesson")
     book = msgspec.toml.decode((bank / "bank.toml").read_bytes(), type=Book)
     for path in sorted((bank / "wrong").glob("*.py")):
         entry = book.wrong.get(path.stem, Entry())
@@ -245,6 +257,17 @@ def every_member(kit: Path) -> Iterator[Member]:
             yield Member(kind, name, "package", entries.get(name, Entry()), files.get(name))
     yield Member("right", "single-file", "single file", Entry(), None)
     yield from rungs(bank / "ladders")
+
+
+def lesson_members(folder: Path) -> Iterator[Member]:
+    """The lesson's programs as printed, under both names of their files, and their variants."""
+    entry = Entry(base="lesson")
+    yield Member("right", "lesson-as-printed", "package", entry, None)
+    renamed = Entry(base="lesson", transform="printed-names")
+    yield Member("right", "lesson-under-printed-names", "package", renamed, None)
+    variants = msgspec.toml.decode((folder / "variants.toml").read_bytes(), type=dict[str, Edits])
+    for name, edits in variants.items():
+        yield Member("right", f"lesson-{name}", "package", entry, None, variant=edits)
 
 
 def rungs(folder: Path) -> Iterator[Member]:
@@ -281,15 +304,17 @@ def lay_over(source: Path, folder: Path) -> None:
 
 
 def replace_text(edits: Edits, folder: Path) -> None:
-    """Edit the files of `folder`; ValueError where an old text is not there once."""
+    """Edit the files of `folder`; ValueError where an old text is not there as often as it says."""
     for each in edits.replace:
         path = folder / each.file
         text = read_source(path)
-        if text.count(each.old) != 1:
+        if text.count(each.old) != each.times:
             raise ValueError(
-                f"{each.file} holds {each.old!r} {text.count(each.old)} times, not once"
+                f"{each.file} holds {each.old!r} {text.count(each.old)} times, not {each.times}"
             )
         path.write_text(text.replace(each.old, each.new), encoding="utf-8")
+    for name, text in edits.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
     if edits.everywhere:
         fill_every_todo(folder, edits.everywhere)
 
@@ -423,6 +448,11 @@ def copies_inside(folder: Path) -> None:
         shutil.copyfile(starter, package / f"{name}_old.py")
 
 
+def use_printed_names(folder: Path) -> None:
+    for name in ("mini_engine", "pymunk_scene"):
+        (folder / f"{name}.py").rename(folder / f"{name}_starter.py")
+
+
 def leave_out_given_files(folder: Path) -> None:
     """Hand in only what has a TODO."""
     for path in [folder / "lab_runtime.py", *(folder / "mini_engine").rglob("*.py")]:
@@ -433,6 +463,7 @@ def leave_out_given_files(folder: Path) -> None:
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "copies-beside": copies_beside,
     "copies-inside": copies_inside,
+    "printed-names": use_printed_names,
     "given-files-missing": leave_out_given_files,
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),

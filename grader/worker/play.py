@@ -10,6 +10,7 @@ import sys
 import zlib
 from collections.abc import Callable
 from contextlib import nullcontext
+from functools import partial
 from types import FunctionType
 from typing import Any, Literal
 
@@ -62,6 +63,7 @@ class StepCounter:
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
+        self.on_step: Callable[[], None] = lambda: None  # called when a step has run
         self.inside = False  # a derived class may call the step that it overrides
         self.in_advance = False
         for function in steps_of(owner):
@@ -103,6 +105,7 @@ class StepCounter:
             result = run()
         finally:
             self.inside = False
+        self.on_step()
         if self.trail_every and self.total % self.trail_every == 0:
             self.trail.append(moving_state(world))
         if self.in_frame >= RUNAWAY:
@@ -156,6 +159,7 @@ def play(
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
+    counter.on_step = partial(clock.pass_time, request.step_ms)
     advance = advance_of(subject, request.module)
     if advance is not None:
         counter.watch_advance(advance)

@@ -1,4 +1,4 @@
-"""The scenes of the whole program hold with other balls and at other times: no mark is by chance."""
+"""Scenes of the whole program hold with other balls and at other times: no mark is by chance."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -427,9 +427,9 @@ def the_pymunk_stack_falls_when_it_is_knocked_over(lab: Lab) -> None:
     """In pymunk the stack falls when it is knocked over, and the program says so"""
     for level in (0, 3):
         want_a_free_box(lab, level)
-    lab.ran("the pymunk program, with 8 balls dropped into the right edge of the top box")
+    lab.ran("the pymunk program, with 16 balls dropped onto the right edge of the top box")
     first = lab.whole(20, 4)
-    clicks = [Event(first + number, "click", (785, 430)) for number in range(8)]
+    clicks = [Event(first + number, "click", (785, 430)) for number in range(16)]
     knocked = lab.play(frames_at(20, 3.5), clicks)
     want_a_proper_end(lab, knocked, 70)
     want_tipped(lab, knocked, True)
