@@ -130,7 +130,8 @@ def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     want_a_proper_end(lab, played, count)
     lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
     both = zip(lengths[len(OFF_BEAT) :], asked, strict=False)
-    longer = (length for length, frame in both if length > frame + ROUNDING)
+    work = step_ms * max(steps, default=0)  # in a frame that is shorter than its steps
+    longer = (length for length, frame in both if length > max(frame, work) + ROUNDING)
     # A program that sleeps before its first steps may have all of that left.
     waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), LONGEST_WAIT)
     paced = Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)

@@ -168,7 +168,7 @@ def play(
 
     def frame_over() -> None:
         steps.append(counter.in_frame)
-        times.append(clock.elapsed)
+        times.append(clock.elapsed - request.step_ms * counter.in_frame)  # before its steps
         counter.in_frame = 0
         window.record(len(steps) - 1, clock.flips)
         camera.record(clock.elapsed / 1000, counter.total)
