@@ -11,7 +11,7 @@ from grader.checks.whole import checks
 from grader.judge.grade import KIT, opened
 from grader.judge.lab import Lab
 
-LESSON = KIT / "tests" / "bank" / "lesson"
+LESSON = KIT / "tests" / "bank" / "right" / "lesson-as-printed"
 SCENES: dict[str, list[Callable[[Lab], None]]] = {
     "mini_engine": [
         checks.the_rod_swings_alike_at_any_frame_rate,
