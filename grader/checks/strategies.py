@@ -59,7 +59,7 @@ once = settings(
     derandomize=True,
     report_multiple_bugs=False,
     print_blob=False,
-    suppress_health_check=list(HealthCheck),
+    suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
 )
 frame_rates = st.integers(24, 360)  # frames per second
 frame_lengths = st.integers(1, 58) | st.integers(59, 2000)  # ms; some below the cap, some above

@@ -25,7 +25,7 @@ JUDGE_SETTINGS = hypothesis.settings(
     report_multiple_bugs=False,
     print_blob=False,
     phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
-    suppress_health_check=list(hypothesis.HealthCheck),
+    suppress_health_check=list(hypothesis.HealthCheck),  # pyright: ignore[reportArgumentType]
 )
 hypothesis.settings.register_profile("judge", JUDGE_SETTINGS)
 
