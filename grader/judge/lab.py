@@ -83,6 +83,7 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for what is made at our word
         self.remembers: list[str] = []  # the names in which something was kept; see Remembered
         self.played = False  # whether the child has run a program
+        self.opening: Event | None = None  # what ends the title of the program, if it has one
 
     @property
     def ended(self) -> bool:
@@ -372,20 +373,46 @@ class Lab(Decoder):
         physics: bool = True,
         trail_every: int = 0,
         pictures: bool = False,
+        photos: Sequence[int] = (),
+        step_ms: float = 0.0,
         module: str = "",
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
-        A second run has a process of its own: a program may count on being started once.
+        A second run has a process of its own: a program may count on being started once. Where no
+        step runs the program may show a title first, so it is opened as a person would try to.
         """
+        request = Play(
+            module or self.module,
+            frames,
+            list(events),
+            physics,
+            trail_every,
+            pictures,
+            list(photos),
+            step_ms,
+        )
+        if self.opening is not None:
+            return without_opening(self._played(with_opening(request, self.opening)))
+        reply = self._played(request)
+        if any(reply.steps) or reply.ended != "returned":
+            return reply
+        for opening in OPENINGS:
+            other = without_opening(self._played(with_opening(request, opening)))
+            if any(other.steps):
+                self.opening = opening
+                return other
+        return reply
+
+    def _played(self, request: Play) -> Played:
+        """Run the program once."""
         if self.played:
             self.start_anew()
         self.played = True
-        request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
-        asked = zip(reply.clock, accumulate(frames, initial=0), strict=False)
+        asked = zip(reply.clock, accumulate(request.frames, initial=0), strict=False)
         self.want(
             all(told >= ms - ROUNDED for told, ms in asked),
             "frames that take as long as they are asked to",
@@ -415,6 +442,46 @@ class Lab(Decoder):
         except (Broke, NotYet) as failure:
             self.remember(failure)
             raise
+
+
+OPENING = [17] * 4  # ms: frames in which a program shows its title
+OPENINGS = (  # what a person tries
+    Event(2, "key", key="return"),
+    Event(2, "click", (450, 300)),
+    Event(2, "key", key="space"),
+)
+
+
+def with_opening(request: Play, opening: Event) -> Play:
+    """Return the request with a few frames before all others, in which an event ends the title."""
+    later = [
+        msgspec.structs.replace(each, frame=each.frame + len(OPENING)) for each in request.events
+    ]
+    return msgspec.structs.replace(
+        request,
+        frames=[*OPENING, *request.frames],
+        events=[opening, *later],
+        photos=[frame + len(OPENING) for frame in request.photos],
+    )
+
+
+def without_opening(played: Played) -> Played:
+    """Return what a program did after its opening; steps that ran in it belong to the first frame.
+
+    The clock goes on from the beginning of the first frame.
+    """
+    count = len(OPENING)
+    if len(played.steps) <= count:
+        return played
+    first = sum(played.steps[: count + 1])
+    began = played.clock[count - 1]
+    return msgspec.structs.replace(
+        played,
+        steps=[first, *played.steps[count + 1 :]],
+        clock=[each - began for each in played.clock[count:]],
+        pictures=played.pictures[count:],
+        photos=[msgspec.structs.replace(p, frame=p.frame - count) for p in played.photos],
+    )
 
 
 class Advance(NamedTuple):
