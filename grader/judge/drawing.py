@@ -39,7 +39,7 @@ def given(
         report_multiple_bugs=False,
         print_blob=False,
         phases=phases if shrinks else phases[:2],
-        suppress_health_check=list(HealthCheck),
+        suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
     )
     return lambda function: settings(hypothesis.given(**strategies)(function))
 

@@ -16,6 +16,7 @@ from typing import Any, Literal
 
 import pygame
 import pymunk
+from pymunk.constraints import PinJoint
 
 from grader.protocol import (
     MAX_LINES,
@@ -277,7 +278,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
-            if isinstance(joint, pymunk.PinJoint):
+            if isinstance(joint, PinJoint):
                 begin = joint.a.local_to_world(joint.anchor_a)
                 end = joint.b.local_to_world(joint.anchor_b)
                 found.append(((end - begin).length, joint.distance))
