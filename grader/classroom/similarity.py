@@ -30,7 +30,7 @@ from grader.intake.listing import opened_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
-from grader.player.page import filled
+from grader.player.page import fill_template
 from grader.report.files import write_whole
 from grader.report.sinks.tables import as_csv
 from grader.source.regions import python_files
@@ -249,7 +249,7 @@ def write_alike(
 ) -> Path:
     """Write the pairs as a page, a table and for the class page; `found` has them all by name."""
     places = Places(results.resolve())
-    page = filled(
+    page = fill_template(
         TEMPLATES / "alike.html",
         (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
         title=results.name,

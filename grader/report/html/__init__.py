@@ -7,7 +7,7 @@ from pathlib import Path
 from grader.judge.isolation import unconfined
 from grader.judge.result import Result
 from grader.judge.wording import named_reasons
-from grader.player.page import filled, hashes, one_line
+from grader.player.page import clean_line, fill_template, hash_player
 from grader.report.files import write_whole
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -38,7 +38,7 @@ def write_report(
 
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
-    page = filled(TEMPLATES / "standing.html", style(), standing=standing, clean=one_line)
+    page = fill_template(TEMPLATES / "standing.html", style(), standing=standing, clean=clean_line)
     write_whole(page.encode("utf-8"), path)
 
 
@@ -48,15 +48,15 @@ def report(
     standing: Standing | None = None,
 ) -> str:
     """The page; `replays` are the pages to embed, by their paths in the result."""
-    return filled(
+    return fill_template(
         TEMPLATES / "report.html",
         style(),
-        around=hashes(),
+        around=hash_player(),
         result=result,
         replays=replays,
         standing=standing,
         unconfined=unconfined(result.isolation),
-        clean=one_line,
+        clean=clean_line,
         reasons=named_reasons,
     )
 
