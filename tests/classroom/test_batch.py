@@ -186,7 +186,7 @@ def test_what_decides_uses_nothing_that_does_not_count():
     assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
     # Replays show what was decided, in the words of reports.
     shown = {name: files for name, files in used.items() if name not in places}
-    assert shown == {"player": {"filming.py", "replay.py"}, "words": {"replay.py"}}
+    assert shown == {"player": {"recording.py", "replay.py"}, "words": {"replay.py"}}
 
 
 # ---------------------------------------------------------------- adjustments, table, notes

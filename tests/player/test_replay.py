@@ -768,7 +768,7 @@ def test_the_script_can_be_copied(browser: Any, pages: Path):
 # ---------------------------------------------------------------- the whole bank
 
 
-# What cannot be seen where a scene is record_again by itself.
+# Mistakes that a scene alone does not show.
 UNSEEN = {
     "B3-remembers-the-first-grid": "right in the first scene",
     "B3-compares-all-pairs": "right everywhere, and slow",
