@@ -1,4 +1,4 @@
-"""The commands of those who look after the kit: each says whether all is sound."""
+"""Define the maintainers' commands, which verify, release and measure the kit."""
 
 import random
 from pathlib import Path
@@ -8,12 +8,13 @@ import typer
 
 from grader.cli.shared import (
     CourseFile,
+    check_todos,
     console,
-    course_in,
-    known_todos,
-    needs_checkout,
-    stop,
+    print_note,
+    require_checkout,
 )
+from grader.errors import Stop
+from grader.judge.course import read_course
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
 
@@ -27,17 +28,14 @@ def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
     """Carry the solution's given code over into the starter."""
-    needs_checkout("sync")
-    from grader.bank.sync import OutOfStep, sync
+    require_checkout("sync")
+    from grader.bank.sync import sync
 
-    try:
-        lines = sync(KIT / "solution", KIT / "starter", write=not check)
-    except OutOfStep as error:
-        stop(str(error), "go on")
+    lines = sync(KIT / "solution", KIT / "starter", write=not check)
     for line in lines or ["nothing to do: starter and solution are in step"]:
         console.print(line)
-    asked = {todo.id for todo in course_in(None).rubric.todos}
-    left = [todo.id for todo in load_rubric().todos if todo.id not in asked]
+    named = {todo.id for todo in read_course().rubric.todos}
+    left = [todo.id for todo in load_rubric().todos if todo.id not in named]
     if left and not check:
         console.print(f"course.toml does not name TODO {', '.join(left)}: nobody is asked for it")
     raise typer.Exit(1 if check and lines else 0)
@@ -54,11 +52,11 @@ def verify_command(
 
     What build/verify holds of an earlier run is not graded again, unless something changed.
     """
-    needs_checkout("verify")
+    require_checkout("verify")
     from grader.bank.verify import verify
 
-    taken = course_in(course)
-    raise typer.Exit(0 if verify(jobs, only, console, fresh, taken).sound else 1)
+    sound = verify(jobs, only, console, fresh, read_course(course)).sound
+    raise typer.Exit(0 if sound else 1)
 
 
 @app.command("release")
@@ -74,15 +72,11 @@ def release_command(
 
     Exit status 0: it is there, 2: it was not made, and why.
     """
-    needs_checkout("release")
-    from grader.release.build import Refused, release
+    require_checkout("release")
+    from grader.release.build import release
 
-    try:
-        made = release(out, jobs, console, fresh, course_in(course))
-    except Refused as error:
-        stop(str(error), "release")
-    for path in made:
-        console.print(f"made {path}", soft_wrap=True)
+    for path in release(out, jobs, console, fresh, read_course(course)):
+        print_note(f"made {path}")
 
 
 @app.command("mutants")
@@ -103,14 +97,14 @@ def mutants_command(
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     With --alone, neither what the others lose nor names are looked at.
     """
-    needs_checkout("mutants")
+    require_checkout("mutants")
     from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
 
-    todos = known_todos(todo)
-    known = sorted({mutant.operator for mutant in all_mutants()})
+    todos = check_todos(todo)
+    operators = sorted({mutant.operator for mutant in all_mutants()})
     for name in operator or ():
-        if name not in known:
-            stop(f"there is no operator {name}; there are {', '.join(known)}", "go on")
+        if name not in operators:
+            raise Stop(f"there is no operator {name}; there are {', '.join(operators)}")
     mutants = choose_mutants(todos, operator or ())
     if count:
         mutants = random.Random(seed).sample(mutants, min(count, len(mutants)))
@@ -127,7 +121,7 @@ def bench_command(
 
     A round takes about two minutes.
     """
-    needs_checkout("bench")
+    require_checkout("bench")
     from grader.bench.figures import bench
 
     bench(rounds, size, console)

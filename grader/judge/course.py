@@ -10,11 +10,12 @@ from collections.abc import Iterator, Sequence
 from datetime import date, datetime, time, timedelta, timezone
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import msgspec
-from msgspec import Struct, structs
+from msgspec import Meta, Struct, structs
 
+from grader.errors import Stop
 from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
@@ -26,19 +27,23 @@ END_OF_DAY = time(23, 59, 59)  # when something is due that is due on a day
 ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last of all
 
 
-class WrongCourse(Exception):
+class WrongCourse(Stop):
     """A course cannot be as its file says; the message names the file and what to write."""
+
+
+Count = Annotated[int, Meta(ge=0)]
+Share = Annotated[str, Meta(pattern=r"^\d+%$")]
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
     """What lateness costs, begun days counted as whole: in a course, and in a class's decisions."""
 
-    per_day: int | str = 0  # points, or a share of those earned, as "10%"
-    at_most: int = 100  # points that lateness takes
-    grace: int = 0  # minutes after the due date that cost nothing
-    free_days: int = 0  # late days that each student has
-    cap: int | None = None  # the most that late work can have
-    closed_after: int | None = None  # days, after which there are no points
+    per_day: Count | Share = 0  # points, or a share of those earned, as "10%"
+    at_most: Count = 100  # points that lateness takes
+    grace: Count = 0  # minutes after the due date that cost nothing
+    free_days: Count = 0  # late days that each student has
+    cap: Count | None = None  # the most that late work can have
+    closed_after: Count | None = None  # days, after which there are no points
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:

@@ -116,12 +116,15 @@ class Body:
 
     @property
     def is_static(self) -> bool:
-        """Whether no force can move this body."""
+        """Return whether no force can move this body."""
         return self.inv_mass == 0
 
     @property
     def mass(self) -> float:
-        """The mass in kg, 0 for a static body, which stays static. Setting it wakes the body."""
+        """Return the mass in kg, 0 for a static body, which stays static.
+
+        Setting it wakes the body.
+        """
         return self.m
 
     @mass.setter
@@ -137,7 +140,7 @@ class Body:
 
     @property
     def restitution(self) -> float:
-        """The share of speed that an impact gives back, 0 to 1. Setting it wakes the body."""
+        """Return the share of speed that an impact returns, 0 to 1. Setting it wakes the body."""
         return self.e
 
     @restitution.setter
@@ -148,7 +151,7 @@ class Body:
 
     @property
     def friction(self) -> float:
-        """The friction of its surface, 0 or more. Setting it wakes the body."""
+        """Return the friction of its surface, 0 or more. Setting it wakes the body."""
         return self.mu
 
     @friction.setter
@@ -159,7 +162,7 @@ class Body:
 
     @property
     def pos(self) -> Vector2:
-        """The centre in px. Set it as a whole, which wakes the body: a part cannot be set."""
+        """Return the centre in px. Set both coordinates at once; this wakes the body."""
         return read("Body.pos", self.x, self.y)
 
     @pos.setter
@@ -169,7 +172,10 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """The velocity in px/s. Set it as a whole, which wakes the body: a part cannot be set."""
+        """Return the velocity in px/s.
+
+        Set it as a whole, which wakes the body: a part cannot be set.
+        """
         return read("Body.vel", self.vx, self.vy)
 
     @vel.setter
@@ -179,7 +185,7 @@ class Body:
 
     @property
     def omega(self) -> float:
-        """The spin in rad/s, clockwise on the screen. Setting it wakes the body."""
+        """Return the spin in rad/s, clockwise on the screen. Setting it wakes the body."""
         return self.w
 
     @omega.setter
@@ -201,7 +207,7 @@ class Body:
         self.wake()
 
     def contains(self, point: Iterable[float]) -> bool:
-        """Whether a point (px) is in the body or on its edge."""
+        """Return whether a point (px) is in the body or on its edge."""
         x, y = pair("Body.contains's point", point)
         dx, dy = x - self.x, y - self.y
         if self.radius:

@@ -1,4 +1,4 @@
-"""What a scene calls for and does not declare, and what it declares and has no use for."""
+"""Name the effects that a scene needs and does not declare, or declares and does not use."""
 
 from .body import Body
 from .effect import WorldState
@@ -6,12 +6,12 @@ from .joint import Joint
 
 
 def complaints(world: WorldState) -> list[str]:
-    """One sentence for each effect that is called for and missing, or declared and not used."""
+    """Return one sentence for each effect that is missing, or declared and not used."""
     return [*missing(world), *unused(world)]
 
 
 def missing(world: WorldState) -> list[str]:
-    """A sentence for each effect that the scene calls for and does not declare.
+    """Return a sentence for each effect that the scene calls for and does not declare.
 
     Friction and restitution that were given call for their effects, above 0 and where something
     can move. A static body calls for contacts unless a joint is tied to it: it is there to be
@@ -37,7 +37,7 @@ def missing(world: WorldState) -> list[str]:
 
 
 def tied(body: Body, world: WorldState) -> bool:
-    """Whether a rod or spring is tied to the body."""
+    """Return whether a rod or spring is tied to the body."""
     joints: list[Joint] = []
     for effect in world.effects.values():
         joints += getattr(effect, "joints", [])
@@ -45,7 +45,7 @@ def tied(body: Body, world: WorldState) -> bool:
 
 
 def unused(world: WorldState) -> list[str]:
-    """A sentence for each declared effect that nothing in the scene has a use for."""
+    """Return a sentence for each declared effect that nothing in the scene has a use for."""
     return [
         f"This scene declares {name}(), but has no use for it. Leave it out, or add what it is for."
         for name, effect in world.effects.items()

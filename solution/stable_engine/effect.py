@@ -65,7 +65,10 @@ class Effect:
         """Take a joint off this effect's own list."""
 
     def is_used(self) -> bool:
-        """Whether anything in the world has a use for this effect. Asked by World.check alone."""
+        """Return whether anything in the world has a use for this effect.
+
+        Asked by World.check alone.
+        """
         return True
 
     # once per step
@@ -105,22 +108,24 @@ class Effect:
         """Fill in what this effect needs of a new contact, such as its friction."""
 
     def body_changed(self, body: Body) -> None:
-        """The mass, friction or restitution of a body was set: take over the new value."""
+        """Take over a new mass, friction or restitution of a body."""
 
     def lighter(self, body: Body, share: float) -> None:
-        """The mass of a body is about to fall to this share of what it was: 0 where it leaves."""
+        """Prepare for a body whose mass falls to this share of what it was: 0 where it leaves."""
 
     def static_moved(self, body: Body) -> None:
-        """The place, velocity or spin of a static body was set: wake whom it concerns."""
+        """Wake the bodies that a new position, velocity or spin of a static body concerns."""
 
     def forget(self, body: Body) -> None:
-        """A body leaves the world: drop all that refers to it."""
+        """Drop all that refers to a body, which leaves the world."""
 
     def after_impact(self, c: Contact, jn: float) -> None:
         """Respond to an impact of jn (kg px/s) along the normal: friction acts at that instant."""
 
     def links(self) -> list[tuple[Body, Body]]:
-        """The pairs of bodies it connects, the edges of islands: they sleep and wake together."""
+        """Return the pairs of bodies it connects, the edges of islands: they sleep and wake
+        together.
+        """
         return []
 
     def awake_changed(self) -> None:

@@ -54,7 +54,7 @@ class Sleep(Effect):
             self.update_awake()
 
     def find_islands(self) -> list[list[Body]]:
-        """The awake balls in groups, by union-find: connected ones get the same root."""
+        """Return the awake balls in groups, by union-find: connected ones get the same root."""
         parent = {body: body for body in self.world.awake}
 
         def root(body: Body) -> Body:
@@ -80,5 +80,5 @@ class Sleep(Effect):
 
 
 def sleepers(contacts: Contacts) -> list[Body]:
-    """The sleeping balls in a contact: one is only found where the other body is awake."""
+    """Return the sleeping balls in a contact: one is only found where the other body is awake."""
     return [body for c in contacts.touching for body in (c.a, c.b) if body.asleep]

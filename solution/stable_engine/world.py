@@ -68,7 +68,7 @@ class World(WorldState):
 
     @property
     def gravity(self) -> tuple[float, float]:
-        """The gravity in px/s². Setting another one wakes all bodies."""
+        """Return the gravity in px/s². Setting another one wakes all bodies."""
         return self.g
 
     @gravity.setter
@@ -80,7 +80,7 @@ class World(WorldState):
 
     @property
     def substeps(self) -> int:
-        """How many substeps make a step."""
+        """Return how many substeps make a step."""
         return self.substep_count
 
     @substeps.setter
@@ -154,7 +154,7 @@ class World(WorldState):
         self.need(joint.effect, joint).remove(joint)
 
     def bodies_at(self, point: Iterable[float]) -> list[Body]:
-        """The bodies that a point (px) is in or on the edge of, in the order of adding."""
+        """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
         at = pair("World.bodies_at's point", point)
         return [body for body in self.bodies if body.contains(at)]
 

@@ -10,7 +10,7 @@ from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.lab import Lab
 from grader.judge.result import Result
-from grader.protocol import Answered, Record, Import, Request
+from grader.protocol import Answered, Import, Record, Request
 
 SOME = frozenset({"2", "B5"})
 ALL = frozenset[str]()

@@ -440,6 +440,21 @@ def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monke
 # ---------------------------------------------------------------- the student's first minute
 
 
+def test_no_file_of_a_release_holds_a_condition_of_our_pages(released: Released):
+    texts = [
+        (name, text)
+        for path in sorted(path for path in released.built.rglob("*") if path.is_file())
+        for name, text in texts_in(path.name, path.read_bytes())
+    ]
+    assert any(name.endswith("/README.md") for name, _ in texts)
+    assert not [name for name, text in texts if re.search("<!--[%=]", text)]
+
+
+@pytest.mark.parametrize("folder", [KIT, KIT / "starter", KIT / "solution"], ids=lambda p: p.name)
+def test_a_readme_reads_the_same_in_the_repository(folder: Path):
+    assert not re.search("<!--[%=]", (folder / "README.md").read_text(encoding="utf-8"))
+
+
 def test_the_readme_names_what_is_there(released: Released):
     text = (released.tree / "README.md").read_text(encoding="utf-8")
     files = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:py|html|txt))`", text))
