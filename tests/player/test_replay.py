@@ -152,8 +152,8 @@ def test_pages_need_nothing_else_and_are_not_large(pages: Path):
         ),
         (
             "7b-a_ball_resists_turning_as_a_full_disc",
-            "a body of mass 1.44, moment 207.36",
-            "a body of mass 1.44, moment 103.68",
+            "a body of mass 1, moment 100",
+            "a body of mass 1, moment 50",
         ),
     ],
 )
@@ -304,12 +304,12 @@ SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
         r"^None$",
         r"Vector2\(0, 1\), 5\.0, Vector2\(10, -20\)",
     ),
-    ("1-balls_land_on_a_floor_and_lie_there", r"Vector2", r"Vector2"),
+    ("1-balls_land_on_a_floor_and_lie_there", r"^\[80, 22", r"^\[80, 3[67]"),
     ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
     ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
-    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.44, 207\.3", r"\(1\.44, 103\.6"),
+    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.0, 100\.", r"\(1\.0, 50\."),
     ("7c-the_rod_pushes_and_pulls", r"^Vec2d", r"^Vec2d"),
-    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^-", r"^-"),
+    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^2507\.", r"^99\.3"),
 )
 
 
@@ -374,8 +374,8 @@ def test_scripts_are_short(pages: Path):
         lines = path.read_text(encoding="utf-8").splitlines()
         own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
         assert 0 < len(own) <= 24, path
-        if path.name.startswith(("1-", "7b-", "8b-")):
-            assert len(own) <= 13, path  # a mirrored pair is two scenes, and a used contact between
+        if path.name.startswith(("1-overlap", "1-a_centre", "1-no", "7b-", "8b-")):
+            assert len(own) <= 13, path
 
 
 def test_a_force_is_worked_out_as_the_judge_does():
