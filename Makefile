@@ -83,7 +83,7 @@ run: $(CORE) ## Open the mini engine's window; the complete one with WHERE=solut
 ##@ The engines, measured
 
 dials: $(CORE) ## Open the window with dials: any scene in every engine
-	@cd $(WHERE) && PYTHONPATH=../solution ../$(PY) -m experiments.window
+	@cd $(WHERE) && PYTHONPATH=../solution ../$(PY) -m experiments.dials
 
 accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minutes; QUICK=1 for less)
 	@cd solution && ../$(PY) accuracy.py --out ../build/accuracy $(if $(QUICK),--quick)
@@ -91,9 +91,8 @@ accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minute
 effects: $(DEV) ## What each effect costs, and what B1 and B3 save (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.effects --out ../build/effects $(if $(QUICK),--quick)
 
-cases: $(CORE) ## The hard cases in every engine, and the published test set (QUICK=1 for less)
+cases: $(CORE) ## The hard cases in every engine (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.hard_cases $(if $(QUICK),--quick)
-	@cd solution && ../$(PY) -m experiments.published $(if $(QUICK),--quick)
 
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled

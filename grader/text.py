@@ -1,6 +1,10 @@
-"""Write text for people: a submission's words made safe, numbers, lists and times in words."""
+"""Write text for people: a submission's words made safe, tables, numbers, lists and times."""
 
+import csv
+import io
 import math
+import unicodedata
+from collections.abc import Callable, Iterable
 from datetime import datetime
 
 MAX_WORDS = 400  # characters of a submission in one line
@@ -70,3 +74,28 @@ def digits(value: float) -> str:
 def about(value: float) -> str:
     """Return three digits, or all before the point."""
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
+
+
+# ---------------------------------------------------------------- tables for spreadsheets
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")  # how a cell begins that a spreadsheet would run
+
+
+def escape_formula(cell: str) -> str:
+    """Put an apostrophe before a cell that a spreadsheet would take for a formula."""
+    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
+    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
+
+
+def format_csv(
+    table: Iterable[Iterable[object]],
+    delimiter: str = ",",
+    line_end: str = "\r\n",
+    escape: Callable[[str], str] = escape_formula,
+) -> str:
+    """Return the rows of a table as CSV, each text in it escaped."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, delimiter=delimiter, lineterminator=line_end)
+    for row in table:
+        writer.writerow([escape(each) if isinstance(each, str) else each for each in row])
+    return out.getvalue()

@@ -24,7 +24,7 @@ import pymunk
 from make_figures import BLUE, GREY, INK, Svg
 from make_pictures import environment_in
 
-from grader.bank.members import patch
+from grader.bank.members import make_mistake
 from grader.source.regions import python_files, regions_in, replaced
 
 KIT = Path(__file__).resolve().parents[1]
@@ -49,7 +49,7 @@ def tree_of(todo, variant, folder):
                 text = replaced(target.read_text(encoding="utf-8"), stubs)
                 target.write_text(text, encoding="utf-8", newline="\n")
     elif variant != RIGHT:
-        patch(KIT / "tests" / "bank" / "wrong" / f"{todo}-{variant}.py", tree)
+        make_mistake(f"{todo}-{variant}", tree)
     return tree
 
 
@@ -185,7 +185,7 @@ def engines_hash():
     folders = [KIT / "solution" / name for name in ("mini_engine", "stable_engine")]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
     files += [KIT / "solution" / f"{name}.py" for name in ("pymunk_scene", "integrators")]
-    scenes = ("edits", "engines", "scenes")
+    scenes = ("engines", "scenes")
     files += [KIT / "solution" / "experiments" / f"{name}.py" for name in scenes]
     files += [Path(__file__).with_name(f"film_{name}.py") for name in ("scenes", "tower")]
     digest.update(f"pymunk {pymunk.version}, {pymunk.chipmunk_version}\n".encode())

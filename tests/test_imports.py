@@ -161,7 +161,7 @@ def test_the_worker_imports_nothing_of_the_grader_but_the_protocol():
 
 
 FLOORS = [  # from the ground up: a room imports from lower floors only
-    {"protocol", "text", "source"},
+    {"errors", "protocol", "text", "source"},
     {"worker", "judge"},
     {"checks", "player", "intake"},
     {"report"},

@@ -72,8 +72,10 @@ def key_of(member: Member) -> str:
     """The hash of all that decides about the member's marks, and about this machine."""
     todos, judges = member.course.rubric.todos, member.judged_by
     asked = [todo for todo in todos if not judges or todo.id in judges]
-    files = [] if member.source is None else contents(member.source, "__pycache__")
-    entry = [member.kind, member.name, member.form, member.entry, asked]
+    line = [*member.lineage]
+    sources = [each.source for each in line if each.source and each.source.suffix != ".toml"]
+    files = [row for source in sources for row in contents(source, "__pycache__")]
+    entry = [member.kind, member.name, member.form, [each.entry for each in line], asked]
     return hash_of([everything_else(), msgspec.json.encode(entry).decode(), *files])
 
 

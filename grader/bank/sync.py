@@ -9,6 +9,7 @@ an untouched TODO, and so is what a submission may lack.
 import json
 from pathlib import Path
 
+from grader.errors import Stop
 from grader.judge.rubric import CHECKS, load_rubric
 from grader.source.definitions import function_named, source_of, statements
 from grader.source.regions import regions_in, replaced
@@ -25,7 +26,7 @@ SKIPPED = {
 }
 
 
-class OutOfStep(Exception):
+class OutOfStep(Stop):
     """The trees cannot be brought together; the message names the file and the TODO."""
 
 

@@ -1,4 +1,4 @@
-"""What a person decides about points: one file for a class, kept apart from what the grader found.
+"""Apply what a person decides about points: one file for a class, apart from the results.
 
     zone = "Europe/Berlin"                # of times that an LMS gives without one
 
@@ -16,10 +16,10 @@
     add = 5                               # one of those in `Adjust`
     reason = "her machine failed in the lab"
 
-What `[late]` does not say is as the course has it in course.toml, line by line.
+Rules that `[late]` leaves out are those of course.toml, line by line.
 
-Results are never changed: points are worked out anew from them and from this file whenever a class
-is graded, and every change is shown with its reason.
+Results are never changed: points are computed anew from them and from this file whenever a class is
+graded, and every change is shown with its reason.
 """
 
 import math
@@ -29,161 +29,166 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta, tzinfo
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 import msgspec
-from msgspec import Struct, structs
+from msgspec import Meta, Struct, structs
 
+from grader.errors import Stop
 from grader.intake.found import Found
-from grader.intake.names import folded, names_of
-from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late, wrong_late
-from grader.judge.submission import CannotGrade
+from grader.intake.names import fold, split_login
+from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
+from grader.text import plural
 
 DAY = timedelta(days=1)
 KINDS = "add = 5, points = 70, late = false, due = 2026-05-09T12:00:00+02:00, cap = 80, bonus = 3"
 
+Words = Annotated[str, Meta(pattern=r"\S")]
+Points = Annotated[int, Meta(ge=0)]
+
 
 class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
-    """One decision about one student or some: its reason, and exactly one of the others."""
+    """A decision about one student or several: its reason, and exactly one of the others."""
 
-    student: str | list[str]
-    reason: str
+    student: Words | Annotated[list[Words], Meta(min_length=1)]
+    reason: Words
     add: int | None = None  # points, to those that the grader found
-    points: int | None = None  # the mark, whatever was found and whether anything was
-    late: bool | None = None  # false: lateness is pardoned
+    points: Points | None = None  # the mark, whatever was found and whether anything was
+    late: bool | None = None  # false: lateness is excused
     due: datetime | None = None  # an extension
-    cap: int | None = None  # the most that there can be
-    bonus: int | None = None  # points beside the grader's own bonus, counted as these are
+    cap: Points | None = None  # the most that there can be
+    bonus: Points | None = None  # points beside the grader's own bonus, counted as these are
 
     @property
     def students(self) -> list[str]:
         return [self.student] if isinstance(self.student, str) else self.student
 
+    def concerns(self, name: str) -> bool:
+        return any(is_same_student(who, name) for who in self.students)
+
 
 class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
+    """All decisions about a class, and what lateness costs in it."""
+
     late: Late | None = None
     adjust: list[Adjust] = []
     zone: str = ""
 
-    def final(self, found: Found, points: int | None) -> "Final":
-        """What counts for a submission that earned `points`; None where it could not be graded."""
-        mine = self.about(found)
-        due = self.due(found)
+    def decide(self, found: Found, points: int | None) -> "Final":
+        """Return what counts for a submission that earned `points`; None if it was not graded."""
+        decisions = self.find_decisions(found)
         reasons: list[str] = []
         by_hand = False
         if points is not None and self.late is not None:
-            points = self.after_lateness(found, points, mine, reasons)
-        for each in mine:
-            words = each.reason
+            points = self.apply_lateness(found, points, reasons)
+        for each in decisions:
             if each.due is not None:
-                reasons.append(f"due {timestamp(each.due)}: {words}")
+                reasons.append(f"due {write_time(each.due)}: {each.reason}")
             elif each.points is not None:
                 points, by_hand = each.points, True
-                reasons.append(f"{words}: set to {each.points}")
+                reasons.append(f"{each.reason}: set to {each.points}")
             elif points is None and (each.add is not None or each.cap is not None):
-                reasons.append(f"{words}: nothing was graded that this could change, set points")
+                words = "nothing was graded that this could change, set points"
+                reasons.append(f"{each.reason}: {words}")
             elif each.add is not None:
                 points = (points or 0) + each.add
-                reasons.append(f"{words}: {each.add:+}")
+                reasons.append(f"{each.reason}: {each.add:+}")
             elif each.cap is not None:
                 points = min(points or 0, each.cap)
-                reasons.append(f"{words}: {each.cap} at most")
+                reasons.append(f"{each.reason}: {each.cap} at most")
             elif each.bonus is not None:
-                reasons.append(f"{words}: {each.bonus:+} bonus")
+                reasons.append(f"{each.reason}: {each.bonus:+} bonus")
         final = None if points is None else max(points, 0)
-        return Final(final, tuple(reasons), due, by_hand)
+        return Final(final, tuple(reasons), self.find_due(found), by_hand)
 
-    def bonus(self, found: Found) -> int:
-        """The bonus that a person gave this student."""
-        return sum(each.bonus or 0 for each in self.about(found))
+    def sum_bonus(self, found: Found) -> int:
+        """Return the bonus that a person gave this student."""
+        return sum(each.bonus or 0 for each in self.find_decisions(found))
 
-    def after_lateness(
-        self, found: Found, points: int, mine: list[Adjust], reasons: list[str]
-    ) -> int:
-        """The points that lateness leaves, and why, added to `reasons`."""
+    def apply_lateness(self, found: Found, points: int, reasons: list[str]) -> int:
+        """Return the points that lateness leaves, and add the reason to `reasons`."""
         late = self.late or Late()
-        days = self.days_late(found)
+        days = self.count_days_late(found)
         if not days:
             return points
-        excused = [each.reason for each in mine if each.late is False]
-        if excused:
-            reasons += [f"{days_of(days)} late: 0", *(f"excused: {words}" for words in excused)]
+        decisions = self.find_decisions(found)
+        late_for = f"{plural(days, 'day')} late"
+        if excuses := [each.reason for each in decisions if each.late is False]:
+            reasons += [f"{late_for}: 0", *(f"excused: {words}" for words in excuses)]
             return points
-        if found.handed_in is None and any(each.due for each in mine):
-            reasons.append("late says the LMS, and not when: nothing is taken off an extension")
+        if found.handed_in is None and any(each.due for each in decisions):
+            reasons.append(
+                "the LMS marks it late without a time: nothing is taken off an extension"
+            )
             return points
+        if late.closed_after is not None and days > late.closed_after:
+            reasons.append(f"{late_for}: no points after {plural(late.closed_after, 'day')}")
+            return 0
         costly = max(0, days - late.free_days)
         loss = late.loss(costly, points)
-        free = f", {days_of(days - costly)} free" if days > costly else ""
-        if late.closed_after is not None and days > late.closed_after:
-            reasons.append(f"{days_of(days)} late: no points after {days_of(late.closed_after)}")
-            return 0
-        reasons.append(f"{days_of(days)} late{free}: {'-' if loss else ''}{loss}")
+        free = f", {plural(days - costly, 'day')} free" if days > costly else ""
+        reasons.append(f"{late_for}{free}: {'-' if loss else ''}{loss}")
         points -= loss
         if late.cap is not None and costly and points > late.cap:
             reasons.append(f"late work has {late.cap} at most")
             points = late.cap
         return points
 
-    def days_late(self, found: Found) -> int:
-        """Days begun since the due date; one where the LMS says late and does not say when."""
-        due = self.due(found)
+    def count_days_late(self, found: Found) -> int:
+        """Return days begun since the due date; 1 where the LMS marks work late without a time."""
+        due = self.find_due(found)
         if self.late is not None and due and found.handed_in:
-            after = self.aware(found.handed_in) - due
+            after = self.add_zone(found.handed_in) - due
             grace = timedelta(minutes=self.late.grace)
             return math.ceil(after / DAY) if after > grace else 0
         return int(found.late)
 
-    def due(self, found: Found) -> datetime | None:
-        """When this student's work is due: the last extension, or what holds for all."""
-        extended = [each.due for each in self.about(found) if each.due]
+    def find_due(self, found: Found) -> datetime | None:
+        """Return when this student's work is due: the last extension, or what holds for all."""
+        extended = [each.due for each in self.find_decisions(found) if each.due]
         due = max(extended) if extended else self.late.due if self.late else None
-        return self.aware(due) if due else None
+        return self.add_zone(due) if due else None
 
-    def about(self, found: Found) -> list[Adjust]:
-        """What was decided of a student; of who has no line, what was of who handed in for them."""
-        return self.named(found.name) or self.named(found.handed_in_by)
+    def find_decisions(self, found: Found) -> list[Adjust]:
+        """Return the decisions about a student, or about the member of a group who handed in."""
+        for name in (found.name, found.handed_in_by):
+            if decisions := [each for each in self.adjust if each.concerns(name)]:
+                return decisions
+        return []
 
-    def named(self, name: str) -> list[Adjust]:
-        return [each for each in self.adjust if any(means(who, name) for who in each.students)]
-
-    def aware(self, when: datetime) -> datetime:
-        """A moment: without a zone it is the school's own time."""
-        return when if when.tzinfo else when.replace(tzinfo=self.school)
-
-    @property
-    def school(self) -> tzinfo:
-        """The school's zone: the one that is named, or that of the due date."""
-        if self.zone:
-            return ZoneInfo(self.zone)
+    def add_zone(self, when: datetime) -> datetime:
+        """Return a moment with a zone: without one it is the school's own time."""
+        if when.tzinfo:
+            return when
         due = self.late.due if self.late else None
-        return (due.tzinfo if due else None) or ZoneInfo("UTC")
+        school: tzinfo | None = ZoneInfo(self.zone) if self.zone else due.tzinfo if due else None
+        return when.replace(tzinfo=school or ZoneInfo("UTC"))
 
     @property
     def students(self) -> list[str]:
-        """All whom it speaks of, each once."""
+        """All whom a decision names, each once."""
         return list(dict.fromkeys(name for each in self.adjust for name in each.students))
 
-    def unused(self, names: Iterable[str]) -> list[str]:
-        """The students it speaks of who are not among `names`."""
-        known = list(names)
-        return [who for who in self.students if not any(means(who, name) for name in known)]
+    def find_unused(self, names: Iterable[str]) -> list[str]:
+        """Return the students of decisions who are not among `names`."""
+        here = list(names)
+        return [who for who in self.students if not any(is_same_student(who, n) for n in here)]
 
     def refuse_doubts(self, names: Iterable[str]) -> None:
-        """Raise CannotGrade where one name of the file means two students."""
-        known = list(dict.fromkeys(names))
+        """Stop where one name of the file means two students."""
+        here = list(dict.fromkeys(names))
         for who in self.students:
-            meant = [name for name in known if means(who, name)]
+            meant = [name for name in here if is_same_student(who, name)]
             if len(meant) > 1:
-                raise CannotGrade(
+                raise Stop(
                     f"{who!r} in the adjustments could be {' or '.join(meant)}: write it whole"
                 )
 
 
-def means(who: str, name: str) -> bool:
-    """Whether a name in the file is this student's: the same, or the first half of an address."""
-    return folded(who) in names_of(name) or folded(name) in names_of(who)
+def is_same_student(who: str, name: str) -> bool:
+    """Tell whether a name in the file is this student's: the same, or half of an address."""
+    return fold(who) in split_login(name) or fold(name) in split_login(who)
 
 
 @dataclass(frozen=True)
@@ -196,12 +201,10 @@ class Final:
     by_hand: bool = False  # the points were set by a person
 
 
-def days_of(days: int) -> str:
-    return "1 day" if days == 1 else f"{days} days"
-
-
-def timestamp(when: datetime) -> str:
-    """A moment for people: to the minute, with its distance from UTC."""
+def write_time(when: datetime | None) -> str:
+    """Return a moment to the minute, with its distance from UTC; empty for none."""
+    if when is None:
+        return ""
     words = f"{when:%Y-%m-%d %H:%M %z}".rstrip()
     return f"{words[:-2]}:{words[-2:]}" if when.tzinfo else words
 
@@ -210,98 +213,88 @@ def timestamp(when: datetime) -> str:
 
 
 def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
-    """Read the file; without one, the course's rules are all. CannotGrade says what is wrong."""
+    """Read the file; without one, the course's rules are all."""
+    document: dict[str, Any] = {}
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
-        in_order(document)
-        adjustments = msgspec.convert(within(course, document), Adjustments)
+        convert_dates(document)
+        adjustments = msgspec.convert(add_rules(course, document), Adjustments)
     except OSError as error:
-        raise CannotGrade(f"there are no adjustments at {path}") from error
-    except (msgspec.MsgspecError, ValueError) as error:  # no TOML, or no text
-        raise CannotGrade(f"{path}: {error}") from error
-    if wrong := list(faults(adjustments, course.most)):
-        raise CannotGrade(f"{path}: " + "; ".join(wrong))
+        raise Stop(f"there are no adjustments at {path}") from error
+    except msgspec.ValidationError as error:
+        raise Stop(f"{path}: {name_value(str(error), document)}") from error
+    except ValueError as error:  # no TOML, or no text
+        raise Stop(f"{path}: {error}") from error
+    if faults := list(find_faults(adjustments, course.most)):
+        raise Stop(f"{path}: " + "; ".join(faults))
     return adjustments
 
 
-def in_order(document: dict[str, Any]) -> None:
-    """See to the dates and numbers of each decision before it is decoded."""
+RULES = {  # by what msgspec says
+    "Expected `int` >= 0": "must be a whole number, 0 or more",
+    "Expected `int": "must be a whole number",
+    r"'^\\d+%$'": 'must be points, or a share as "10%"',
+    r"'\\S'": "must not be empty",
+}
+
+
+def name_value(words: str, document: dict[str, Any]) -> str:
+    """Write a complaint of msgspec's with the line of the file that it is about."""
+    found = re.fullmatch(r"(.*) - at `\$\.(late|adjust\[(\d+)\])(?:\.(\w+))?.*`", words)
+    if found is None:
+        return words
+    complaint, place, number, name = found.groups()
+    line = document["adjust"][int(number)] if number else document.get("late", {})
+    who = f"the decision about {line.get('student')!r}" if number else place
+    rule = next((rule for sign, rule in RULES.items() if sign in complaint), complaint)
+    return f"{who}: {name} = {line.get(name)!r} {rule}" if name else f"{who}: {rule}"
+
+
+def convert_dates(document: dict[str, Any]) -> None:
+    """Make a date without a time the end of that day, as in course.toml."""
     decisions = document.get("adjust")
     for each in [document.get("late"), *(decisions if isinstance(decisions, list) else [])]:
-        if isinstance(each, dict):
-            whole_day(each)
-            whole_points(each)
+        due = each.get("due") if isinstance(each, dict) else None
+        if isinstance(due, str):
+            raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
+        if isinstance(due, date) and not isinstance(due, datetime):
+            each["due"] = datetime.combine(due, END_OF_DAY)
 
 
-def whole_day(decision: dict[str, Any]) -> None:
-    """A date without a time is the end of that day, as in course.toml.
-
-    Raises ValueError where it is none.
-    """
-    due = decision.get("due")
-    if isinstance(due, date) and not isinstance(due, datetime):
-        decision["due"] = datetime.combine(due, END_OF_DAY)
-    elif isinstance(due, str) and not re.match(r"\d{4}-\d\d-\d\d", due):
-        raise ValueError(f"due = {due!r} must be a date without quotes, as in due = {EXAMPLE}")
-
-
-def whole_points(decision: dict[str, Any]) -> None:
-    """Raises ValueError where a number of points is none."""
-    for name in ("points", "add", "cap", "bonus"):
-        if name in decision and type(decision[name]) is not int:
-            whose = f" of {decision['student']!r}" if "student" in decision else ""
-            raise ValueError(f"{name} = {decision[name]!r}{whose} must be a whole number")
-
-
-def within(course: Course, document: dict[str, Any]) -> dict[str, Any]:
-    """The decisions, with the course's due date and late rules where they have no such line."""
+def add_rules(course: Course, document: dict[str, Any]) -> dict[str, Any]:
+    """Return the decisions, with the course's due date and late rules where they have none."""
     late = document.get("late", {})
     if not isinstance(late, dict):
         return document
     rules = structs.asdict(course.late) if course.late else {}
-    dated = {"due": course.due} if course.due else {}
-    late = rules | dated | late
+    late = rules | ({"due": course.due} if course.due else {}) | late
     return document | ({"late": late} if late else {})
 
 
-def faults(adjustments: Adjustments, most: int) -> Iterator[str]:
-    """All that cannot be meant, a sentence each."""
-    if adjustments.zone:
-        try:
-            ZoneInfo(adjustments.zone)
-        except (ZoneInfoNotFoundError, ValueError):
-            yield f"zone = {adjustments.zone!r} is none, as Europe/Berlin is"
-            return
-    if adjustments.late is not None:
-        yield from faults_of_late(adjustments.late, bool(adjustments.zone))
+def find_faults(adjustments: Adjustments, most: int) -> Iterator[str]:
+    """Return all that cannot be meant, a sentence each."""
+    try:
+        ZoneInfo(adjustments.zone or "UTC")
+    except (ZoneInfoNotFoundError, ValueError):
+        yield f"zone = {adjustments.zone!r} is no zone: write one such as Europe/Berlin"
+        return
+    due = adjustments.late.due if adjustments.late else None
+    if due is not None and due.tzinfo is None and not adjustments.zone:
+        yield f"due = {due} needs its time zone, as in {due}+02:00, or zone at the top"
     marked: set[str] = set()
     for each in adjustments.adjust:
-        yield from faults_of(each, adjustments, most)
+        yield from find_faults_of_decision(each, adjustments, most)
         if each.points is not None:
-            twice = [name for name in each.students if folded(name) in marked]
+            twice = [name for name in each.students if fold(name) in marked]
             yield from (f"points of {name!r} are set twice" for name in twice)
-            marked |= {folded(name) for name in each.students}
+            marked |= {fold(name) for name in each.students}
 
 
-def faults_of_late(late: Late, zone: bool) -> Iterator[str]:
-    rules = structs.asdict(late).items()
-    yield from wrong_late(
-        {name: rule for name, rule in rules if rule is not None and name != "due"}
-    )
-    if late.due is not None and late.due.tzinfo is None and not zone:
-        yield f"due = {late.due} needs its time zone, as in {late.due}+02:00, or zone at the top"
-
-
-def faults_of(each: Adjust, adjustments: Adjustments, most: int) -> Iterator[str]:
+def find_faults_of_decision(each: Adjust, adjustments: Adjustments, most: int) -> Iterator[str]:
     who = ", ".join(each.students)
     given = [each.add, each.points, each.late, each.due, each.cap, each.bonus]
-    if given.count(None) != len(given) - 1 or each.late or not each.reason.strip():
-        yield f"what is said of {who!r} needs a reason and one of {KINDS}"
-    if not each.students or not all(name.strip() for name in each.students):
-        yield f"the decision {each.reason!r} names no student"
-    for name, points in (("points", each.points), ("cap", each.cap), ("bonus", each.bonus)):
-        if points is not None and points < 0:
-            yield f"{name} = {points} of {who!r} is less than 0"
+    if given.count(None) != len(given) - 1 or each.late:
+        yield f"the decision about {who!r} needs one of {KINDS}"
     if each.points is not None and each.points > most:
         yield f"points = {each.points} of {who!r} is more than the {most} that there are"
     if each.due is None:
@@ -310,5 +303,5 @@ def faults_of(each: Adjust, adjustments: Adjustments, most: int) -> Iterator[str
         yield f"due = {each.due} of {who!r} needs its time zone, or zone at the top"
     elif adjustments.late is None or adjustments.late.due is None:
         yield f"{who!r} has an extension, and neither [late] nor the course has a due to extend"
-    elif adjustments.aware(each.due) < adjustments.aware(adjustments.late.due):
+    elif adjustments.add_zone(each.due) < adjustments.add_zone(adjustments.late.due):
         yield f"due = {each.due} of {who!r} is before the others' {adjustments.late.due}"

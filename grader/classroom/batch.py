@@ -1,6 +1,6 @@
-"""Grading a class, several submissions at a time.
+"""Grade a class, several submissions at a time.
 
-Results are written as they come, and what stands from an earlier run is not graded again.
+Results are written as they come, and what an earlier run left is not graded again.
 """
 
 import hashlib
@@ -13,23 +13,25 @@ from pathlib import Path
 import msgspec
 from rich.console import Console
 
-from grader.classroom.adjustments import Adjustments, load_adjustments
-from grader.classroom.book import NOTHING, Book, Outcome, outcome_of
+from grader.classroom.adjustments import Adjustments
+from grader.classroom.book import NOTHING, Book, Outcome, make_outcome
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
-from grader.classroom.similarity import Prints, prints_of
+from grader.classroom.similarity import Prints, make_prints
+from grader.errors import Stop
 from grader.intake.found import CannotTake, Found, Intake, Package
-from grader.intake.names import in_short
+from grader.intake.names import shorten_list
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result
-from grader.judge.submission import CannotGrade
 from grader.report.files import as_json
 from grader.report.progress import Counter
+
+NONE = Adjustments()
 
 
 @dataclass
 class Task:
-    """A piece of work that must be graded, and whose it is."""
+    """Work that must be graded, and the students whose it is."""
 
     members: list[Found]
     package: Package
@@ -38,22 +40,22 @@ class Task:
 
 @dataclass
 class Run:
-    """One class, and what has become of it so far."""
+    """A class, and what has become of it so far."""
 
     intake: Intake
     book: Book
     key: str
-    adjustments: Adjustments
+    adjustments: Adjustments = NONE
     course: Course = FULL
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
     same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
     prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
-    said: dict[str, list[str]] = field(default_factory=dict)  # by name: what taking in had to say
+    package_notes: dict[str, list[str]] = field(default_factory=dict)  # by name
 
-    def tasks(self) -> Iterator[Task]:
-        """The work that must be graded, each once; all else is recorded on the way."""
+    def list_tasks(self) -> Iterator[Task]:
+        """Return the work that must be graded, each once; record all else on the way."""
         works: dict[tuple[Path, ...], list[Found]] = {}
         for found in self.intake.found:
             works.setdefault(found.sources, []).append(found)
@@ -61,72 +63,73 @@ class Run:
             first = members[0]
             try:
                 package = pack(first, self.course.modules)
-                digest, prints = package.digest, prints_of(package, first.whose)
+                digest, prints = package.digest, make_prints(package, first.team)
             except Exception as error:  # this one submission; the others go on
-                words = str(error) if isinstance(error, CannotTake) else in_words(error)
+                words = str(error) if isinstance(error, CannotTake) else describe_error(error)
                 for found in members:
-                    self.trouble(found, words)
+                    self.record_trouble(found, words)
                 continue
-            self.same.setdefault(digest, {})[first.whose] = first.name
+            self.same.setdefault(digest, {})[first.team] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
             self.prints.append(prints)
             key = hashlib.sha256(f"{self.key} {digest}".encode()).hexdigest()
-            if new := list(self.not_kept(members, package, key)):
+            if new := list(self.skip_kept(members, package, key)):
                 yield Task(new, msgspec.structs.replace(package, name=new[0].name), key)
 
-    def not_kept(self, members: list[Found], package: Package, key: str) -> Iterator[Found]:
-        """Those of one piece of work of whom no result is kept; the others are recorded."""
+    def skip_kept(self, members: list[Found], package: Package, key: str) -> Iterator[Found]:
+        """Return those of whom no result is kept; record the others."""
         for found in members:
-            self.said[found.name] = package.notes
-            kept = self.book.kept(found.name, key)
+            self.package_notes[found.name] = package.notes
+            kept = self.book.find_kept(found.name, key)
             if kept is None:
                 yield found
             else:
                 self.record("kept", found, kept)
 
-    def graded(self, task: Task, graded: Graded) -> None:
-        """Each of a group has a result, with a name of their own in it."""
+    def record_result(self, task: Task, graded: Graded) -> None:
+        """Write a result for each of a group, with their own name in it."""
         result = msgspec.json.decode(graded[0], type=Result)
         for found in task.members:
             own = as_json(msgspec.structs.replace(result, submission=found.name))
-            outcome = outcome_of(found.name, own, graded[1], task.key)
+            outcome = make_outcome(found.name, own, graded[1], task.key)
             self.book.write(outcome, own)
             self.record("graded", found, outcome)
 
-    def trouble(self, found: Found, words: str) -> None:
+    def record_trouble(self, found: Found, words: str) -> None:
         self.book.forget(found.name)
         self.record("trouble", found, Outcome(found.name, words))
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
-        outcome = msgspec.structs.replace(outcome, bonus_by_hand=self.adjustments.bonus(found))
+        """Apply the course's and a person's rules to an outcome, and keep it."""
+        decisions = self.adjustments
+        outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
         added = 0 if outcome.trouble else self.course.added(outcome.bonus)
-        earned = None if outcome.trouble else outcome.points + added
-        final = self.adjustments.final(found, earned)
+        final = decisions.decide(found, None if outcome.trouble else outcome.points + added)
         counted = [f"bonus: +{added}"] if added and not final.by_hand else []
         outcome = msgspec.structs.replace(
             outcome,
             final=final.points or 0,
             by_hand=final.by_hand,
             reasons=[*counted, *final.reasons],
-            notes=[*self.said.get(found.name, []), *outcome.broken],
-            late=bool(self.adjustments.days_late(found)),
+            notes=[*self.package_notes.get(found.name, []), *outcome.broken],
+            late=bool(decisions.count_days_late(found)),
             due=final.due,
-            handed_in=self.adjustments.aware(found.handed_in) if found.handed_in else None,
+            handed_in=decisions.add_zone(found.handed_in) if found.handed_in else None,
             group=list(found.group),
             handed_in_by=found.handed_in_by,
         )
         self.counts[how] = self.counts.get(how, 0) + 1
         self.outcomes.append(outcome)
 
-    def nothing_handed_in(self, names: Iterable[str]) -> None:
-        """Whose points are set by hand has a mark, whatever they handed in."""
+    def record_absent(self, names: Iterable[str]) -> None:
+        """Record those whose points are set by hand though they handed in nothing."""
         for name in names:
             found = Found(name, ())
-            if self.adjustments.final(found, None).by_hand:
+            if self.adjustments.decide(found, None).by_hand:
                 self.record("by hand", found, Outcome(name, NOTHING))
 
-    def comparable(self, outcomes: list[Outcome]) -> list[Outcome]:
-        """Marks that a person gave are out of as many points as the others'."""
+    def scale_by_hand(self, outcomes: list[Outcome]) -> list[Outcome]:
+        """Make marks that a person gave out of as many points as the others'."""
         most = max((each.max_points for each in outcomes), default=0)
         most = most or self.course.rubric.max_points
         return [
@@ -134,90 +137,83 @@ class Run:
             for each in outcomes
         ]
 
-    def copies(self) -> Iterator[str]:
-        """Those who handed in the same files apart, unless these are worth nothing."""
+    def find_copies(self) -> Iterator[str]:
+        """Return notes on those who handed in the same files apart, unless worth nothing."""
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
-                yield f"the same files were handed in by {in_short(names)}"
+                yield f"the same files were handed in by {shorten_list(names)}"
 
 
-def grade_class(
-    intake: Intake,
-    out: Path,
-    key: str,
-    executor: Executor,
-    console: Console,
-    adjustments: Adjustments | None = None,
-    course: Course = FULL,
-    absent: Iterable[str] = (),
-) -> Run:
-    """Grade what is new in a class; results, book and table are in and beside the folder `out`.
+def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable[str] = ()) -> Run:
+    """Grade what is new in a class; results, book and table are in and beside the book's folder.
 
     `absent` are those who might have handed in and did not; points set by hand are theirs too.
     """
-    total = len(intake.found) + len(intake.troubles)
-    with Book(out) as book, Counter("grading", total, console) as counter:
-        decided = adjustments or load_adjustments(None, course)
-        run = Run(intake, book, key, decided, course, notes=list(intake.notes))
-        for name, words in intake.troubles.items():
-            run.trouble(Found(name, ()), words)
-        for task, graded in grade_all(run.tasks(), executor):
+    total = len(run.intake.names)
+    with run.book as book, Counter("grading", total, console) as counter:
+        run.notes += run.intake.notes
+        for name, words in run.intake.troubles.items():
+            run.record_trouble(Found(name, ()), words)
+        for task, graded in grade_tasks(run.list_tasks(), executor):
             if isinstance(graded, str):
                 for found in task.members:
-                    run.trouble(found, graded)
+                    run.record_trouble(found, graded)
             else:
-                run.graded(task, graded)
+                run.record_result(task, graded)
             counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
             counter.reached(len(run.outcomes), counts)
-        run.nothing_handed_in(absent)
-        run.outcomes = run.comparable(sorted(run.outcomes, key=lambda each: each.name))
-        book.close_with(run.outcomes, course)
-    run.notes += run.copies()
+        run.record_absent(absent)
+        run.outcomes = run.scale_by_hand(sorted(run.outcomes, key=lambda each: each.name))
+        book.finish(run.outcomes, run.course)
+    run.notes += run.find_copies()
     names = [each.name for each in run.outcomes]
-    for student in run.adjustments.unused(names):
+    for student in run.adjustments.find_unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")
-    if others := book.others_than(names):
-        run.notes.append(f"{out} also holds results of others than this class: {in_short(others)}")
+    if others := book.find_others(names):
+        words = f"also holds results of others than this class: {shorten_list(others)}"
+        run.notes.append(f"{book.folder} {words}")
     return run
 
 
-def grade_all(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Graded | str]]:
-    """Each task with its result or its trouble, in the order in which they end."""
+def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Task, Graded | str]]:
+    """Return each task with its result or its trouble, in the order in which they end."""
     under_way: dict[Future[Graded], Task] = {}
     for task in tasks:
         under_way[executor.submit(task.package)] = task
         if len(under_way) >= executor.capacity():
-            yield from finished(under_way, executor)
+            yield from collect_results(under_way, executor)
     while under_way:
-        yield from finished(under_way, executor)
+        yield from collect_results(under_way, executor)
 
 
-def finished(
+def collect_results(
     under_way: "dict[Future[Graded], Task]", executor: Executor
 ) -> Iterator[tuple[Task, Graded | str]]:
-    """Those that have ended by now, one at least."""
+    """Return the tasks that have ended by now, at least one."""
     done, _ = wait(under_way, return_when=FIRST_COMPLETED)
     if any(future.cancelled() for future in done):
-        raise CannotGrade(LOST)
-    broken = any(isinstance(future.exception(), BrokenProcessPool) for future in done)
-    if broken:
+        raise Stop(LOST)
+    if any(isinstance(future.exception(), BrokenProcessPool) for future in done):
         done, _ = wait(under_way)  # at once: the pool has given all of them up
         executor.restart()
     for future in done:
         task = under_way.pop(future)
-        graded: Graded | str
-        try:
-            again = isinstance(future.exception(), BrokenProcessPool)
-            graded = executor.run_alone(task.package) if again else future.result()
-        except BrokenProcessPool:
-            graded = "it ended the grader's own process, twice: please report it"
-        except ExecutorFailed as error:
-            raise CannotGrade(str(error)) from error
-        except Exception as error:  # this one submission; the others go on
-            graded = in_words(error)
-        yield task, graded
+        yield task, read_future(future, task, executor)
 
 
-def in_words(error: Exception) -> str:
+def read_future(future: Future[Graded], task: Task, executor: Executor) -> Graded | str:
+    """Return a result or its trouble; grade once more what ended with its process."""
+    try:
+        again = isinstance(future.exception(), BrokenProcessPool)
+        return executor.run_alone(task.package) if again else future.result()
+    except BrokenProcessPool:
+        return "it ended the grader's own process, twice: please report it"
+    except ExecutorFailed:
+        raise
+    except Exception as error:  # this one submission; the others go on
+        return describe_error(error)
+
+
+def describe_error(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"

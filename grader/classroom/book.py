@@ -1,4 +1,4 @@
-"""What is kept of a graded class.
+"""Keep a graded class in files.
 
 - `DIR/NAME.json`: the result of each submission, byte for byte what `--json` writes.
 - `DIR.class.jsonl`: the class book, a line for each submission. A line is added as soon as a result
@@ -16,17 +16,17 @@ from typing import Self
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.adjustments import timestamp
+from grader.classroom.adjustments import write_time
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, is_bonus
 from grader.report.files import write_whole
-from grader.report.sinks.tables import as_csv
+from grader.text import format_csv
 
 NOTHING = "nothing was handed in"
 
 
 class Outcome(Struct, frozen=True):
-    """One submission of a class: its points, or why there are none."""
+    """A submission of a class: its points, or why there are none."""
 
     name: str
     trouble: str = ""
@@ -45,25 +45,29 @@ class Outcome(Struct, frozen=True):
     bonus_by_hand: int = 0  # beside what was graded
     by_hand: bool = False  # the final points were set by a person, whatever was graded
     due: datetime | None = None  # for this student
-    notes: list[str] = []  # what taking it in has to say
+    notes: list[str] = []  # on the files that were handed in
     broken: list[str] = []  # programs that cannot be imported, and why
     group: list[str] = []  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
 
     @property
     def group_in_words(self) -> str:
-        """Who did this together; empty for who worked alone."""
+        """The group in words; empty for somebody who worked alone."""
         by = f", handed in by {self.handed_in_by}" if self.handed_in_by else ""
         return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 
+    def explain(self) -> str:
+        """Return why these are its points, if the checks gave others; and with whom."""
+        return "; ".join(filter(None, [self.group_in_words, self.trouble, *self.reasons]))
+
     @property
     def mark(self) -> int | None:
-        """The points that count; None where a person must look first."""
+        """The points that count; None where it needs manual review."""
         return self.final if self.by_hand or not self.trouble else None
 
     @property
     def bonus(self) -> int:
-        """The points of bonus tasks and those that a person gave as such, all of them."""
+        """The points of bonus tasks, and those that a person gave as such."""
         graded = sum(points for todo, points in self.todos.items() if is_bonus(todo))
         return graded + self.bonus_by_hand
 
@@ -75,53 +79,54 @@ class Book:
         self.folder = folder.resolve()
         self.path = self.folder.with_name(f"{self.folder.name}.class.jsonl")
         self.table = self.path.with_suffix(".csv")
-        self.known = {each.name: each for each in read_book(self.path)}
+        self.outcomes = {each.name: each for each in read_book(self.path)}
 
     def __enter__(self) -> Self:
         self.folder.mkdir(parents=True, exist_ok=True)
         for part in self.folder.glob(f".*.json.{'[0-9a-f]' * 16}"):
             part.unlink()  # of a run that was killed
-        write_whole(lines(self.known.values()), self.path)  # a line may be half there
+        write_whole(encode_lines(self.outcomes.values()), self.path)  # a line may be half there
         self.file = open(self.path, "ab", buffering=0)
         return self
 
     def __exit__(self, *_: object) -> None:
         self.file.close()
 
-    def result_file(self, name: str) -> Path:
+    def locate_result(self, name: str) -> Path:
         return self.folder / f"{name}.json"
 
-    def kept(self, name: str, key: str) -> Outcome | None:
-        """What stands from an earlier run, if nothing has changed and the result is untouched."""
-        known = self.known.get(name)
-        if known is None or known.key != key:
+    def find_kept(self, name: str, key: str) -> Outcome | None:
+        """Return the outcome of an earlier run, if nothing has changed since."""
+        outcome = self.outcomes.get(name)
+        if outcome is None or outcome.key != key:
             return None
         with suppress(OSError):
-            if hashlib.sha256(self.result_file(name).read_bytes()).hexdigest() == known.content:
-                return known
+            content = self.locate_result(name).read_bytes()
+            if hashlib.sha256(content).hexdigest() == outcome.content:
+                return outcome
         return None
 
     def write(self, outcome: Outcome, result: bytes) -> None:
-        """The result first: a line in the book promises that it is there."""
-        write_whole(result, self.result_file(outcome.name))
-        self.file.write(lines([outcome]))
+        """Write the result first: a line in the book promises that it is there."""
+        write_whole(result, self.locate_result(outcome.name))
+        self.file.write(encode_lines([outcome]))
 
     def forget(self, name: str) -> None:
-        """No result may outlive the submission that it was made from."""
-        self.result_file(name).unlink(missing_ok=True)
+        """Remove the result of a submission that is not there any more."""
+        self.locate_result(name).unlink(missing_ok=True)
 
-    def close_with(self, outcomes: list[Outcome], course: Course = FULL) -> None:
-        """The book and the table as they are at the end."""
-        write_whole(lines(outcomes), self.path)
-        write_whole(as_table(outcomes, course).encode("utf-8-sig"), self.table)
+    def finish(self, outcomes: list[Outcome], course: Course = FULL) -> None:
+        """Write the book and the table as they are at the end."""
+        write_whole(encode_lines(outcomes), self.path)
+        write_whole(make_table(outcomes, course).encode("utf-8-sig"), self.table)
 
-    def others_than(self, names: Iterable[str]) -> list[str]:
-        """Results in the folder that belong to no submission of this class."""
+    def find_others(self, names: Iterable[str]) -> list[str]:
+        """Return results in the folder that belong to no submission of this class."""
         return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
 
 
-def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
-    """What the book says about a result."""
+def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
+    """Return the line of the book about a result."""
     decoded = msgspec.json.decode(result, type=Result)
     return Outcome(
         name,
@@ -134,12 +139,12 @@ def outcome_of(name: str, result: bytes, seconds: float, key: str) -> Outcome:
         graded=datetime.now(UTC).replace(microsecond=0),
         key=key,
         content=hashlib.sha256(result).hexdigest(),
-        broken=not_imported(decoded),
+        broken=list_broken(decoded),
     )
 
 
-def not_imported(result: Result) -> list[str]:
-    """The programs whose every point is lost before the first question is asked, and why."""
+def list_broken(result: Result) -> list[str]:
+    """Return the programs that cannot be imported, and why."""
     lost: dict[str, str] = {}
     for todo in result.counted:
         for check in todo.checks:
@@ -148,12 +153,12 @@ def not_imported(result: Result) -> list[str]:
     return [f"{ran} fails: {why}" for ran, why in lost.items()]
 
 
-def lines(outcomes: Iterable[Outcome]) -> bytes:
+def encode_lines(outcomes: Iterable[Outcome]) -> bytes:
     return b"".join(msgspec.json.encode(each) + b"\n" for each in outcomes)
 
 
 def read_book(path: Path) -> Iterator[Outcome]:
-    """The lines of a book; of one that was cut off, those that are whole."""
+    """Return the lines of a book; of one that was cut off, those that are whole."""
     if path.exists():
         with open(path, "rb") as file:
             for line in file:
@@ -161,8 +166,8 @@ def read_book(path: Path) -> Iterator[Outcome]:
                     yield msgspec.json.decode(line, type=Outcome)
 
 
-def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
-    """The class for a spreadsheet: nothing in it depends on when or how fast it was graded."""
+def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
+    """Return the class for a spreadsheet, the same whenever and however fast it was graded."""
     todos = [todo.id for todo in course.rubric.todos]
     titles = ["name", "points", "found", "of", "bonus", "handed in", "due", "late", "adjusted"]
     table: list[list[str | float]] = [[*titles, "trouble", "notes", "group", *todos]]
@@ -170,9 +175,9 @@ def as_table(outcomes: Iterable[Outcome], course: Course) -> str:
         mark = "" if each.mark is None else each.mark
         found = ["", each.max_points or ""] if each.trouble else [each.points, each.max_points]
         bonus = each.bonus if each.mark is not None else ""
-        times = [timestamp(when) if when else "" for when in (each.handed_in, each.due)]
+        times = [write_time(when) for when in (each.handed_in, each.due)]
         late = "late" if each.late else ""
         words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
         table.append([each.name, mark, *found, bonus, *times, *words, each.group_in_words, *points])
-    return as_csv(table)
+    return format_csv(table)

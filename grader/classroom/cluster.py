@@ -1,8 +1,8 @@
-"""Grading a class on a Dask cluster, where one machine is not enough.
+"""Grade a class on a Dask cluster, where one machine is not enough.
 
-A submission travels to a worker with all that grading it needs, so the machines share no disk; they
-need this grader, the same on all. A worker that is lost takes nothing with it: Dask gives what it
-had under way to another one.
+A submission travels to a worker with all that grading it needs, so no disk is shared. All machines
+need this very grader. Nothing is lost with a worker: Dask gives what it had under way to
+another one.
 """
 
 import atexit
@@ -19,14 +19,14 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.executor import AHEAD, LOST, ExecutorFailed, Graded, grade_package
-from grader.classroom.fingerprint import packed_reference
+from grader.classroom.fingerprint import pack_reference
+from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.fingerprint import fingerprint
 from grader.judge.grade import Options
-from grader.judge.submission import CannotGrade
 
 CONNECT_SECONDS = 20
-ONE_AT_A_TIME = threading.Lock()  # pytest runs once in a process, however many threads that has
+ONE_AT_A_TIME = threading.Lock()  # a process has one worker, however many threads it has
 
 
 # ---------------------------------------------------------------- on a worker
@@ -35,9 +35,9 @@ ONE_AT_A_TIME = threading.Lock()  # pytest runs once in a process, however many 
 def grade_here(package: Package, options: Options, reference: Package | None, made: str) -> Graded:
     """Grade one submission with a grader that must be the one whose fingerprint is `made`."""
     if fingerprint() != made:
-        raise ExecutorFailed(other_version([socket.gethostname()]))
+        raise ExecutorFailed(describe_versions([socket.gethostname()]))
     if reference is not None:
-        options = replace(options, reference=unpacked(reference.digest, reference))
+        options = replace(options, reference=unpack_reference(reference))
     with ONE_AT_A_TIME:
         return grade_package(package, options)
 
@@ -45,8 +45,9 @@ def grade_here(package: Package, options: Options, reference: Package | None, ma
 UNPACKED: dict[str, Path] = {}
 
 
-def unpacked(digest: str, reference: Package) -> Path:
-    """The reference in a folder that stays for as long as this process does."""
+def unpack_reference(reference: Package) -> Path:
+    """Unpack the reference into a folder that stays for as long as this process does."""
+    digest = reference.digest
     with ONE_AT_A_TIME:
         if digest not in UNPACKED:
             folder = Path(tempfile.mkdtemp(prefix="reference-"))
@@ -55,7 +56,7 @@ def unpacked(digest: str, reference: Package) -> Path:
         return UNPACKED[digest]
 
 
-def other_version(places: list[str]) -> str:
+def describe_versions(places: list[str]) -> str:
     where = ", ".join(places[:5])
     return f"another version of the grader or its libraries is on {where}: install the same on all"
 
@@ -69,14 +70,14 @@ class Cluster:
     def __init__(self, client: Any, options: Options) -> None:
         self.client = client
         self.dask = client.get_executor(pure=False)
-        self.reference = packed_reference(options.reference)
+        self.reference = pack_reference(options.reference)
         self.options = replace(options, reference=None)
 
     def capacity(self) -> int:
         try:
             return max(1, len(self.client.nthreads())) * (1 + AHEAD)
         except OSError as error:
-            raise CannotGrade(LOST) from error
+            raise Stop(LOST) from error
 
     def submit(self, package: Package) -> "Future[Graded]":
         future: Future[Graded] = self.dask.submit(
@@ -92,18 +93,18 @@ class Cluster:
 
 
 @contextmanager
-def connected(address: str, options: Options) -> Iterator[Cluster]:
-    """The cluster at `address`, its workers looked at; raises CannotGrade where that fails."""
+def connect(address: str, options: Options) -> Iterator[Cluster]:
+    """Connect to the cluster at `address`, and check its workers."""
     try:
         from distributed import Client
     except ImportError as error:
-        raise CannotGrade("--cluster needs Dask: python -m pip install dask distributed") from error
+        raise Stop("--cluster needs Dask: python -m pip install dask distributed") from error
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
             address, timeout=CONNECT_SECONDS, set_as_default=False
         )
     except (OSError, ValueError) as error:
-        raise CannotGrade(f"there is no Dask scheduler at {address} ({error})") from error
+        raise Stop(f"there is no Dask scheduler at {address} ({error})") from error
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # we say it in a sentence
     with client:
         check_workers(client, address)
@@ -111,13 +112,13 @@ def connected(address: str, options: Options) -> Iterator[Cluster]:
 
 
 def check_workers(client: Any, address: str) -> None:
-    """All that are there must have this very grader."""
+    """Stop unless all workers have this very grader."""
     if not client.nthreads():
-        raise CannotGrade(f"the scheduler at {address} has no workers yet: start some")
+        raise Stop(f"the scheduler at {address} has no workers yet: start some")
     found = client.run(fingerprint, on_error="return")
     lacking = [place for place, made in found.items() if isinstance(made, ImportError)]
     if lacking:
-        raise CannotGrade(f"the grader is not installed on {', '.join(lacking[:5])}")
+        raise Stop(f"the grader is not installed on {', '.join(lacking[:5])}")
     other = [place for place, made in found.items() if made != fingerprint()]
     if other:
-        raise CannotGrade(other_version(other))
+        raise Stop(describe_versions(other))

@@ -1,4 +1,4 @@
-"""A class at a glance: one page that needs nothing else, with the students' reports beside it.
+"""Write the page of a class, which needs no other file, and beside it the students' reports.
 
 Everything is made from the results and the class book. Names and words of students are text in it,
 whatever they are.
@@ -15,16 +15,16 @@ from urllib.parse import quote
 import msgspec
 from markupsafe import Markup
 
-from grader.classroom.adjustments import timestamp
-from grader.classroom.book import Book, Outcome, outcome_of
-from grader.classroom.similarity import read_alike
-from grader.intake.found import CannotTake, Intake
+from grader.classroom.adjustments import write_time
+from grader.classroom.book import Book, Outcome, make_outcome
+from grader.classroom.similarity import read_pairs
+from grader.errors import Stop
+from grader.intake.found import Intake
 from grader.intake.packing import pack
 from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
 from grader.judge.result import Result, State, TodoResult
-from grader.judge.submission import CannotGrade
 from grader.judge.wording import told
 from grader.judge.workplace import work_folder
 from grader.player.page import filled, one_line
@@ -44,20 +44,16 @@ MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
 }
 
 
-class NoResults(Exception):
-    """There is nothing to show; the message says where results were looked for."""
-
-
 @dataclass(frozen=True)
 class Entry:
-    """One submission: what the class book says of it, and its result unless it is in trouble."""
+    """A submission: its line in the class book, and its result unless it is in trouble."""
 
     outcome: Outcome
     result: Result | None = None
 
     @property
     def share(self) -> float:
-        """Of the points there are, those that count; more than 1 if points were added by hand."""
+        """The share of the points that counts; more than 1 if points were added by hand."""
         return self.outcome.final / self.outcome.max_points if self.outcome.max_points else 0.0
 
     @property
@@ -70,13 +66,13 @@ class Entry:
 
     @property
     def mistakes(self) -> list[str]:
-        """The known mistakes that were found in it, each as it is named in the page."""
+        """The known mistakes that were found in it, by the names that the page gives them."""
         return [f"{id}:{t.misconception}" for id, t in self.todos.items() if t.misconception]
 
 
 @dataclass(frozen=True)
 class Rate:
-    """How many passed a TODO, how many tried and did not, how many did not begin."""
+    """The numbers of those who passed a TODO, tried it and did not begin it."""
 
     id: str
     title: str
@@ -91,7 +87,7 @@ class Rate:
 
 @dataclass(frozen=True)
 class Mistake:
-    """A known mistake, who makes it, and a replay of one of them if there is any."""
+    """A known mistake, the students who make it, and a replay of one of them if there is any."""
 
     todo: str
     name: str
@@ -108,28 +104,28 @@ class Mistake:
 
 
 def read_class(results: Path) -> list[Entry]:
-    """Everybody whom the class book knows; without a book, everybody who has a result."""
+    """Return everybody in the class book, or without a book, everybody who has a result."""
     book = Book(results)
-    outcomes = list(book.known.values()) or list(unbooked(book))
+    outcomes = list(book.outcomes.values()) or list(read_results_alone(book))
     if not outcomes:
-        raise NoResults(f"there are no results in {results}: grade a class first, with --class")
-    entries = [entry_of(book, outcome) for outcome in outcomes]
+        raise Stop(f"there are no results in {results}: grade a class first, with --class")
+    entries = [read_entry(book, outcome) for outcome in outcomes]
     return sorted(entries, key=lambda each: each.outcome.name)
 
 
-def unbooked(book: Book) -> Iterator[Outcome]:
+def read_results_alone(book: Book) -> Iterator[Outcome]:
     for path in sorted(book.folder.glob("[!.]*.json")):
         try:
-            yield outcome_of(path.stem, path.read_bytes(), 0.0, "")
+            yield make_outcome(path.stem, path.read_bytes(), 0.0, "")
         except msgspec.MsgspecError as error:
             yield Outcome(path.stem, f"{path.name} is no result of the grader ({error})")
 
 
-def entry_of(book: Book, outcome: Outcome) -> Entry:
-    """The book and the result together; a result that cannot be read is trouble as well."""
+def read_entry(book: Book, outcome: Outcome) -> Entry:
+    """Return the book and the result together; one that cannot be read is trouble as well."""
     if outcome.trouble:
         return Entry(outcome)
-    path = book.result_file(outcome.name)
+    path = book.locate_result(outcome.name)
     try:
         return Entry(outcome, msgspec.json.decode(path.read_bytes(), type=Result))
     except (OSError, msgspec.MsgspecError) as error:
@@ -140,13 +136,13 @@ def entry_of(book: Book, outcome: Outcome) -> Entry:
 # ---------------------------------------------------------------- replays
 
 
-def with_replays(
+def add_replays(
     entries: list[Entry], intake: Intake, options: Options, folder: Path
 ) -> Iterator[Entry]:
     """Grade one student's TODO again for each known mistake, this time with replays in `folder`."""
     found = {each.name: each for each in intake.found}
     wanted: dict[str, set[str]] = {}
-    for mistake in mistakes_of(entries, folder):
+    for mistake in find_mistakes(entries, folder):
         name = next((e.outcome.name for e in mistake.entries if e.outcome.name in found), None)
         if name and not mistake.replay:
             wanted.setdefault(name, set()).add(mistake.todo)
@@ -159,17 +155,17 @@ def with_replays(
                 yield entry
                 continue
             again = replace(options, only=frozenset(todos))
-            with suppress(CannotGrade, CannotTake), work_folder() as work:
+            with suppress(Stop), work_folder() as work:
                 package = pack(found[name], options.course.modules)
                 result = grade_with_replays(package.unpack(work), again, folder / name, worker)
-                entry = Entry(entry.outcome, with_todos(entry.result, result.todos))
+                entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
             yield entry
     finally:
         worker.close()
 
 
-def with_todos(result: Result, todos: list[TodoResult]) -> Result:
-    """The result with its replays, where these TODOs came out as they did before."""
+def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
+    """Return the result with its replays, where these TODOs came out as they did before."""
     again = {todo.id: todo for todo in todos}
     shown = [
         again[todo.id] if todo.id in again and again[todo.id].points == todo.points else todo
@@ -181,32 +177,32 @@ def with_todos(result: Result, todos: list[TodoResult]) -> Result:
 # ---------------------------------------------------------------- counting
 
 
-def rates_of(entries: list[Entry]) -> list[Rate]:
-    """A rate for each TODO that any result shows, in the order of the results."""
+def count_rates(entries: list[Entry]) -> list[Rate]:
+    """Return a rate for each TODO that any result shows, in the order of the results."""
     shown = {todo.id for each in entries if each.result for todo in each.result.shown}
     ids = [id for id in dict.fromkeys(id for each in entries for id in each.todos) if id in shown]
-    return [rate_of([each.todos[id] for each in entries if id in each.todos]) for id in ids]
+    return [count_rate([each.todos[id] for each in entries if id in each.todos]) for id in ids]
 
 
-def rate_of(todos: list[TodoResult]) -> Rate:
+def count_rate(todos: list[TodoResult]) -> Rate:
     passed = sum(todo.state == "passed" for todo in todos)
     untouched = sum(todo.state == "not started" for todo in todos)
     first = todos[0]
     return Rate(first.id, first.title, passed, len(todos) - passed - untouched, untouched)
 
 
-def mistakes_of(entries: list[Entry], folder: Path) -> list[Mistake]:
-    """The known mistakes, the most common first."""
+def find_mistakes(entries: list[Entry], folder: Path) -> list[Mistake]:
+    """Return the known mistakes, the most common first."""
     makers: dict[tuple[str, str], list[Entry]] = {}
     for entry in entries:
         for todo in entry.todos.values():
             if todo.misconception:
                 makers.setdefault((todo.id, todo.misconception), []).append(entry)
-    found = [mistake_of(id, name, each, folder) for (id, name), each in makers.items()]
+    found = [make_mistake(id, name, each, folder) for (id, name), each in makers.items()]
     return sorted(found, key=lambda each: (-len(each.entries), each.key))
 
 
-def mistake_of(todo: str, name: str, entries: list[Entry], folder: Path) -> Mistake:
+def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mistake:
     checks = [check for entry in entries for check in entry.todos[todo].checks]
     meaning = next((check.meaning for check in checks if check.meaning), "")
     replays = (check.replay for check in checks if check.replay)
@@ -223,22 +219,22 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
     for entry in entries:
         name = entry.outcome.name
         report = folder / f"{name}.html"
-        standing = standing_of(entry.outcome)
+        standing = make_standing(entry.outcome)
         if entry.result is None:
             write_standing(standing, report)
         else:
             write_report(told(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
-    write_whole(dashboard(folder, entries).encode("utf-8"), path)
+    write_whole(render_class(folder, entries).encode("utf-8"), path)
     return path
 
 
-def standing_of(outcome: Outcome) -> Standing:
-    """What a page says beside the checks: the mark, the dates, and all that was decided."""
+def make_standing(outcome: Outcome) -> Standing:
+    """Return what a page says beside the checks: the mark, the dates, and all decisions."""
     lines = [
         ("Group", outcome.group_in_words.removeprefix("group ")),
-        ("Handed in", timestamp(outcome.handed_in) if outcome.handed_in else ""),
-        ("Due", timestamp(outcome.due) if outcome.due else ""),
+        ("Handed in", write_time(outcome.handed_in)),
+        ("Due", write_time(outcome.due)),
         ("Not graded", outcome.trouble),
         *(("Decided", words) for words in outcome.reasons),
         *(("Note", words) for words in outcome.notes),
@@ -252,8 +248,8 @@ def standing_of(outcome: Outcome) -> Standing:
     )
 
 
-def dashboard(folder: Path, entries: list[Entry]) -> str:
-    """The page; reports and replays are linked to as they lie in `folder`, beside it."""
+def render_class(folder: Path, entries: list[Entry]) -> str:
+    """Return the page; its links to reports and replays lead into `folder`, beside it."""
     graded = [each for each in entries if each.result]
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
@@ -272,28 +268,28 @@ def dashboard(folder: Path, entries: list[Entry]) -> str:
         median=f"{statistics.median(points):g}" if points else "none",
         full=sum(each.outcome.final >= each.outcome.max_points for each in marked),
         bins=[sum(each.bin == number for each in marked) for number in range(BINS)],
-        rates=rates_of(graded),
-        mistakes=mistakes_of(graded, folder),
-        alike=read_alike(folder),
-        slowest=slowest(graded),
+        rates=count_rates(graded),
+        mistakes=find_mistakes(graded, folder),
+        alike=read_pairs(folder),
+        slowest=find_slowest(graded),
         bonus=any(each.outcome.bonus for each in marked),
         marks=MARKS,
-        notes=notes_of,
+        notes=list_notes,
         clean=one_line,
         quote=quote,
         script=Markup(script),
     )
 
 
-def notes_of(outcome: Outcome) -> list[str]:
-    """What a table says of one submission, beside its points."""
+def list_notes(outcome: Outcome) -> list[str]:
+    """Return what a table says of a submission beside its points."""
     decided = [] if outcome.trouble or not outcome.reasons else [f"found {outcome.points}"]
     decided = ["; ".join([*decided, *outcome.reasons])]
     late = ["late"] if outcome.late and not outcome.reasons else []
-    told = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
-    return [words for words in told if words]
+    notes = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
+    return [words for words in notes if words]
 
 
-def slowest(graded: list[Entry]) -> list[Entry]:
+def find_slowest(graded: list[Entry]) -> list[Entry]:
     timed = [each for each in graded if each.outcome.seconds]
     return sorted(timed, key=lambda each: -each.outcome.seconds)[:SLOWEST]

@@ -1,7 +1,6 @@
-"""Who grades the submissions of a class: processes of this machine, or a cluster's.
+"""Run the grading of a class in processes of this machine; `cluster` has a cluster's.
 
-Both run the same function on the same packages. What one of these does to its process touches no
-other.
+Both run the same function on the same packages. A package that ends its process ends no other.
 """
 
 import multiprocessing
@@ -13,6 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 from functools import cache
 from typing import Protocol, Self
 
+from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
@@ -27,7 +27,7 @@ Graded = tuple[bytes, float]  # a result as JSON, and the seconds it took
 
 
 def grade_package(package: Package, options: Options) -> Graded:
-    """Grade one submission; run in a process of the pool or of a cluster."""
+    """Grade one submission, in a process of the pool or of a cluster."""
     start = time.monotonic()
     with work_folder() as work:
         result = grade(package.unpack(work), options, shared_worker())
@@ -36,7 +36,7 @@ def grade_package(package: Package, options: Options) -> Graded:
 
 @cache
 def shared_worker() -> Worker:
-    """One for all submissions that this process grades; it ends when this process does."""
+    """Start the worker for all submissions that this process grades; it ends with the process."""
     return start_worker()
 
 
@@ -47,18 +47,18 @@ class Executor(Protocol):
     """Processes that grade, here or elsewhere."""
 
     def capacity(self) -> int:
-        """How many submissions to have under way."""
+        """Return how many submissions to have under way."""
 
     def submit(self, package: Package) -> "Future[Graded]": ...
 
     def restart(self) -> None:
-        """A process fell over, and with it all that was under way: start anew."""
+        """Start anew after a process ended, and with it all that was under way."""
 
     def run_alone(self, package: Package) -> Graded:
-        """Grade one of those that were under way then, and nothing beside it."""
+        """Grade one of those that were under way then, with nothing beside it."""
 
 
-class ExecutorFailed(Exception):
+class ExecutorFailed(Stop):
     """The executor cannot go on; the message says why and what to do."""
 
 
@@ -81,7 +81,7 @@ class Pool:
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
-        if kind is not None:  # somebody is tired of waiting
+        if kind is not None:  # such as Ctrl-C
             under_way = multiprocessing.active_children()
             self.processes.shutdown(wait=False, cancel_futures=True)
             end_all(under_way)
@@ -103,6 +103,6 @@ class Pool:
         self.processes = self._start(self.jobs)
 
     def run_alone(self, package: Package) -> Graded:
-        """In a pool of its own, so that it is known which one is to blame."""
+        """Grade it in a pool of its own, which shows whether it is to blame."""
         with self._start(1) as executor:
             return executor.submit(self.work, package, self.options).result()

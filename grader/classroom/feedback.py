@@ -1,162 +1,123 @@
-"""Pages of a whole class on their way back: as each learning system takes them, or by mail.
+"""Send pages of a whole class back: as each learning system takes them, or by mail.
 
 Nobody gets another's page: a student whom the export or the class list does not name for sure is
-left out, and said.
+left out, with a note.
 """
 
 import io
 import zipfile
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
 
 from grader.classroom.book import NOTHING
-from grader.classroom.dashboard import Entry, standing_of
-from grader.classroom.owners import match
-from grader.intake import brightspace, canvas, moodle
+from grader.classroom.dashboard import Entry, make_standing
+from grader.classroom.owners import find_owners
+from grader.errors import Stop
 from grader.intake.found import Found, Intake
-from grader.intake.names import portable
-from grader.intake.roster import CannotRead, ClassList, Roster
-from grader.judge import wording as words
+from grader.intake.lms import PAGE, Lms, Page
+from grader.intake.names import make_portable
+from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
-from grader.judge.wording import told
+from grader.judge.wording import reasons, told
 from grader.report.files import put_in
-from grader.report.sinks.tables import as_csv
-from grader.text import clean
+from grader.text import clean, format_csv
 
-System = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
-PAGE = "feedback.html"
 ASSIGNMENT = "physics-engine"
 ADDRESSES = ("Email address", "Email", "SIS Login ID", "Username")
 
 
 @dataclass
 class Feedback:
-    """What to hand back: files by their names, and who is left out."""
+    """Files to hand back, by their names, and notes on who is left out."""
 
     files: dict[str, bytes] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
 
-    def zipped(self) -> bytes:
-        out = io.BytesIO()
-        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, content in sorted(self.files.items()):
-                put_in(archive, name, content)
-        return out.getvalue()
-
 
 @dataclass(frozen=True)
-class Returned:
-    """What goes back to one student: to a group's others beside what its first one gets."""
+class GradedClass:
+    """A class and what is to go back to it."""
 
-    found: Found
-    entry: Entry
-    page: bytes
-    participant: str = ""  # what Moodle calls somebody who has no file there
+    entries: list[Entry]
+    pages: Path  # the folder of everybody's page
+    course: Course = FULL
 
-    @property
-    def file(self) -> str:
-        mate = self.found.handed_in_by
-        return f"feedback-{portable(self.found.name)}.html" if mate else PAGE
+    def find_page(self, name: str) -> Path | None:
+        page = self.pages / f"{name}.html"
+        return page if page.is_file() else None
 
 
-def by_export(
-    system: System,
-    intake: Intake,
-    entries: list[Entry],
-    pages: Path,
-    course: Course = FULL,
-    people: ClassList | None = None,
+def zip_files(files: dict[str, bytes]) -> bytes:
+    """Return a zip, the same for the same files."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in sorted(files.items()):
+            put_in(archive, name, content)
+    return out.getvalue()
+
+
+def answer_export(
+    lms: Lms, intake: Intake, graded: GradedClass, people: ClassList | None = None
 ) -> Feedback:
-    """The pages under the names that the LMS gave to what was handed in."""
-    made = Feedback()
-    graded = {each.outcome.name: each for each in entries}
-    without = set(graded).difference(each.name for each in intake.found)
-    for name in sorted(without.union(intake.troubles)):
-        page = pages / f"{name}.html"
-        participant = people.participant(name) if people and system == "moodle" else ""
-        if participant and page.is_file():  # Moodle takes a page also where no file was handed in
-            made.files[moodle_name(participant, PAGE)] = page.read_bytes()
-        elif name in intake.troubles or page.is_file():
-            why = intake.troubles.get(name, "no file of theirs came that a page could answer")
-            made.notes.append(f"{name}: left out, {why}")
-    works: dict[tuple[Path, ...], list[Returned]] = {}
+    """Return the pages under the names that the LMS gave to what was handed in."""
+    made, people = Feedback(), people or ClassList()
+    answer_absent(lms, intake, graded, people, made)
+    entries = {each.outcome.name: each for each in graded.entries}
+    works: dict[tuple[Path, ...], list[Page]] = {}
     for found in sorted(intake.found, key=lambda each: each.handed_in_by != ""):
-        entry = graded.get(found.name)
-        page = pages / f"{found.name}.html"
-        if entry is None or not page.is_file():
+        entry, path = entries.get(found.name), graded.find_page(found.name)
+        if entry is None or path is None:
             made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
             continue
         if entry.result is not None:
-            entry = replace(entry, result=told(entry.result, course))
-        participant = people.participant(found.name) if people else ""
-        theirs = Returned(found, entry, page.read_bytes(), participant)
-        works.setdefault(found.sources, []).append(theirs)
-    for sources, members in works.items():
-        names = dict(NAMED[system](sources[0], members))
-        if not names:
-            who = " and ".join(each.found.name for each in members)
-            made.notes.append(f"{who}: left out, {system} does not name files so")
-        made.files |= names
+            entry = replace(entry, result=told(entry.result, graded.course))
+        page = make_page(found, entry, path.read_bytes(), people)
+        works.setdefault(found.sources, []).append(page)
+    for sources, pages in works.items():
+        files = dict(lms.name_pages(sources[0], pages))
+        if not files:
+            who = " and ".join(each.name for each in pages)
+            made.notes.append(f"{who}: left out, {lms.name} does not name files so")
+        for name, content in files.items():
+            made.files[name] = zip_files(content) if isinstance(content, dict) else content
     return made
 
 
-def for_moodle(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
-    """Moodle takes a participant's number and the kind of upload from a file's name."""
-    known = moodle.NAME.fullmatch(source.name)
-    if known is None:
-        return
-    first = f"{known['name']}_{known['id']}"
-    for each in members:
-        own = each.participant if each.found.handed_in_by else ""
-        file = PAGE if own else each.file
-        yield moodle_name(own or first, file), each.page
+def answer_absent(
+    lms: Lms, intake: Intake, graded: GradedClass, people: ClassList, made: Feedback
+) -> None:
+    """Add the pages of those of whom no file is there, if the LMS takes such pages."""
+    names = {each.outcome.name for each in graded.entries} - {each.name for each in intake.found}
+    for name in sorted(names.union(intake.troubles)):
+        page = graded.find_page(name)
+        participant = people.participants.get(name, "")
+        file = lms.name_page(participant, PAGE) if participant else ""
+        if file and page:
+            made.files[file] = page.read_bytes()
+        elif name in intake.troubles or page:
+            why = intake.troubles.get(name, "no file of theirs came that a page could answer")
+            made.notes.append(f"{name}: left out, {why}")
 
 
-def moodle_name(participant: str, file: str) -> str:
-    """What Moodle calls somebody's file; it takes what follows the first `_` for the number."""
-    name, _, number = participant.rpartition("_")
-    return f"{name.replace('_', ' ')}_{number}_assignsubmission_file_{file}"
+def make_page(found: Found, entry: Entry, content: bytes, people: ClassList) -> Page:
+    """Return what goes back to one student; a group's others get it beside the first one's."""
+    if not found.handed_in_by:
+        return Page(found.name, PAGE, content, write_text(entry))
+    file = f"feedback-{make_portable(found.name)}.html"
+    participant = people.participants.get(found.name, "")
+    return Page(found.name, file, content, write_text(entry), participant)
 
 
-def for_canvas(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
-    """Canvas takes the very names that it gave, so a zip stays one and a text a text."""
-    if canvas.matched(source) is None:
-        return
-    if source.suffix.lower() != ".zip":
-        first, *mates = members
-        texts = [as_text(first.entry)]
-        texts += [f"{each.found.name}\n{as_text(each.entry)}" for each in mates]
-        yield source.name, "\n".join(texts).encode("utf-8")
-        return
-    inner = Feedback({each.file: each.page for each in members})
-    yield source.name, inner.zipped()
-
-
-def for_brightspace(source: Path, members: list[Returned]) -> Iterator[tuple[str, bytes]]:
-    """Brightspace takes the folders of its download, with other files in them."""
-    if known := brightspace.NAME.fullmatch(source.name):
-        folder = f"{known['ids']} - {known['name']} - {known['when']}"
-        for each in members:
-            yield f"{folder}/{each.file}", each.page
-
-
-NAMED = {"moodle": for_moodle, "canvas": for_canvas, "brightspace": for_brightspace}
-
-
-def as_text(entry: Entry) -> str:
-    """The page in plain words, for where no page can be."""
-    standing = standing_of(entry.outcome)
+def write_text(entry: Entry) -> str:
+    """Return the page in plain words, for where no page can be."""
+    standing = make_standing(entry.outcome)
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
     lines = [f"Mark: {mark}", *(f"{name}: {clean(text)}" for name, text in standing.lines)]
     for todo in entry.result.shown if entry.result else []:
-        lines += [
-            "",
-            f"TODO {todo.id} {todo.title}: {todo.state}, {todo.points} / {todo.max_points}",
-        ]
+        points = f"{todo.points} / {todo.max_points}"
+        lines += ["", f"TODO {todo.id} {todo.title}: {todo.state}, {points}"]
         for check in todo.failed:
-            why = (f"    {line}" for line in words.reasons(check))
+            why = (f"    {line}" for line in reasons(check))
             lines += [f"  {check.title} ({check.points} / {check.max_points})", *why]
     return "\n".join(lines) + "\n"
 
@@ -164,28 +125,27 @@ def as_text(entry: Entry) -> str:
 # ---------------------------------------------------------------- by the class list
 
 
-def by_address(roster: Roster, key: str, entries: list[Entry], pages: Path) -> Feedback:
-    """The pages by addresses, for mailing, and a list of them; a group's go to all of it."""
+def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
+    """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
     columns = [*ADDRESSES, *roster.columns]
     column = next((name for name in columns if has_addresses(roster, name)), None)
     if column is None:
-        raise CannotRead(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
+        raise Stop(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
     made = Feedback()
-    absent = [each.outcome.name for each in entries if each.outcome.trouble == NOTHING]
-    owners = match(roster, key, [each.outcome.name for each in entries], absent)
-    listed = [["address", "name", "file"]]
+    outcomes = [each.outcome for each in graded.entries]
+    absent = [each.name for each in outcomes if each.trouble == NOTHING]
+    owners = find_owners(roster, key, [each.name for each in outcomes], absent)
+    table = [["address", "name", "file"]]
     for row in roster.rows:
-        address, names = row[column].strip(), owners.of(row)
+        address, names = row[column].strip(), owners.find_results(row)
         if len(names) != 1 or not address:
             why = f"{' and '.join(names)} could be theirs" if names else "no page is theirs"
             made.notes.append(f"{row[key] or address}: left out, {why}")
-            continue
-        page = pages / f"{names[0]}.html"
-        if page.is_file():
-            file = f"{portable(address)}.html"
+        elif page := graded.find_page(names[0]):
+            file = f"{make_portable(address)}.html"
             made.files[file] = page.read_bytes()
-            listed.append([address, names[0], file])
-    made.files["addresses.csv"] = as_csv(listed).encode("utf-8")
+            table.append([address, names[0], file])
+    made.files["addresses.csv"] = format_csv(table).encode("utf-8")
     return made
 
 
@@ -193,11 +153,10 @@ def has_addresses(roster: Roster, column: str) -> bool:
     return column in roster.columns and any("@" in row[column] for row in roster.rows)
 
 
-def for_nbgrader(entries: list[Entry], pages: Path) -> Feedback:
-    """The pages beside nbgrader's own feedback, also of students who handed in no notebook."""
-    made = Feedback()
-    for entry in entries:
-        page = pages / f"{entry.outcome.name}.html"
-        if page.is_file():
-            made.files[f"{entry.outcome.name}/{ASSIGNMENT}/engine-{PAGE}"] = page.read_bytes()
-    return made
+def place_for_nbgrader(graded: GradedClass) -> Feedback:
+    """Return the pages beside nbgrader's own feedback, also of students without a notebook."""
+    names = [each.outcome.name for each in graded.entries]
+    pages = {name: graded.find_page(name) for name in names}
+    return Feedback(
+        {f"{name}/{ASSIGNMENT}/engine-{PAGE}": p.read_bytes() for name, p in pages.items() if p}
+    )

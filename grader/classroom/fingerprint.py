@@ -1,4 +1,4 @@
-"""The key of a result: a hash of everything it depends on, the submission aside."""
+"""Make the key of results: a hash of everything they depend on, the submission aside."""
 
 import hashlib
 from pathlib import Path
@@ -13,16 +13,16 @@ from grader.judge.submission import module_of
 from grader.source.regions import python_files
 
 
-def key_of(options: Options) -> str:
+def make_key(options: Options) -> str:
     """Return the key of all results that these options give."""
-    reference = packed_reference(options.reference)
+    reference = pack_reference(options.reference)
     digest = reference.digest if reference else ""
-    asked = options.course.rubric
-    decides = [sorted(options.only), options.seed, options.isolation, options.spawn, asked]
+    rubric = options.course.rubric
+    decides = [sorted(options.only), options.seed, options.isolation, options.spawn, rubric]
     return hashlib.sha256(msgspec.json.encode([fingerprint(), digest, decides])).hexdigest()
 
 
-def packed_reference(folder: Path | None) -> Package | None:
+def pack_reference(folder: Path | None) -> Package | None:
     """Return the programs of the reference that the rubric names."""
     if folder is None:
         return None

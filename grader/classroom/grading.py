@@ -1,4 +1,4 @@
-"""A class from start to end, as the command line asks for it: taken in, graded and shown."""
+"""Grade a class from start to end: take it in, grade it, write its pages and show it."""
 
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -9,27 +9,27 @@ from rich.table import Table
 
 from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run, grade_class
-from grader.classroom.book import Outcome
-from grader.classroom.cluster import connected
-from grader.classroom.dashboard import notes_of, read_class, write_dashboard
+from grader.classroom.book import Book, Outcome
+from grader.classroom.cluster import connect
+from grader.classroom.dashboard import list_notes, read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
-from grader.classroom.fingerprint import key_of
-from grader.classroom.similarity import alike, write_alike
-from grader.intake.listing import opened_class
-from grader.intake.names import in_short
-from grader.intake.roster import beside, people_of
+from grader.classroom.fingerprint import make_key
+from grader.classroom.similarity import find_pairs, write_pairs
+from grader.intake.listing import open_class
+from grader.intake.names import shorten_list
+from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
 from grader.text import clean
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
-LONGEST_PAGE = 2000  # rows of the page: its makers hold all results at once, 35 kB each
+LONGEST_PAGE = 2000  # rows of the page: making it takes all results at once, 35 kB each
 
 
 @dataclass(frozen=True)
 class ClassOptions:
-    """How a class is to be graded, as the command line says it."""
+    """The options of grading a class."""
 
     options: Options
     out: Path | None = None  # the class folder's name and `-results`, beside it, if left out
@@ -42,40 +42,40 @@ class ClassOptions:
 def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     """Grade the class at `path`, show it, and say where the results are."""
     path = path.resolve()
-    people = people_of(path, wanted.roster)
-    adjust = wanted.adjust or beside(path, "adjustments.toml")
+    people = read_class_list(path, wanted.roster)
     course = wanted.options.course
-    adjustments = load_adjustments(adjust, course)
-    out = wanted.out or path.with_name(f"{path.stem}-results")
-    with opened_class(path, people) as intake, opened_executor(wanted) as executor:
-        names = [*(each.name for each in intake.found), *intake.troubles]
-        absent = people.absent(names)
+    adjustments = load_adjustments(wanted.adjust or find_file(path, "adjustments.toml"), course)
+    book = Book(wanted.out or path.with_name(f"{path.stem}-results"))
+    with open_class(path, people) as intake, open_executor(wanted) as executor:
+        names = intake.names
+        absent = people.list_absent(names)
         adjustments.refuse_doubts([*names, *absent])
-        mine = absent if people.names else adjustments.unused(names)
-        key = key_of(wanted.options)
-        run = grade_class(intake, out, key, executor, console, adjustments, course, mine)
+        run = Run(intake, book, make_key(wanted.options), adjustments, course)
+        others = absent if people.names else adjustments.find_unused(names)
+        grade_class(run, executor, console, others)
         if len(run.outcomes) <= LONGEST_PAGE:
             by_name = {each.name: each for each in intake.found}
-            write_alike(run.book.folder, alike(run.prints), by_name)
+            write_pairs(book.folder, find_pairs(run.prints), by_name)
         if absent:
-            run.notes.append(f"nothing was handed in by {in_short(absent)}")
-        if unlisted := people.unlisted(names):
-            run.notes.append(f"not in the class list: {in_short(unlisted)}")
+            run.notes.append(f"nothing was handed in by {shorten_list(absent)}")
+        if unlisted := people.list_unlisted(names):
+            run.notes.append(f"not in the class list: {shorten_list(unlisted)}")
     show_class(run, console)
-    console.print(page_of(run), soft_wrap=True)
+    console.print(write_page(run), soft_wrap=True)
     return run
 
 
-def page_of(run: Run) -> str:
-    """Make the page of the class, and say where it is; of too many there is none by itself."""
+def write_page(run: Run) -> str:
+    """Write the page of the class unless it is too large, and return where it is."""
+    folder = run.book.folder
     if len(run.outcomes) > LONGEST_PAGE:
-        return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {run.book.folder}`"
-    return f"page:    {write_dashboard(run.book.folder, read_class(run.book.folder), run.course)}"
+        return f"page:    for more than {LONGEST_PAGE}, by `grader dashboard {folder}`"
+    return f"page:    {write_dashboard(folder, read_class(folder), run.course)}"
 
 
-def opened_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
+def open_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
     if wanted.cluster:
-        return connected(wanted.cluster, wanted.options)
+        return connect(wanted.cluster, wanted.options)
     return Pool(wanted.options, wanted.jobs)
 
 
@@ -83,12 +83,12 @@ def opened_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
 
 
 def show_class(run: Run, console: Console) -> None:
-    """The table, how many passed each TODO, and all that a person should know."""
+    """Print the table, the share that passed each TODO, and all that a person should know."""
     if len(run.outcomes) <= LONGEST:
-        console.print(table_of(run.outcomes))
+        console.print(tabulate_class(run.outcomes))
     results = [each for each in run.outcomes if not each.trouble]
     if len(results) > 1:
-        console.print(rates(results, run.course))
+        console.print(tabulate_rates(results, run.course))
     for note in run.notes[:LONGEST]:
         console.print(clean(note), soft_wrap=True)
     counts = ", ".join(f"{count} {how}" for how, count in run.counts.items())
@@ -97,23 +97,23 @@ def show_class(run: Run, console: Console) -> None:
     console.print(f"table:   {run.book.table}", soft_wrap=True)
 
 
-def table_of(outcomes: list[Outcome]) -> Table:
+def tabulate_class(outcomes: list[Outcome]) -> Table:
     table = Table("submission", "points", "not passed")
     for each in outcomes:
         points = "none" if each.mark is None else f"{each.mark} / {each.max_points}"
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
         left = "all" if nothing and not each.trouble else ", ".join(each.left)
-        words = [clean(line) for line in (left, *notes_of(each)) if line]
+        words = [clean(line) for line in (left, *list_notes(each)) if line]
         table.add_row(clean(each.name), points, "\n".join(words))
     return table
 
 
-def rates(results: list[Outcome], course: Course) -> Table:
-    """The share of submissions that pass each TODO of the assignment."""
+def tabulate_rates(results: list[Outcome], course: Course) -> Table:
+    """Return the share of submissions that pass each TODO of the assignment."""
     table = Table("TODO", "passed by", box=None)
     for todo in course.rubric.counted:
-        asked = [each for each in results if todo.id in each.todos]
-        if asked:
-            passed = sum(todo.id not in each.left for each in asked)
-            table.add_row(f"{todo.id} {todo.title}", f"{passed / len(asked):4.0%}")
+        graded = [each for each in results if todo.id in each.todos]
+        if graded:
+            passed = sum(todo.id not in each.left for each in graded)
+            table.add_row(f"{todo.id} {todo.title}", f"{passed / len(graded):4.0%}")
     return table

@@ -1,4 +1,4 @@
-"""Whose a result is: by identifiers before names, and never by a guess.
+"""Find whose a result is: by identifiers before names, and never by a guess.
 
 A result bears the name of its student as the class was taken in: an identifier, if there was a
 class list, or what the LMS wrote, a name with a number behind it.
@@ -8,101 +8,94 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from grader.intake.names import folded, names_of, without_zeros
-from grader.intake.roster import KEYS, Roster, groups_of, names_in, number_in
+from grader.intake.names import fold, split_login, strip_zeros
+from grader.intake.roster import KEYS, Roster, Row, list_full_names, read_number
 
 NUMBERED = re.compile(r"(?P<name>.+)_(?P<number>\d+(?:-\d+)?)")  # as exports name their files
-Row = dict[str, str]
 Labels = Callable[[Row], Iterable[str]]
 
 
 @dataclass
 class Owners:
-    """Who has which result."""
+    """Results by the rows of a class list, and those that no row or several may own."""
 
     rows: dict[int, list[str]] = field(default_factory=dict)  # names of results, by the row
     doubts: dict[str, list[Row]] = field(default_factory=dict)  # of any of these rows
     strangers: list[str] = field(default_factory=list)
-    group: dict[int, list[str]] = field(default_factory=dict)  # whose result is shared, by the row
+    mates: dict[int, list[str]] = field(default_factory=dict)  # whose result is shared, by the row
 
     @property
     def doubtful(self) -> list[Row]:
         """The rows that some result may belong to, and none does for sure."""
         rows = [row for rows in self.doubts.values() for row in rows]
-        return [row for row in rows if not self.rows.get(id(row))]
+        return [row for row in rows if not self.find_results(row)]
 
-    def of(self, row: Row) -> list[str]:
+    def find_results(self, row: Row) -> list[str]:
         return self.rows.get(id(row), [])
 
-    def mates(self, row: Row) -> list[str]:
-        """Those of the group whose result counts for this student too."""
-        return self.group.get(id(row), [])
+    def find_mates(self, row: Row) -> list[str]:
+        """Return those of the group whose result counts for this student too."""
+        return self.mates.get(id(row), [])
 
 
-def match(roster: Roster, key: str, names: Iterable[str], absent: Iterable[str] = ()) -> Owners:
+def find_owners(
+    roster: Roster, key: str, names: Iterable[str], absent: Iterable[str] = ()
+) -> Owners:
     """Find the row of each result, by the surest way that finds any; `absent` share nothing."""
     owners = Owners()
-    ways = [(indexed(roster, row_labels), labels) for row_labels, labels in ways_by(key)]
+    ways = [(index_rows(roster, row_labels), labels) for row_labels, labels in list_ways(key)]
     for name in names:
-        hits = next(filter(None, (found(index, labels(name)) for index, labels in ways)), [])
+        hits = next(filter(None, (look_up(index, labels(name)) for index, labels in ways)), [])
         if len(hits) == 1:
             owners.rows.setdefault(id(hits[0]), []).append(name)
         elif hits:
             owners.doubts[name] = hits
         else:
             owners.strangers.append(name)
-    share(roster, owners, set(absent))
+    share_results(roster, owners, set(absent))
     return owners
 
 
-def indexed(roster: Roster, labels: Labels) -> dict[str, list[Row]]:
+def index_rows(roster: Roster, labels: Labels) -> dict[str, list[Row]]:
     index: dict[str, list[Row]] = {}
     for row in roster.rows:
-        for label in {folded(each) for each in labels(row)} - {""}:
+        for label in {fold(each) for each in labels(row)} - {""}:
             index.setdefault(label, []).append(row)
     return index
 
 
-def found(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
-    rows = {id(row): row for label in labels for row in index.get(folded(label), [])}
+def look_up(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
+    rows = {id(row): row for label in labels for row in index.get(fold(label), [])}
     return list(rows.values())
 
 
-def share(roster: Roster, owners: Owners, absent: set[str]) -> None:
-    """Who handed in nothing has what the one of the group has who did."""
-    for rows in groups_of(roster).values():
-        handed_in = [name for row in rows for name in owners.of(row) if name not in absent]
+def share_results(roster: Roster, owners: Owners, absent: set[str]) -> None:
+    """Give members of a group who handed in nothing the result of the one who did."""
+    for rows in roster.list_groups().values():
+        handed_in = [name for row in rows for name in owners.find_results(row)]
+        handed_in = [name for name in handed_in if name not in absent]
         for row in rows:
-            if handed_in and not owners.of(row):
-                owners.group[id(row)] = handed_in
-    for place, mates in owners.group.items():
-        owners.rows[place] = mates
+            if handed_in and not owners.find_results(row):
+                owners.mates[id(row)] = handed_in
+    owners.rows |= owners.mates
 
 
-# ---------------------------------------------------------------- ways to know somebody
-
-
-def ways_by(key: str) -> list[tuple[Labels, Callable[[str], list[str]]]]:
-    """What a row is known by, and what to look for with a result's name, the surest first."""
+def list_ways(key: str) -> list[tuple[Labels, Callable[[str], list[str]]]]:
+    """Return labels of a row, and those to look up for a result's name, the surest way first."""
     return [
         (lambda row: [row[key]], lambda name: [name]),
         (lambda row: [row.get(column, "") for column in (*KEYS, "ID")], lambda name: [name]),
-        (lambda row: [row.get("ID", ""), number_in(row)], number_of),
-        (lambda row: names_of(row[key]), names_of),
-        (names_in, lambda name: [name, plain_name(name)]),
+        (lambda row: [row.get("ID", ""), read_number(row)], lambda name: split_name(name)[1:]),
+        (lambda row: split_login(row[key]), split_login),
+        (list_full_names, lambda name: [name, split_name(name)[0]]),
         (
-            lambda row: [without_zeros(row.get(column, "")) for column in (key, *KEYS, "ID")],
-            lambda name: [without_zeros(name)],
+            lambda row: [strip_zeros(row.get(column, "")) for column in (key, *KEYS, "ID")],
+            lambda name: [strip_zeros(name)],
         ),
     ]
 
 
-def number_of(name: str) -> list[str]:
-    """Canvas's ID or that of Moodle's Identifier, as it stands behind a name."""
+def split_name(name: str) -> list[str]:
+    """Return a name and, where there is one, the number that a learning system put behind it."""
     match = NUMBERED.fullmatch(name)
-    return [match["number"]] if match else []
-
-
-def plain_name(name: str) -> str:
-    match = NUMBERED.fullmatch(name)
-    return match["name"] if match else name
+    return [match["name"], match["number"]] if match else [name]

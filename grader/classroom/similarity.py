@@ -1,12 +1,12 @@
-"""How alike two submissions are, beyond what everybody was given: it shows, and accuses nobody.
+"""Find similar submissions, beyond what everybody was given: this shows, and accuses nobody.
 
-Of each submission all runs of `RUN` tokens are taken, whatever its names and numbers are, so that
-new names, comments and layout change nothing. Runs that stand in the starter, in any given file or
-in the solution are left out, and so are those that many of the class have. What is left was written
-by somebody. Two submissions are as alike as the share of the smaller one's runs that the other has.
+Each submission is cut into runs of `RUN` tokens without names and numbers, so that new names,
+comments and layout change nothing. Runs of the starter, of given files and of the solution are left
+out, and so are those that many of the class have. The similarity of two submissions is the share of
+the smaller one's runs that the other has.
 
-Right answers to short tasks are alike by nature. `EXPECTED` is above what independent right answers
-of the bank share; a test holds it there.
+Right answers to short tasks are similar by nature. `EXPECTED` is above what independent right
+answers of the bank share; a test holds it there.
 """
 
 import io
@@ -26,31 +26,30 @@ import msgspec
 from msgspec import Struct
 
 from grader.intake.found import CannotTake, Found, Package
-from grader.intake.listing import opened_class
+from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
 from grader.player.page import filled
 from grader.report.files import write_whole
-from grader.report.sinks.tables import as_csv
 from grader.source.regions import python_files
-from grader.text import printable
+from grader.text import format_csv, printable
 
 TEMPLATES = Path(__file__).with_name("templates")
 
 RUN = 14  # tokens: about two lines
 EXPECTED = 0.5  # of the smaller one's runs
-FEWEST = 40  # runs of one's own, below which nothing can be said
-FEW, MANY = 8, 50  # or a quarter of the class: what more of them have tells nothing
+FEWEST = 40  # runs of one's own, below which nothing is compared
+FEW, MANY = 8, 50  # or a quarter of the class: a run that more of them have does not count
 MOST = 100  # pairs
 MAX_TEXT = 500_000  # bytes of one submission
-CONTEXT = 2  # lines around what is alike
+CONTEXT = 2  # lines around what two share
 LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
 
 
 @dataclass(frozen=True)
 class Token:
-    """One token as it is compared, and the line it stands in."""
+    """A token as it is compared, and the line it stands in."""
 
     word: str
     line: int
@@ -58,15 +57,15 @@ class Token:
 
 @dataclass(frozen=True)
 class Prints:
-    """What a submission has of its own."""
+    """The runs that a submission has of its own."""
 
     name: str
     runs: frozenset[int]
-    with_whom: tuple[str, ...] = ()  # the same of those who handed in together
+    team: tuple[str, ...] = ()  # the same for those who handed in together
 
 
 class Pair(Struct, frozen=True):
-    """Two submissions, and how alike they are."""
+    """Two submissions, and how similar they are."""
 
     first: str
     second: str
@@ -81,20 +80,20 @@ class Pair(Struct, frozen=True):
 # ---------------------------------------------------------------- reading
 
 
-def tokens_of(source: str) -> list[Token]:
-    """The tokens of a file, as far as Python can read it."""
+def read_tokens(source: str) -> list[Token]:
+    """Return the tokens of a file, as far as Python can read it."""
     found: list[Token] = []
     try:
         for each in tokenize.generate_tokens(io.StringIO(source).readline):
             if each.type not in LAYOUT:
-                found.append(Token(word_of(each), each.start[0]))
+                found.append(Token(generalize(each), each.start[0]))
     except (tokenize.TokenError, SyntaxError, ValueError):
         pass
     return found
 
 
-def word_of(each: tokenize.TokenInfo) -> str:
-    """A token without what costs nothing to change."""
+def generalize(each: tokenize.TokenInfo) -> str:
+    """Return a token without what costs nothing to change."""
     if each.type == token.NAME and not keyword.iskeyword(each.string):
         return "name"
     if each.type == token.STRING:
@@ -102,16 +101,16 @@ def word_of(each: tokenize.TokenInfo) -> str:
     return "number" if each.type == token.NUMBER else each.string
 
 
-def runs_in(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
-    """Each run as a number, and the first and last of its lines."""
+def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
+    """Return each run as a number, with the first and last of its lines."""
     words = [each.word for each in tokens]
     for at in range(len(tokens) - RUN + 1):
         run = zlib.crc32("\0".join(words[at : at + RUN]).encode())
         yield run, tokens[at].line, tokens[at + RUN - 1].line
 
 
-def texts_of(package: Package) -> dict[str, str]:
-    """The Python files by name, as many as somebody can have written."""
+def read_texts(package: Package) -> dict[str, str]:
+    """Return the Python files by name, as many as somebody can have written."""
     texts: dict[str, str] = {}
     room = MAX_TEXT
     for name, content in package.files:
@@ -122,35 +121,35 @@ def texts_of(package: Package) -> dict[str, str]:
 
 
 @cache
-def given_runs() -> frozenset[int]:
-    """All that students were given, and the solution's own wording."""
+def collect_given_runs() -> frozenset[int]:
+    """Return the runs that students were given, and those of the solution."""
     files = [path for tree in ("starter", "solution") for path in python_files(KIT / tree)]
     texts = (path.read_text(encoding="utf-8") for path in files)
-    return frozenset().union(*map(runs_of, texts))
+    return frozenset().union(*map(hash_runs, texts))
 
 
 @lru_cache(maxsize=512)  # most files of a class are those that were given
-def runs_of(text: str) -> frozenset[int]:
-    return frozenset(run for run, _, _ in runs_in(tokens_of(text)))
+def hash_runs(text: str) -> frozenset[int]:
+    return frozenset(run for run, _, _ in list_runs(read_tokens(text)))
 
 
-def prints_of(package: Package, with_whom: tuple[str, ...] = ()) -> Prints:
-    """What is a submission's own: neither given nor the solution's wording."""
-    runs: frozenset[int] = frozenset().union(*map(runs_of, texts_of(package).values()))
-    return Prints(package.name, runs - given_runs(), with_whom)
+def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
+    """Return what is a submission's own: neither given nor the solution's wording."""
+    runs: frozenset[int] = frozenset().union(*map(hash_runs, read_texts(package).values()))
+    return Prints(package.name, runs - collect_given_runs(), team)
 
 
-def prints_of_class(
+def read_prints(
     stack: ExitStack, folder: Path, people: ClassList, label: str = ""
 ) -> tuple[dict[str, Found], list[Prints]]:
-    """All of a class that can be read, each under its label, as long as `stack` is open."""
+    """Return all of a class that can be read, under its label, as long as `stack` is open."""
     found, prints = {}, []
-    for each in stack.enter_context(opened_class(folder, people)).found:
+    for each in stack.enter_context(open_class(folder, people)).found:
         if each.handed_in_by:
             continue  # the work of a group is compared once
         name = f"{label}/{each.name}" if label else each.name
         with suppress(CannotTake):
-            prints.append(replace(prints_of(pack(each), each.whose), name=name))
+            prints.append(replace(make_prints(pack(each), each.team), name=name))
             found[name] = each
     return found, prints
 
@@ -158,12 +157,12 @@ def prints_of_class(
 # ---------------------------------------------------------------- comparing
 
 
-def alike(
+def find_pairs(
     prints: Iterable[Prints], least: float = EXPECTED, of: Container[str] | None = None
 ) -> list[Pair]:
-    """The pairs that are more alike than `least`, the most alike first; those of a group are not.
+    """Return the pairs that share more than `least`, the most similar first.
 
-    Each pair has one of the names in `of`.
+    Members of a group are no pair. Each pair has one of the names in `of`, if it is given.
     """
     everybody = sorted(prints, key=lambda each: each.name)
     count_of = Counter(run for each in everybody for run in each.runs)
@@ -182,9 +181,9 @@ def alike(
     for (one, other), count in shared.items():
         first, second = everybody[one], everybody[other]
         share = count / min(sizes[one], sizes[other])
-        together = first.with_whom and first.with_whom == second.with_whom
-        asked = of is None or first.name in of or second.name in of
-        if share > least and asked and not together:
+        together = first.team and first.team == second.team
+        wanted = of is None or first.name in of or second.name in of
+        if share > least and wanted and not together:
             pairs.append(Pair(first.name, second.name, round(share, 3), count))
     pairs.sort(key=lambda each: (-each.share, -each.runs, each.first, each.second))
     return pairs[:MOST]
@@ -194,29 +193,30 @@ def alike(
 class Line:
     number: int
     text: str
-    alike: bool
+    is_shared: bool
 
 
 @dataclass(frozen=True)
 class Side:
-    """One of two, as far as it is like the other: its files, and the lines around what is alike."""
+    """One of two submissions: its files, and the lines around what both share."""
 
     name: str
     files: dict[str, list[Line]]
 
 
-def side_by_side(first: Package, second: Package) -> tuple[Side, Side]:
-    """What both have and nobody was given, where it stands in each."""
-    common = (prints_of(first).runs & prints_of(second).runs) - given_runs()
-    return side(first, common), side(second, common)
+def compare(pair: Pair, first: Package, second: Package) -> tuple[Side, Side]:
+    """Show what both have and nobody was given, where it stands in each."""
+    common = make_prints(first).runs & make_prints(second).runs
+    return mark_lines(pair.first, first, common), mark_lines(pair.second, second, common)
 
 
-def side(package: Package, common: frozenset[int]) -> Side:
+def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
+    """Return the lines of a submission that hold common runs, with some around them."""
     files: dict[str, list[Line]] = {}
-    for name, text in texts_of(package).items():
+    for file, text in read_texts(package).items():
         marked = {
             line
-            for run, first, last in runs_in(tokens_of(text))
+            for run, first, last in list_runs(read_tokens(text))
             if run in common
             for line in range(first, last + 1)
         }
@@ -227,59 +227,51 @@ def side(package: Package, common: frozenset[int]) -> Side:
             if number in shown
         ]
         if lines:
-            files[name] = lines
-    return Side(package.name, files)
+            files[file] = lines
+    return Side(name, files)
 
 
 # ---------------------------------------------------------------- for people
 
 
-@dataclass(frozen=True)
-class Places:
-    """Where what is alike in a class is shown, beside its folder of results."""
-
-    results: Path
-
-    def beside(self, suffix: str) -> Path:
-        return self.results.with_name(f"{self.results.name}.alike.{suffix}")
+def locate_pairs(results: Path, suffix: str) -> Path:
+    """Return the file of similar pairs, beside the folder of results."""
+    results = results.resolve()
+    return results.with_name(f"{results.name}.alike.{suffix}")
 
 
-def write_alike(
+def write_pairs(
     results: Path, pairs: list[Pair], found: Mapping[str, Found], least: float = EXPECTED
 ) -> Path:
     """Write the pairs as a page, a table and for the class page; `found` has them all by name."""
-    places = Places(results.resolve())
+    path = locate_pairs(results, "html")
     page = filled(
         TEMPLATES / "alike.html",
         (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
         title=results.name,
-        pairs=[(pair, *sides(pair, found)) for pair in pairs],
+        pairs=[
+            (pair, *compare(pair, *(pack(found[name]) for name in pair.names))) for pair in pairs
+        ],
         least=least,
         run=RUN,
         clean=printable,
     )
-    write_whole(page.encode("utf-8"), places.beside("html"))
-    write_whole(as_table(pairs), places.beside("csv"))
-    write_whole(msgspec.json.encode(pairs), places.beside("json"))
-    return places.beside("html")
+    write_whole(page.encode("utf-8"), path)
+    write_whole(make_table(pairs), locate_pairs(results, "csv"))
+    write_whole(msgspec.json.encode(pairs), locate_pairs(results, "json"))
+    return path
 
 
-def sides(pair: Pair, found: Mapping[str, Found]) -> tuple[Side, Side]:
-    first, second = (pack(found[name]) for name in pair.names)
-    one, other = side_by_side(first, second)
-    return replace(one, name=pair.first), replace(other, name=pair.second)
-
-
-def read_alike(results: Path) -> list[Pair]:
-    """The pairs that were found last; empty where nobody looked."""
+def read_pairs(results: Path) -> list[Pair]:
+    """Return the pairs that were found last; empty where nobody looked."""
     try:
-        content = Places(results.resolve()).beside("json").read_bytes()
+        content = locate_pairs(results, "json").read_bytes()
         return msgspec.json.decode(content, type=list[Pair])
     except (OSError, msgspec.MsgspecError):
         return []
 
 
-def as_table(pairs: list[Pair]) -> bytes:
-    """The pairs for a spreadsheet."""
+def make_table(pairs: list[Pair]) -> bytes:
+    """Return the pairs for a spreadsheet."""
     rows = ((*each.names, each.share, each.runs) for each in pairs)
-    return as_csv([("first", "second", "alike", "runs"), *rows]).encode("utf-8-sig")
+    return format_csv([("first", "second", "alike", "runs"), *rows]).encode("utf-8-sig")

@@ -1,5 +1,6 @@
-"""The commands of those who look after the kit: each says whether all is sound."""
+"""Define the maintainers' commands, which verify, release and measure the kit."""
 
+import random
 from pathlib import Path
 from typing import Annotated
 
@@ -7,13 +8,13 @@ import typer
 
 from grader.cli.shared import (
     CourseFile,
+    check_todos,
     console,
-    course_in,
-    known_todos,
-    needs_checkout,
-    refuse_ignored,
-    stop,
+    print_note,
+    require_checkout,
 )
+from grader.errors import Stop
+from grader.judge.course import read_course
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
 
@@ -27,17 +28,14 @@ def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
     """Carry the solution's given code over into the starter."""
-    needs_checkout("sync")
-    from grader.bank.sync import OutOfStep, sync
+    require_checkout("sync")
+    from grader.bank.sync import sync
 
-    try:
-        lines = sync(KIT / "solution", KIT / "starter", write=not check)
-    except OutOfStep as error:
-        stop(str(error), "go on")
+    lines = sync(KIT / "solution", KIT / "starter", write=not check)
     for line in lines or ["nothing to do: starter and solution are in step"]:
         console.print(line)
-    asked = {todo.id for todo in course_in(None).rubric.todos}
-    left = [todo.id for todo in load_rubric().todos if todo.id not in asked]
+    named = {todo.id for todo in read_course().rubric.todos}
+    left = [todo.id for todo in load_rubric().todos if todo.id not in named]
     if left and not check:
         console.print(f"course.toml does not name TODO {', '.join(left)}: nobody is asked for it")
     raise typer.Exit(1 if check and lines else 0)
@@ -54,11 +52,11 @@ def verify_command(
 
     What build/verify holds of an earlier run is not graded again, unless something changed.
     """
-    needs_checkout("verify")
+    require_checkout("verify")
     from grader.bank.verify import verify
 
-    taken = course_in(course)
-    raise typer.Exit(0 if verify(jobs, only, console, fresh, taken).sound else 1)
+    sound = verify(jobs, only, console, fresh, read_course(course)).sound
+    raise typer.Exit(0 if sound else 1)
 
 
 @app.command("release")
@@ -74,15 +72,11 @@ def release_command(
 
     Exit status 0: it is there, 2: it was not made, and why.
     """
-    needs_checkout("release")
-    from grader.release.build import Refused, release
+    require_checkout("release")
+    from grader.release.build import release
 
-    try:
-        made = release(out, jobs, console, fresh, course_in(course))
-    except Refused as error:
-        stop(str(error), "release")
-    for path in made:
-        console.print(f"made {path}", soft_wrap=True)
+    for path in release(out, jobs, console, fresh, read_course(course)):
+        print_note(f"made {path}")
 
 
 @app.command("mutants")
@@ -103,42 +97,31 @@ def mutants_command(
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     With --alone, neither what the others lose nor names are looked at.
     """
-    needs_checkout("mutants")
-    from grader.bank.mutants import all_mutants, campaign, chosen_from
+    require_checkout("mutants")
+    from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
 
-    todos = known_todos(todo)
-    known = sorted({mutant.operator for mutant in all_mutants()})
+    todos = check_todos(todo)
+    operators = sorted({mutant.operator for mutant in all_mutants()})
     for name in operator or ():
-        if name not in known:
-            stop(f"there is no operator {name}; there are {', '.join(known)}", "go on")
-    mutants = chosen_from(all_mutants(), todos, frozenset(operator or ()))
-    raise typer.Exit(0 if campaign(mutants, count, seed, jobs, console, alone).sound else 1)
+        if name not in operators:
+            raise Stop(f"there is no operator {name}; there are {', '.join(operators)}")
+    mutants = choose_mutants(todos, operator or ())
+    if count:
+        mutants = random.Random(seed).sample(mutants, min(count, len(mutants)))
+    outcomes = run_mutants(mutants, jobs, console, alone)
+    raise typer.Exit(1 if any(each.complaint for each in outcomes) else 0)
 
 
 @app.command("bench")
 def bench_command(
-    context: typer.Context,
-    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
-    class_: Annotated[
-        int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
-    ] = 0,
-    greedy: Annotated[
-        bool, typer.Option("--greedy", help="Instead: twelve, of which three want all there is.")
-    ] = False,
+    rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
+    size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,
 ) -> None:
-    """Measure what a grade costs and what the isolation adds to it; or what a class does."""
-    needs_checkout("bench")
-    if greedy:
-        refuse_ignored(context, ("class_",), "with --greedy")
-        from grader.bench.greedy import bench_greedy
+    """Measure how long a student waits, and what a grade, its isolation and a class cost.
 
-        bench_greedy(rounds, console)
-    elif class_:
-        refuse_ignored(context, ("rounds",), "with --class")
-        from grader.bench.classes import bench_class
+    A round takes about two minutes.
+    """
+    require_checkout("bench")
+    from grader.bench.figures import bench
 
-        bench_class(console, class_)
-    else:
-        from grader.bench.single import bench
-
-        bench(rounds, console)
+    bench(rounds, size, console)

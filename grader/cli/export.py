@@ -1,4 +1,4 @@
-"""The command that turns a result into the forms of other systems."""
+"""Define the command that turns a result into the forms of other systems."""
 
 import os
 import sys
@@ -8,16 +8,16 @@ from typing import Annotated, Literal
 import msgspec
 import typer
 
-from grader.cli.shared import stop
+from grader.errors import Stop
 from grader.judge.result import Result
 from grader.report.files import write_whole
-from grader.report.sinks.classroom50 import NoRunner, classroom50
-from grader.report.sinks.github import annotations
-from grader.report.sinks.gradescope import gradescope
-from grader.report.sinks.junit import junit
-from grader.report.sinks.markdown import markdown
-from grader.report.sinks.reporter import reporter
-from grader.report.sinks.tables import csv_table, json_lines
+from grader.report.sinks.classroom50 import write_classroom50
+from grader.report.sinks.github import write_annotations
+from grader.report.sinks.gradescope import write_gradescope
+from grader.report.sinks.junit import write_junit
+from grader.report.sinks.markdown import write_markdown
+from grader.report.sinks.reporter import write_reporter
+from grader.report.sinks.tables import write_csv, write_json_lines
 
 Format = Literal[
     "classroom50", "csv", "github", "gradescope", "html", "jsonl", "junit", "markdown", "reporter"
@@ -40,48 +40,45 @@ def export_command(
     tables = format in TABLES and result.is_dir()
     if result.is_dir() and not tables:
         several = " and ".join(TABLES)
-        stop(f"{result} is a folder, and {format} takes one result; {several} take many", "export")
+        raise Stop(f"{result} is a folder, and {format} takes one result; {several} take many")
     files = sorted(result.glob("[!.]*.json")) if tables else [result]
     if not files:
-        stop(f"there are no results in {result}", "export")
-    try:
-        content = in_form(format, [read(file) for file in files], result.parent)
-    except NoRunner as error:
-        stop(str(error), "export")
+        raise Stop(f"there are no results in {result}")
+    content = write_form(format, [read_result(file) for file in files], result.parent)
     if out is None:
         sys.stdout.buffer.write(content)
     else:
         write_whole(content, out)
 
 
-def read(file: Path) -> Result:
+def read_result(file: Path) -> Result:
     try:
         return msgspec.json.decode(file.read_bytes(), type=Result)
     except (OSError, msgspec.MsgspecError) as error:
-        stop(f"{file} is no result of the grader ({error})", "export")
+        raise Stop(f"{file} is no result of the grader ({error})") from error
 
 
-def in_form(form: Format, results: list[Result], folder: Path) -> bytes:
-    """The results in another form, one where it is no table; replays are in `folder`."""
+def write_form(form: Format, results: list[Result], folder: Path) -> bytes:
+    """Return the results in another form; all but tables take one. Replays are in `folder`."""
     result = results[0]
     match form:
         case "csv":
-            return csv_table(results)
+            return write_csv(results)
         case "jsonl":
-            return json_lines(results)
+            return write_json_lines(results)
         case "classroom50":
-            return classroom50(result, os.environ)
+            return write_classroom50(result, os.environ)
         case "github":
-            return annotations(result).encode("utf-8")
+            return write_annotations(result).encode("utf-8")
         case "gradescope":
-            return gradescope(result)
+            return write_gradescope(result)
         case "html":
-            from grader.report.html import found_replays, report  # only here: it takes its time
+            from grader.report.html import find_replays, render  # only here: it takes its time
 
-            return report(result, found_replays(result, folder)).encode("utf-8")
+            return render(result, find_replays(result, folder)).encode("utf-8")
         case "junit":
-            return junit(result)
+            return write_junit(result)
         case "markdown":
-            return markdown(result).encode("utf-8")
+            return write_markdown(result).encode("utf-8")
         case "reporter":
-            return reporter(result)
+            return write_reporter(result)

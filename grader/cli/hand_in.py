@@ -1,10 +1,11 @@
-"""What a student hands in: one zip of their own work, without what was given to read and run."""
+"""Pack what a student hands in: one zip of their own work, without what was given."""
 
 import zipfile
 from pathlib import Path
 
+from grader.errors import Stop
 from grader.judge.course import FULL, Course
-from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade, plain_files
+from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
 from grader.report.files import put_in
 
 PACKED = "hand-in.zip"
@@ -16,15 +17,12 @@ GIVEN = {  # what the folder handed out holds besides, and nobody works on
 SUFFIXES = (".whl", ".zip")  # the grader, and what was packed before
 
 
-def hand_in(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple[Path, list[str]]:
-    """Pack the tree; returns the zip, `out` or else in the tree, and the names in it.
-
-    Raises CannotGrade where there is more than will be taken in.
-    """
-    files = packed_files(tree, course)
+def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple[Path, list[str]]:
+    """Pack the tree; return the zip, `out` or else in the tree, and the names in it."""
+    files = choose_files(tree, course)
     size = sum(path.stat().st_size for path in files.values())
     if len(files) > MAX_FILES or size > MAX_BYTES:
-        raise CannotGrade(
+        raise Stop(
             f"{len(files)} files of {size >> 20} MB are more than will be read, {MAX_FILES} files "
             f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}"
         )
@@ -35,8 +33,8 @@ def hand_in(tree: Path, course: Course = FULL, out: Path | None = None) -> tuple
     return target, list(files)
 
 
-def packed_files(tree: Path, course: Course) -> dict[str, Path]:
-    """Programs, notebooks and all that was added, by name, in a fixed order; nothing hidden."""
+def choose_files(tree: Path, course: Course) -> dict[str, Path]:
+    """Return programs, notebooks and all that was added, by name, in a fixed order."""
     given = {program for program in PROGRAMS if program not in course.modules}
     given |= GIVEN | {f"{program}.py" for program in given}
     found = {path.relative_to(tree).as_posix(): path for path in plain_files(tree)}
@@ -47,7 +45,7 @@ def packed_files(tree: Path, course: Course) -> dict[str, Path]:
     }
 
 
-def missing_programs(names: list[str], course: Course) -> list[str]:
-    """The programs with a TODO of the course that these files lack."""
+def find_missing(names: list[str], course: Course) -> list[str]:
+    """Return the programs with a TODO of the course that these files lack."""
     here = {name.partition("/")[0].removesuffix(".py") for name in names}
     return [program for program in course.modules if program not in here]

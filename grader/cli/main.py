@@ -1,48 +1,74 @@
-"""The command line: `python -m grader COMMAND`."""
+"""Run the command line, `python -m grader COMMAND`, and grade one submission or a class."""
 
 import _thread
 import os
 import signal
 import sys
 import threading
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
+from rich.console import Console
+from typer.core import TyperGroup
 
-from grader.cli import export as report
-from grader.cli import student
+from grader.cli import export, student
 from grader.cli.shared import (
+    Confinement,
     CourseFile,
+    SecretSeed,
+    check_todos,
     console,
-    course_in,
-    graded,
-    known_todos,
-    needs_checkout,
+    grade_one,
+    open_path,
     refuse_ignored,
-    say_why,
-    stop,
-    submission_at,
+    require_checkout,
 )
+from grader.errors import Stop
+from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.isolation import Isolation
 from grader.judge.result import Result
-from grader.judge.submission import CannotGrade
 from grader.report.files import write_json
 from grader.report.terminal import show, show_isolation
+
+if TYPE_CHECKING:
+    from grader.classroom.grading import ClassOptions
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 FOR_CLASS = ("jobs", "roster", "adjust", "cluster")  # for a class alone
 
-app = typer.Typer(
-    help="Grades submissions of the physics-engine assignment.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
+
+class Commands(TyperGroup):
+    """Commands that end with a sentence and an exit status where something stops them."""
+
+    def invoke(self, context: Any) -> Any:
+        try:
+            return super().invoke(context)
+        except Stop as error:
+            say_why(error.cannot, str(error))
+            raise typer.Exit(error.status) from error
+        except OSError as error:  # exit status 1 would say that points are missing
+            say_why(Stop.cannot, f"{error}. Check free space and write permission.")
+            raise typer.Exit(Stop.status) from error
+
+
+def say_why(cannot: str, words: str) -> None:
+    Console(stderr=True, highlight=False, markup=False).print(f"cannot {cannot}: {words}")
+
+
+app = typer.Typer()
+
+
+@dataclass(frozen=True)
+class Output:
+    """The files to write about one submission, and the points that are enough."""
+
+    out: Path | None = None
+    json: Path | None = None
+    at_least: int | None = None
 
 
 @app.command("grade")
@@ -65,10 +91,8 @@ def grade_command(
     jobs: Annotated[
         int, typer.Option(help="For a class: submissions at a time; 0 for one per core.")
     ] = 0,
-    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
-    seed: Annotated[
-        int | None, typer.Option(help="A secret seed: other numbers in every check.")
-    ] = None,
+    isolation: Confinement = "auto",
+    seed: SecretSeed = None,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     ci: Annotated[
         Path | None, typer.Option(help="For CI: write its reports into this folder, tell GitHub.")
@@ -92,31 +116,36 @@ def grade_command(
     Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
     """
     refuse_what_is_ignored(context, path, class_, cluster)
-    chosen = course_in(course)
+    taken = read_course(course)
     complete = reference or shipped_reference()
     own = complete is None  # a student's copy: there is nothing but their own work
-    options = Options(
-        complete, isolation, known_todos(todo, chosen), seed, trusted=own, course=chosen
-    )
+    todos = check_todos(todo, taken)
+    options = Options(complete, isolation, todos, seed, trusted=own, course=taken)
+    output = Output(out, json, at_least)
     if path is None:
         demonstrate(options)
     elif class_:
-        grade_folder(path, options, out, jobs, roster, adjust, cluster)
+        # Imported here: students have none of it, and it would add 80 ms to every start.
+        from grader.classroom.grading import ClassOptions
+
+        grade_folder(path, ClassOptions(options, out, jobs, roster, adjust, cluster))
     elif ci is not None:
-        grade_in_ci(path, ci, out, json, at_least, options)
+        grade_in_ci(path, ci, output, options)
     else:
-        with submission_at(path, chosen.modules) as folder:
+        with open_path(path, taken.modules) as folder:
             replays = None if out is None else out / folder.resolve().name
-            result = shown(folder, options, replays)
-        finish(result, out, json, at_least)
+            result = grade_and_show(folder, options, replays)
+        finish(result, output)
 
 
 def refuse_what_is_ignored(
     context: typer.Context, path: Path | None, class_: bool, cluster: str
 ) -> None:
-    """Each way of grading takes options that the others would pass over in silence."""
+    """Stop at options that this way of grading would pass over in silence."""
     if path is None and class_:
-        stop("--class needs the submissions: name a folder or a zip of them")
+        raise Stop("--class needs the submissions: name a folder or a zip of them")
+    if class_ and not find_spec("grader.classroom"):
+        raise Stop("--class needs the whole kit, and this is the students' grader: leave it out")
     if path is None:
         refuse_ignored(context, (*FOR_ONE, *FOR_CLASS, "out"), "without a submission: name one")
     elif class_:
@@ -127,90 +156,70 @@ def refuse_what_is_ignored(
         refuse_ignored(context, ("jobs",), "with --cluster: its workers say how many at a time")
 
 
-def shown(path: Path, options: Options, replays: Path | None) -> Result:
-    """The result of one submission, printed."""
-    result = graded(path, options, replays)
+def grade_and_show(path: Path, options: Options, replays: Path | None) -> Result:
+    result = grade_one(path, options, replays)
     show(result, console)
     show_isolation(result, console)
     return result
 
 
-def finish(result: Result, out: Path | None, json: Path | None, at_least: int | None) -> NoReturn:
+def finish(result: Result, output: Output) -> NoReturn:
     """Write what is wanted, and end with the status that the points deserve."""
-    if json is not None:
-        write_json(result, json)
-    if out is not None:
+    if output.json is not None:
+        write_json(result, output.json)
+    if output.out is not None:
         from grader.report.html import write_report  # only here: it takes its time
 
-        write_json(result, out / f"{result.submission}.json")
-        write_report(result, out / f"{result.submission}.html")
-    most = result.max_points
+        write_json(result, output.out / f"{result.submission}.json")
+        write_report(result, output.out / f"{result.submission}.html")
+    most, at_least = result.max_points, output.at_least
     if at_least is not None and at_least > most:
-        stop(f"--at-least {at_least} can never be reached: there are {most} points here")
+        raise Stop(f"--at-least {at_least} can never be reached: there are {most} points here")
     enough = result.complete if at_least is None else result.points >= at_least
     raise typer.Exit(0 if enough else 1)
 
 
-def grade_in_ci(
-    path: Path,
-    folder: Path,
-    out: Path | None,
-    json: Path | None,
-    at_least: int | None,
-    options: Options,
-) -> NoReturn:
-    """What is printed for people is kept from being read as commands."""
-    from grader.report.ci import named_after_repository, own_folder, tell_github, write_reports
-    from grader.report.sinks.github import commands_stopped
+def grade_in_ci(path: Path, folder: Path, output: Output, options: Options) -> NoReturn:
+    """Grade for a CI system; what is printed for people must not be read as commands."""
+    from grader.report.ci import is_free_folder, name_after_repository, tell_github, write_reports
+    from grader.report.sinks.github import stop_commands
 
-    if not own_folder(folder):
-        stop(f"{folder} is there already, and reports need a folder of their own: remove it")
-    with commands_stopped(os.environ):
-        result = shown(path, options, folder / "replays")
-    result = named_after_repository(result, os.environ)
+    if not is_free_folder(folder):
+        raise Stop(f"{folder} is there already, and reports need a folder of their own: remove it")
+    with stop_commands(os.environ):
+        result = grade_and_show(path, options, folder / "replays")
+    result = name_after_repository(result, os.environ)
     write_reports(result, folder)
     tell_github(result, path, os.environ)
-    finish(result, out, json, at_least)
+    finish(result, output)
 
 
-def grade_folder(
-    path: Path,
-    options: Options,
-    out: Path | None,
-    jobs: int,
-    roster: Path | None,
-    adjust: Path | None,
-    cluster: str,
-) -> NoReturn:
-    if not find_spec("grader.classroom"):
-        stop("this is the students' grader, and --class needs the whole kit: leave it out")
-    # Imported here: students have none of it, and it would add 80 ms to every start.
-    from grader.classroom.grading import ClassOptions, run_class
+def grade_folder(path: Path, wanted: "ClassOptions") -> NoReturn:
+    from grader.classroom.grading import run_class
 
     try:
-        run = run_class(path, ClassOptions(options, out, jobs, roster, adjust, cluster), console)
-    except (CannotGrade, OSError) as error:
-        stop(str(error))
+        run = run_class(path, wanted, console)
     except KeyboardInterrupt:
-        stop("stopped; what is graded stays, and the same command goes on from there")
+        words = "stopped; what is graded stays, and the same command goes on from there"
+        raise Stop(words) from None
     raise typer.Exit(2 if any(outcome.mark is None for outcome in run.outcomes) else 0)
 
 
 def demonstrate(options: Options) -> None:
-    """The shipped trees, to show that the grader works here."""
-    needs_checkout("grade", ", or name a submission")
+    """Grade the shipped trees, to show that the grader works here."""
+    require_checkout("grade", ", or name a submission")
     for name in ("solution", "starter"):
         console.rule(name)
-        result = graded(KIT / name, replace(options, trusted=True))
+        result = grade_one(KIT / name, replace(options, trusted=True))
         show(result, console)
     show_isolation(result, console)
 
 
 def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
-    """Let Ctrl-C count where it comes while a callback runs, as that of a garbage collection.
+    """Raise Ctrl-C again where it came during a callback, such as a garbage collection's.
 
-    Python cannot raise it there and only tells of it. A moment later it can. On a busy machine that
-    moment may be over before this function is, which Python would only tell of as well.
+    Python cannot raise it there and only prints it. A moment later it can. On a busy machine that
+    moment may be over before this function is, which Python would only print as well.
     """
     if not issubclass(ignored.exc_type, KeyboardInterrupt):
         sys.__unraisablehook__(ignored)
@@ -226,7 +235,7 @@ def interrupt_again(ignored: "sys.UnraisableHookArgs") -> None:
 
 
 def interrupt() -> None:
-    """As Ctrl-C does; from another thread, where it can, also in the middle of a wait."""
+    """Interrupt the main thread as Ctrl-C does, where possible in the middle of a wait."""
     if hasattr(signal, "pthread_kill"):
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
@@ -234,37 +243,43 @@ def interrupt() -> None:
 
 
 def end_like_ctrl_c() -> None:
-    """Told to end, or the terminal closed: all is put away, as after Ctrl-C, and so only once."""
+    """Clean up as after Ctrl-C, and only once, when the system or the terminal ends us."""
 
-    def stopped(number: int, _: object) -> NoReturn:
+    def end(number: int, _: object) -> NoReturn:
         for name in ENDINGS:
             signal.signal(name, signal.SIG_IGN)
         raise KeyboardInterrupt
 
     for name in ENDINGS:
         if signal.getsignal(name) == signal.SIG_DFL:  # nohup has a terminal's end ignored
-            signal.signal(name, stopped)
+            signal.signal(name, end)
+
+
+def make_app() -> typer.Typer:
+    """Return the command line with all commands that are installed here."""
+    whole = typer.Typer(
+        cls=Commands,
+        help="Grades submissions of the physics-engine assignment.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+    )
+    apps = [app, student.app, export.app]
+    if find_spec("grader.classroom"):  # students get none of these folders
+        from grader.cli import classroom, dev, questions
+
+        apps += [classroom.app, dev.app, questions.app]
+    else:
+        from grader.cli import practice
+
+        apps += [practice.app]
+    for each in apps:
+        whole.add_typer(each)
+    return whole
 
 
 def main() -> None:
+    """Run the command that the arguments name."""
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
-    app.add_typer(student.app)
-    app.add_typer(report.app)
-    if find_spec("grader.classroom"):  # students get none of these folders
-        from grader.cli.classroom import app as classroom
-        from grader.cli.dev import app as dev
-        from grader.cli.questions import app as questions
-
-        app.add_typer(classroom)
-        app.add_typer(dev)
-        app.add_typer(questions)
-    else:
-        from grader.cli.practice import app as practice
-
-        app.add_typer(practice)
-    try:
-        app(prog_name="grader")
-    except OSError as error:  # exit status 1 would say that points are missing
-        say_why(f"{error}. Is there space, and a right to write?", "go on")
-        sys.exit(2)
+    make_app()(prog_name="grader")

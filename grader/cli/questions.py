@@ -1,15 +1,23 @@
-"""The command `questions`: sheets about students' own programs, and marks for the answers."""
+"""Define the command `questions`: sheets about students' programs, and marks for the answers."""
 
 from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
 
-from grader.cli.shared import CourseFile, console, course_in, needs_checkout, refuse_ignored, stop
+from grader.cli.shared import (
+    Confinement,
+    CourseFile,
+    console,
+    print_note,
+    print_notes,
+    refuse_ignored,
+    require_checkout,
+)
+from grader.errors import Stop
+from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.isolation import Isolation
-from grader.judge.submission import CannotGrade
-from grader.text import clean, plural
+from grader.text import plural
 
 TALLY = KIT / "build" / "questions" / "tally.json"
 
@@ -45,7 +53,7 @@ def questions_command(
         Path | None, typer.Option(help="The results of grading them: nothing is graded again.")
     ] = None,
     roster: Annotated[Path | None, typer.Option(help="For a class: its list.")] = None,
-    isolation: Annotated[Isolation, typer.Option(help="Confinement to insist on.")] = "auto",
+    isolation: Confinement = "auto",
     course: CourseFile = None,
 ) -> None:
     """Make a sheet of questions for each student about their own program, with its key.
@@ -53,60 +61,50 @@ def questions_command(
     With --mark, answers are marked by the keys in --out. Exit status 0: everybody has a sheet, or
     every answer is marked, 1: not everybody or not every one, 2: nothing could be made.
     """
-    needs_checkout("questions")
+    require_checkout("questions")
     if mark is not None:
-        ignored_when_marking(context, path)
-        mark_them(mark, out, tally)
+        refuse_when_marking(context, path)
+        mark_class(mark, out, tally)
     if path is None:
-        stop("name a submission, or a class of them with --class", "ask")
+        raise Stop("name a submission, or a class of them with --class")
     ignored, when = (("student",), "with") if class_ else (("roster",), "without")
     refuse_ignored(context, ignored, f"{when} --class")
     # Imported here: all of it would add a tenth of a second to every start.
     from grader.questions.making import Making, make_class, make_one
 
-    taken = course_in(course)
-    options = Options(shipped_reference(), isolation, course=taken)
+    options = Options(shipped_reference(), isolation, course=read_course(course))
     making = Making(out, options, seed, practice, results, tally)
     try:
         if class_:
             made = make_class(making, path, roster, console)
         else:
             made = [make_one(making, path, student)]
-    except (CannotGrade, OSError) as error:
-        stop(str(error), "ask")
     except KeyboardInterrupt:
-        stop("stopped; sheets that are made stay, and the same command makes them again", "ask")
-    for each in made:
-        console.print(clean(each.words), soft_wrap=True)
-    count = plural(sum(each.sheet is not None for each in made), "sheet")
-    console.print(f"{count} in {out}", soft_wrap=True)
+        words = "stopped; sheets that are made stay, and the same command makes them again"
+        raise Stop(words) from None
+    print_notes([each.words for each in made])
+    print_note(f"{plural(sum(each.sheet is not None for each in made), 'sheet')} in {out}")
     raise typer.Exit(0 if all(each.sheet for each in made) else 1)
 
 
-def ignored_when_marking(context: typer.Context, path: Path | None) -> None:
+def refuse_when_marking(context: typer.Context, path: Path | None) -> None:
     making = ("class_", "student", "seed", "practice", "results", "roster", "isolation")
     refuse_ignored(context, making, "with --mark, which makes no sheets")
     if path is not None:
-        stop(f"{path} would be ignored with --mark, which needs the keys in --out alone", "mark")
+        raise Stop(f"{path} would be ignored with --mark, which needs the keys in --out alone")
 
 
-def mark_them(answers: Path, out: Path, tally: Path) -> NoReturn:
+def mark_class(answers: Path, out: Path, tally: Path) -> NoReturn:
     """Mark a table of answers, and count them with those of other classes."""
     from grader.questions.marking import mark_answers, read_keys, write_points
     from grader.questions.tally import add_class, write_bank
 
-    try:
-        marked = mark_answers(answers, out / "keys")
-        tables = write_points(marked, out)
-        sheets = read_keys(out / "keys")
-        write_bank(out / "bank.html", sheets, add_class(tally, sheets, marked.marks))
-    except (CannotGrade, OSError) as error:
-        stop(str(error), "mark")
+    marked = mark_answers(answers, out / "keys")
+    tables = write_points(marked, out)
+    sheets = read_keys(out / "keys")
+    write_bank(out / "bank.html", sheets, add_class(tally, sheets, marked.marks))
     waiting = [each for each in marked.marks if each.points is None]
-    for note in marked.notes:
-        console.print(clean(note), soft_wrap=True)
-    for each in waiting:
-        words = f"{each.student}, question {each.number}: {each.note}"
-        console.print(clean(words), soft_wrap=True)
-    console.print(f"{' and '.join(map(str, tables))} are written", soft_wrap=True)
+    open_answers = [f"{each.student}, question {each.number}: {each.note}" for each in waiting]
+    print_notes([*marked.notes, *open_answers])
+    print_note(f"{' and '.join(map(str, tables))} are written")
     raise typer.Exit(1 if waiting or marked.notes else 0)

@@ -1,8 +1,9 @@
-"""`check --restore`: given code as it was handed out, in the place of what an experiment left."""
+"""Put given code back as it was handed out: `check --restore`."""
 
 from collections.abc import Iterable
 from pathlib import Path
 
+from grader.errors import Stop
 from grader.judge.result import Result
 from grader.judge.submission import load_given
 from grader.source.given import Changed, as_given, changes, restored
@@ -11,48 +12,44 @@ from grader.source.regions import RegionError, read_source
 MOST_NAMES = 3  # on one line
 
 
-class CannotRestore(Exception):
-    """Nothing was written; the message says why and what to do."""
-
-
-def changed_in(tree: Path) -> list[Changed]:
-    """What differs in a tree from what was handed out."""
+def find_changes(tree: Path) -> list[Changed]:
+    """Return what differs in a tree from what was handed out."""
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
     return changes({name: read_source(path) for name, path in own.items()}, load_given())
 
 
-def notes_on(tree: Path, result: Result) -> list[str]:
-    """A line on given code that was changed, unless a check has said it."""
+def list_notes(tree: Path, result: Result) -> list[str]:
+    """Return a line on given code that was changed, unless a check has said it."""
     checks = [check for todo in result.todos for check in todo.checks]
     if any(check.where is not None and check.where.given for check in checks):
         return []
-    found = changed_in(tree)
+    found = find_changes(tree)
     names = ", ".join(dict.fromkeys(each.to_type for each in found[:MOST_NAMES]))
     more = f" and {len(found) - MOST_NAMES} more" * (len(found) > MOST_NAMES)
     return [f"Given code was changed: {names}{more}. check --restore NAME undoes it."] * bool(found)
 
 
 def restore(tree: Path, name: str) -> list[str]:
-    """Put back what goes by this name, a function, constant or file; says what was done.
+    """Put back the function, constant or file of this name, and return what was done.
 
     TODO regions stay as they are, and a copy of each file as it was is kept beside it.
     """
-    texts = texts_with(tree, name)
+    texts = make_texts(tree, name)
     if not texts:
         return [f"{name} is as it was handed out: nothing to put back."]
     for file, text in texts.items():  # of two files both or none
         try:
             compile(text, file, "exec", dont_inherit=True)
         except SyntaxError as error:
-            raise CannotRestore(
-                f"{file} would be no Python with that (line {error.lineno}: {error.msg}): mend it, "
-                f"or put back all of its given code with --restore {file}"
+            raise Stop(
+                f"{file} would be no Python with that (line {error.lineno}: {error.msg}): correct "
+                f"it, or put back all of its given code with --restore {file}"
             ) from None
-    return [told(tree, name, file, text) for file, text in texts.items()]
+    return [write_text(tree, name, file, text) for file, text in texts.items()]
 
 
-def texts_with(tree: Path, name: str) -> dict[str, str]:
-    """The files to be written, with what goes by this name as it was handed out."""
+def make_texts(tree: Path, name: str) -> dict[str, str]:
+    """Return the files to write, with what has this name as it was handed out."""
     given = load_given()
     file = name.replace("\\", "/").removeprefix("./")
     if file in given:
@@ -60,15 +57,15 @@ def texts_with(tree: Path, name: str) -> dict[str, str]:
         try:
             text = as_given(own, given[file])
         except RegionError as error:
-            raise CannotRestore(f"the TODO markers of {file} do not pair up: {error}") from None
+            raise Stop(f"the TODO markers of {file} do not pair up: {error}") from None
         return {file: text} if text != own or not (tree / file).is_file() else {}
-    found = changed_in(tree)
-    mine = [each for each in found if name in (each.name, each.name.rpartition(".")[2])]
-    if not mine and not is_given(name, given.values()):
-        raise CannotRestore(f"no given function, constant or file is called {name}{listed(found)}")
-    files = dict.fromkeys(each.file for each in mine)
+    found = find_changes(tree)
+    named = [each for each in found if name in (each.name, each.name.rpartition(".")[2])]
+    if not named and not is_given(name, given.values()):
+        raise Stop(f"no given function, constant or file is called {name}{list_changes(found)}")
+    files = dict.fromkeys(each.file for each in named)
     return {
-        file: restored(read_source(tree / file), [each for each in mine if each.file == file])
+        file: restored(read_source(tree / file), [each for each in named if each.file == file])
         for file in files
     }
 
@@ -78,18 +75,18 @@ def is_given(name: str, texts: Iterable[str]) -> bool:
     return any(f"def {short}(" in text or f"\n{short} = " in text for text in texts)
 
 
-def listed(found: list[Changed]) -> str:
+def list_changes(found: list[Changed]) -> str:
     names = ", ".join(dict.fromkeys(each.to_type for each in found))
     return f"; changed are {names}" if names else "; nothing that was given is changed"
 
 
-def told(tree: Path, name: str, file: str, text: str) -> str:
-    """Write a file, keep the one before, and say so."""
+def write_text(tree: Path, name: str, file: str, text: str) -> str:
+    """Write a file, keep a copy of the one before, and return what was done."""
     path = tree / file
     if not path.is_file():
         path.write_text(text, encoding="utf-8", newline="\n")
         return f"{file} is there again, as it was handed out."
-    copy = free_name(path)
+    copy = find_free_name(path)
     copy.write_bytes(path.read_bytes())
     path.write_text(text, encoding="utf-8", newline="\n")
     kept = copy.relative_to(tree).as_posix()
@@ -97,7 +94,7 @@ def told(tree: Path, name: str, file: str, text: str) -> str:
     return f"{file}: {what} is as it was handed out. The file as it was is kept as {kept}."
 
 
-def free_name(path: Path) -> Path:
-    """`solver_old.py` beside `solver.py`, or with a number where there is one."""
+def find_free_name(path: Path) -> Path:
+    """Return `solver_old.py` beside `solver.py`, with a number where there is one."""
     names = [f"{path.stem}_old.py", *(f"{path.stem}_{n}_old.py" for n in range(2, 1000))]
     return next(path.with_name(name) for name in names if not path.with_name(name).exists())

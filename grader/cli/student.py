@@ -1,4 +1,4 @@
-"""What students run in their own tree: `check`, `hint` and `hand-in`."""
+"""Define what students run in their own tree: `check`, `hint` and `hand-in`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,17 +6,17 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.cli.hand_in import hand_in, missing_programs
-from grader.cli.restore import CannotRestore, notes_on, restore
-from grader.cli.shared import CourseFile, console, course_in, graded, known_todos, stop
-from grader.judge.course import Course
+from grader.cli.hand_in import find_missing, pack_tree
+from grader.cli.restore import list_notes, restore
+from grader.cli.shared import CourseFile, check_todos, console, grade_one
+from grader.errors import Stop
+from grader.judge.course import Course, read_course
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
-from grader.judge.submission import CannotGrade
 from grader.judge.wording import command, hidden_points_note
 from grader.report.screen import Screen
-from grader.report.terminal import Teller, say, show_standing
+from grader.report.terminal import say, show_all
 from grader.text import clean, moment, plural
 
 app = typer.Typer()
@@ -35,72 +35,54 @@ def check_command(
     ] = None,
     course: CourseFile = None,
 ) -> None:
-    """Show what stands in your own tree, and what to do next. Exit status as for `grade`.
+    """Show how far your own tree is, and what to do next. Exit status as for `grade`.
 
-    One TODO at a time is told in full; `--all` tells everything.
+    One TODO at a time is shown in full; `--all` shows everything.
     """
-    chosen = course_in(course)
-    folder = own_tree(path, chosen)
+    taken = read_course(course)
+    folder = find_tree(path, taken)
     if undo:
-        put_back(folder, undo)
+        for name in undo:
+            for words in restore(folder, name):
+                say(clean(words), console)
         return
-    options, replays = own_options(known_todos(todo, chosen), chosen), replays_in(folder)
+    options = make_options(check_todos(todo, taken), taken)
+    replays = make_replay_folder(folder)
     if watch:
-        result = watched(folder, options, replays)
+        from grader.cli.watch import watch_tree
+
+        result = watch_tree(folder, options, console, replays)
     else:
-        result = graded(folder, options, replays)
-        tell(result, replays, chosen, folder, whole)
+        result = grade_one(folder, options, replays)
+        show_all(result, console, replays) if whole else show_first(result, folder, replays)
+        if whole or result.complete:
+            say(f"To hand in: {command('hand-in')}{write_due(taken)}", console)
     raise typer.Exit(0 if result.complete or not status else 1)
 
 
-def tell(result: Result, replays: Path | None, course: Course, folder: Path, whole: bool) -> None:
-    """Print the first screen of a result, or the `whole` of it, and how to hand in."""
-    if whole:
-        show_standing(result, Teller(console, replays))
-    else:
-        Screen(console, replays).show(result, notes=notes_on(folder, result))
-    if whole or result.complete:
-        if words := "" if whole else hidden_points_note(result):
-            say(words, console)
-        say(f"To hand in: {command('hand-in')}{until(course)}", console)
+def show_first(result: Result, folder: Path, replays: Path | None) -> None:
+    """Print the first screen of a result."""
+    Screen(console, replays).show(result, notes=list_notes(folder, result))
+    if result.complete and (words := hidden_points_note(result)):
+        say(words, console)
 
 
-def own_options(todos: frozenset[str], course: Course) -> Options:
-    """How `check` grades: as `grade` does without a reference, but for what confines."""
+def make_options(todos: frozenset[str], course: Course) -> Options:
+    """Return the options of `check`: those of `grade` without a reference and confinement."""
     return Options(only=todos, trusted=True, course=course)
 
 
-def put_back(folder: Path, names: list[str]) -> None:
-    """Undo changes of given code, and say what was done."""
-    for name in names:
-        try:
-            for words in restore(folder, name):
-                say(clean(words), console)
-        except (CannotRestore, OSError) as error:
-            stop(str(error), f"restore {name}")
-
-
-def watched(folder: Path, options: Options, replays: Path | None) -> Result:
-    """Check after each save until Ctrl-C; returns the last result."""
-    from grader.cli.watch import watch
-
-    try:
-        return watch(folder, options, console, replays)
-    except CannotGrade as error:
-        stop(str(error), "go on")
-
-
-def own_tree(path: Path, course: Course) -> Path:
-    """The student's tree around `path`: the folder that holds the first program of the course."""
+def find_tree(path: Path, course: Course) -> Path:
+    """Return the student's tree around `path`, the folder with the course's first program."""
     name = course.modules[0]
     for folder in [path.resolve(), *path.resolve().parents]:
         if (folder / name).is_dir() or (folder / f"{name}.py").is_file():
             return folder
-    stop(f"there is no {name} in {path.resolve()} or above it: go to the folder handed out")
+    raise Stop(f"there is no {name} in {path.resolve()} or above it: go to the folder handed out")
 
 
-def until(course: Course) -> str:
-    """The due date, where the course has one."""
+def write_due(course: Course) -> str:
+    """Return the due date, where the course has one."""
     return f", until {moment(course.due)}" if course.due else ""
 
 
@@ -111,23 +93,20 @@ def hand_in_command(
     course: CourseFile = None,
 ) -> None:
     """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
-    chosen = course_in(course)
-    try:
-        packed, names = hand_in(own_tree(path, chosen), chosen, out)
-    except (CannotGrade, OSError) as error:
-        stop(str(error), "pack")
+    taken = read_course(course)
+    packed, names = pack_tree(find_tree(path, taken), taken, out)
     for name in names:
         console.print(f"  {clean(name)}", soft_wrap=True)
-    missing = missing_programs(names, chosen)
+    missing = find_missing(names, taken)
     for name in missing:
         say(f"There is no {name} here: hand in once all programs are there.", console)
     say(f"{plural(len(names), 'file')} in {packed}", console)
-    say(f"Hand in this one file{until(chosen)}.", console)
+    say(f"Hand in this one file{write_due(taken)}.", console)
     raise typer.Exit(1 if missing else 0)
 
 
-def replays_in(tree: Path) -> Path | None:
-    """A folder for replays that git leaves alone; None where nothing can be written."""
+def make_replay_folder(tree: Path) -> Path | None:
+    """Make a folder for replays that git ignores; return None where nothing can be written."""
     folder = tree / "build" / "replays"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -144,7 +123,7 @@ def hint_command(
     course: CourseFile = None,
 ) -> None:
     """Give a hint: first a question, then the idea, then nearly the code."""
-    known_todos([todo], course_in(course))
+    check_todos([todo], read_course(course))
     hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
     if todo not in hints:
         say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)

@@ -1,7 +1,7 @@
-"""`check --watch`: after each save the tree is checked again, first what the save touched.
+"""Check the tree again after each save, first what the save touched: `check --watch`.
 
-Events only wake us up. What changed is seen from the sources themselves, so it does not matter
-how an editor saves, nor whether the file system tells of it.
+Events only wake us up. The sources themselves show what changed, so it does not matter how an
+editor saves, nor whether the file system reports it.
 """
 
 import time
@@ -15,15 +15,12 @@ import msgspec
 import watchfiles
 from rich.console import Console
 
+from grader.errors import Stop
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import Todo, load_rubric
-from grader.judge.submission import (
-    CannotGrade,
-    module_of,
-    plain_files,
-)
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import module_of, plain_files
 from grader.player.replay import grade_with_replays
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
@@ -40,12 +37,12 @@ LOOK_EVERY = 0.25  # s, while checks are running
 
 
 class SavedAgain(Exception):
-    """Raised between two checks: the tree is no longer the one that is being checked."""
+    """The tree is no longer the one that is being checked."""
 
 
 @dataclass
 class Watch:
-    """A tree, what was found in it, and what is to be checked again."""
+    """A tree, its result, and what is to be checked again."""
 
     folder: Path
     options: Options
@@ -62,20 +59,20 @@ class Watch:
 
     def start(self) -> None:
         """Check the whole tree."""
-        self.seen = self.checked = python_sources(self.folder)
+        self.seen = self.checked = read_sources(self.folder)
         self.result = self.grade(self.options)
         self.draw()
 
     def look(self) -> None:
         """Check again whatever was saved since the last look."""
         again = False
-        while (now := python_sources(self.folder)) != self.seen or again:
-            if changed := sorted(differing(self.seen, now)):
+        while (now := read_sources(self.folder)) != self.seen or again:
+            if changed := sorted(find_differences(self.seen, now)):
                 self.news = [f"saved: {clean(', '.join(changed))}"]
                 self.tell(self.news, clear=True)
             self.seen, again = now, False
-            new = sorted(differing(self.checked, now))
-            if trouble := next(filter(None, map(self.trouble_in, new)), ""):
+            new = sorted(find_differences(self.checked, now))
+            if trouble := next(filter(None, map(self.find_trouble, new)), ""):
                 self.tell([trouble])
                 continue
             self.plan()
@@ -86,24 +83,23 @@ class Watch:
             except OSError as error:  # a file went away while it was read
                 say(f"cannot read the tree now ({clean(str(error))}): save again", self.console)
 
-    def trouble_in(self, file: str) -> str:
-        """Why Python cannot read a file of the programs; empty if it can."""
+    def find_trouble(self, file: str) -> str:
+        """Return why Python cannot read a file of the programs; empty if it can."""
         modules = {todo.module for todo in load_rubric().todos}
         if module_of(Path(file)) not in modules:
             return ""
-        error = syntax_error(self.seen.get(file, ""))
+        error = find_syntax_error(self.seen.get(file, ""))
         if error is None:
             return ""
         return f"{file}:{error.lineno or 1} is no Python yet: {clean(error.msg)}"
 
     def plan(self) -> None:
-        """Note what to check: what the saves since the last check touched comes first."""
+        """Note what to check, first what the saves since the last check touched."""
         wanted = self.options.only or {todo.id for todo in self.options.course.rubric.todos}
-        for file in differing(self.checked, self.seen):
-            self.touched |= wanted & changed_todos(
-                file, self.checked.get(file, ""), self.seen.get(file, "")
-            )
-            self.others |= wanted & users_of(file)
+        for file in find_differences(self.checked, self.seen):
+            before, after = self.checked.get(file, ""), self.seen.get(file, "")
+            self.touched |= wanted & find_changed_todos(file, before, after)
+            self.others |= wanted & find_users(file)
         self.checked = self.seen
 
     def check_again(self) -> None:
@@ -124,15 +120,15 @@ class Watch:
             show([f"nothing new: {total} points"])
 
     def check(self, todos: set[str], always_tell: bool) -> list[str]:
-        """Check these again; what is new about them, or about each where all is to be told."""
+        """Check these again; return what is new, or with `always_tell` a line on each."""
         if not todos:
             return []
         options = replace(self.options, only=frozenset(todos), progress=self.stop_if_saved)
         news = []
         for todo in self.grade(options).todos:
             before = self.replace(todo)
-            if always_tell or without_lines(before) != without_lines(todo):
-                news.append(self.progress(before, todo))
+            if always_tell or drop_lines(before) != drop_lines(todo):
+                news.append(self.compare(before, todo))
         return news
 
     def grade(self, options: Options) -> Result:
@@ -141,17 +137,18 @@ class Watch:
         return grade_with_replays(self.folder, options, self.replays, self.worker)
 
     def draw(self, news: Sequence[str] = (), touched: Collection[str] = ()) -> None:
-        """One screen: the save and what it changed, and below it how things stand."""
-        said = [*self.news, *news[:MOST_NEWS], *more_than(news, MOST_NEWS)]
+        """Print one screen: the save and what it changed, and below it the result."""
+        more = len(news) - MOST_NEWS
+        head = [*self.news, *news[:MOST_NEWS], *([f"and {more} more"] if more > 0 else [])]
         if self.console.is_terminal:
-            self.tell(said, clear=True)
+            self.tell(head, clear=True)
         else:
             self.tell(news)
-        screen = Screen(self.console, self.replays, LINES - len(said) - 1)
+        screen = Screen(self.console, self.replays, LINES - len(head) - 1)
         screen.show(self.result, touched)
 
     def tell(self, lines: Sequence[str], clear: bool = False) -> None:
-        """Print what is new; where it is a terminal, on one that is empty."""
+        """Print what is new, after clearing a terminal if asked to."""
         if clear:
             self.console.clear()
         for line in lines:
@@ -160,18 +157,18 @@ class Watch:
     def stop_if_saved(self, _: CheckResult) -> None:
         if time.monotonic() - self.looked > LOOK_EVERY:
             self.looked = time.monotonic()
-            if python_sources(self.folder) != self.seen:
+            if read_sources(self.folder) != self.seen:
                 raise SavedAgain
 
     def replace(self, todo: TodoResult) -> TodoResult:
-        """Put the TODO's new result in the place of the one before, which is returned."""
+        """Replace the TODO's result with a new one, and return the one before."""
         (before,) = (each for each in self.result.todos if each.id == todo.id)
         todos = [todo if each is before else each for each in self.result.todos]
         self.result = self.result.with_todos(todos)
         return before
 
-    def progress(self, before: TodoResult, todo: TodoResult) -> str:
-        """What became of a TODO, in a line."""
+    def compare(self, before: TodoResult, todo: TodoResult) -> str:
+        """Return what became of a TODO, in a line."""
         if before.points == todo.points:
             return f"TODO {todo.id}: {todo.points} of {todo.max_points} as before"
         words = f"TODO {todo.id}: {before.points} → {todo.points} of {todo.max_points}"
@@ -181,26 +178,22 @@ class Watch:
         return words
 
 
-def more_than(news: Sequence[str], most: int) -> list[str]:
-    return [f"and {len(news) - most} more"] * (len(news) > most)
-
-
 # -------------------------------------------------------------------- what a save touched
 
 
-def differing(before: Sources, after: Sources) -> set[str]:
-    """The files that are new, gone or changed."""
+def find_differences(before: Sources, after: Sources) -> set[str]:
+    """Return the files that are new, gone or changed."""
     return {file for file in before | after if before.get(file) != after.get(file)}
 
 
-def changed_todos(file: str, before: str, after: str) -> set[str]:
-    """The TODOs whose function is another one."""
-    old, new = functions_in(file, before), functions_in(file, after)
+def find_changed_todos(file: str, before: str, after: str) -> set[str]:
+    """Return the TODOs whose function has changed."""
+    old, new = read_functions(file, before), read_functions(file, after)
     return {todo for todo in old | new if old.get(todo) != new.get(todo)}
 
 
-def functions_in(file: str, text: str) -> dict[str, str]:
-    """The source of each TODO's function that a file holds."""
+def read_functions(file: str, text: str) -> dict[str, str]:
+    """Return the source of each TODO's function that a file holds."""
     body = statements(text)
     found = {}
     for todo in load_rubric().todos:
@@ -211,25 +204,24 @@ def functions_in(file: str, text: str) -> dict[str, str]:
     return found
 
 
-def users_of(file: str) -> set[str]:
-    """The TODOs whose checks run a file; a helper of the student's own may be used by all."""
+def find_users(file: str) -> set[str]:
+    """Return the TODOs whose checks run a file; all may use a helper of the student's own."""
     todos, module = load_rubric().todos, module_of(Path(file))
-    users = {todo.id for todo in todos if module in modules_of(todo)}
+    users = {
+        todo.id
+        for todo in todos
+        if module in {check.module or todo.module for check in todo.checks}
+    }
     return users or {todo.id for todo in todos}
 
 
-def modules_of(todo: Todo) -> set[str]:
-    """The modules that a TODO's checks import."""
-    return {check.module or todo.module for check in todo.checks}
-
-
-def without_lines(todo: TodoResult) -> TodoResult:
-    """A result that does not tell where: lines move whenever something is written above them."""
+def drop_lines(todo: TodoResult) -> TodoResult:
+    """Return a result without lines, which move whenever something is written above them."""
     checks = [msgspec.structs.replace(check, where=None) for check in todo.checks]
     return msgspec.structs.replace(todo, checks=checks)
 
 
-def syntax_error(text: str) -> SyntaxError | None:
+def find_syntax_error(text: str) -> SyntaxError | None:
     ignored = warnings.catch_warnings(action="ignore")
     with ignored, suppress(ValueError, RecursionError, MemoryError):
         try:
@@ -242,8 +234,8 @@ def syntax_error(text: str) -> SyntaxError | None:
 # -------------------------------------------------------------------- the tree
 
 
-def python_sources(folder: Path) -> Sources:
-    """The Python files that would be handed in. One that goes away meanwhile is left out."""
+def read_sources(folder: Path) -> Sources:
+    """Read the Python files that would be handed in; skip one that goes away meanwhile."""
     found = {}
     for path in plain_files(folder):
         if path.suffix == ".py":
@@ -252,15 +244,15 @@ def python_sources(folder: Path) -> Sources:
     return found
 
 
-def folders_of(folder: Path) -> list[Path]:
-    """The folders to watch, without the virtual environment and its thousands of files."""
+def list_folders(folder: Path) -> list[Path]:
+    """Return the folders to watch, without the virtual environment and its many files."""
     return sorted({folder, *(each.parent for each in plain_files(folder))})
 
 
-def moments_to_look(folder: Path) -> Iterator[None]:
-    """After each event in the tree, and from time to time without one."""
+def wait_for_saves(folder: Path) -> Iterator[None]:
+    """Wait for each event in the tree; come back from time to time without one."""
     while folder.is_dir():
-        folders = folders_of(folder)
+        folders = list_folders(folder)
         try:
             for _ in watchfiles.watch(
                 *folders,
@@ -271,24 +263,24 @@ def moments_to_look(folder: Path) -> Iterator[None]:
                 recursive=False,
             ):
                 yield
-                if not folder.is_dir() or folders_of(folder) != folders:
+                if not folder.is_dir() or list_folders(folder) != folders:
                     break
         except OSError:  # a folder went away, or there are more than this machine can watch
             time.sleep(WITHOUT_EVENTS / 1000)
             yield
 
 
-def watch(folder: Path, options: Options, console: Console, replays: Path | None) -> Result:
-    """Check the tree, and again after each save, until Ctrl-C; returns the last result."""
+def watch_tree(folder: Path, options: Options, console: Console, replays: Path | None) -> Result:
+    """Check the tree, and again after each save, until Ctrl-C; return the last result."""
     worker = start_worker(options.spawn)
-    session = Watch(folder, options, console, worker, replays)
+    watched = Watch(folder, options, console, worker, replays)
     try:
-        session.start()
+        watched.start()
         say("Watching: save a file, and it is checked again. Ctrl-C ends this.", console)
         with suppress(KeyboardInterrupt):
-            for _ in moments_to_look(folder):
-                session.look()
-            raise CannotGrade(f"there is no {folder} any more")
+            for _ in wait_for_saves(folder):
+                watched.look()
+            raise Stop(f"there is no {folder} any more")
     finally:
         worker.close()
-    return session.result
+    return watched.result

@@ -1,4 +1,4 @@
-"""Archives as strangers make them: bounded, nothing outside, every trouble a sentence.
+"""Unpack archives of unknown people: bounded, nothing outside, every trouble a sentence.
 
 What is no zip is first made one by `repack`, in a process of its own.
 """
@@ -16,8 +16,8 @@ from pathlib import Path, PurePosixPath
 
 from grader.intake import repack
 from grader.intake.found import CannotTake
-from grader.intake.names import folded, portable
-from grader.intake.pieces import weight
+from grader.intake.names import fold, make_portable
+from grader.intake.pieces import rank_file
 from grader.intake.places import SIGNS, is_system_file
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
@@ -31,14 +31,14 @@ PATIENCE = 4 * repack.SECONDS  # s on the clock: the last resort where nothing e
 
 @dataclass
 class Bounds:
-    """What is left of a submission's allowance, over all of its zips."""
+    """The rest of a submission's allowance, over all of its zips."""
 
     files: int = MAX_FILES
     bytes: int = MAX_BYTES
     left_out: list[str] = field(default_factory=list)
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
-        """Whether there is room for a file, with that for so many others left."""
+        """Take a file if there is room for it, and for `spared` others after it."""
         if self.files <= spared or length > self.bytes:
             self.left_out.append(name)
             return False
@@ -47,20 +47,20 @@ class Bounds:
 
     @property
     def notes(self) -> list[str]:
-        """One for all that was too much."""
+        """One note on everything that was skipped."""
         if not self.left_out:
             return []
         more = len(self.left_out) - 1
         others = f" and {more} more {'file' if more == 1 else 'files'}" if more else ""
-        return [f"left out {self.left_out[0]}{others}: too much"]
+        return [f"left out {self.left_out[0]}{others}: size limit reached"]
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     """Unpack what may be part of a submission, the lab's files first, within the bounds."""
     check_size(path)
-    with checked_archive(path) as (archive, too_large):
+    with open_archive(path) as (archive, too_large):
         bounds.left_out += too_large
-        members = sorted(members_of(archive), key=lambda each: weight(each[0]))
+        members = sorted(name_members(archive), key=lambda each: rank_file(each[0]))
         if not members:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
@@ -69,25 +69,25 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
             ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
             if ignored or environments & set(name.parents):
                 continue
-            spared = SPARED if weight(name)[0] else 0
+            spared = SPARED if rank_file(name)[0] else 0
             if bounds.take(name.as_posix(), member.file_size, spared):
                 write_member(archive, member, folder / name)
 
 
 def unzip_class(path: Path, folder: Path) -> None:
     """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
-    with checked_archive(path) as (archive, too_large):
+    with open_archive(path) as (archive, too_large):
         if too_large:
             raise CannotTake(f"{too_large[0]} is too large: unpack it, and name the folder instead")
-        for member in plain_members(archive):
-            parts = [part for part in text_of(member).split("/") if part]
+        for member in list_members(archive):
+            parts = [part for part in decode_name(member).split("/") if part]
             if not any(is_system_file(part) for part in parts):
-                write_member(archive, member, folder.joinpath(*map(portable, parts)))
+                write_member(archive, member, folder.joinpath(*map(make_portable, parts)))
 
 
 @contextmanager
-def checked_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
-    """Open an archive of any known kind, by what it is; and the files that are too large for it."""
+def open_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
+    """Open an archive of any known kind, and list the files in it that are too large."""
     with open(path, "rb") as file:
         sign = file.read(8)
     if not sign:
@@ -95,20 +95,17 @@ def checked_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
     if sign.startswith(b"PK\x03\x04") or (
         path.suffix.lower() == ".zip" and not sign.startswith(SIGNS)
     ):
-        with checked_zip(path) as archive:
+        with open_zip(path) as archive:
             yield archive, []
         return
     with work_folder() as work:
-        too_large = make_plain(path, work / "plain.zip")
-        with checked_zip(work / "plain.zip") as archive:
+        too_large = repack_as_zip(path, work / "plain.zip")
+        with open_zip(work / "plain.zip") as archive:
             yield archive, too_large
 
 
-def make_plain(path: Path, target: Path) -> list[str]:
-    """Have the same files packed as a zip, by a process that may take only so much.
-
-    Returns the names of those that are too large.
-    """
+def repack_as_zip(path: Path, target: Path) -> list[str]:
+    """Have the files packed as a zip by a process with limits; return those that are too large."""
     script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
     try:
         done = subprocess.run(
@@ -124,8 +121,8 @@ def make_plain(path: Path, target: Path) -> list[str]:
 
 
 @contextmanager
-def checked_zip(path: Path) -> Iterator[zipfile.ZipFile]:
-    """Open a zip; whatever goes wrong with it becomes a sentence."""
+def open_zip(path: Path) -> Iterator[zipfile.ZipFile]:
+    """Open a zip, and make a sentence of whatever goes wrong with it."""
     try:
         with zipfile.ZipFile(path) as archive:
             yield archive
@@ -147,7 +144,7 @@ def check_size(path: Path) -> None:
     """Refuse a zip that would take all memory before a single file of it is unpacked."""
     size = path.stat().st_size
     if size > MAX_ZIP:
-        raise CannotTake(f"the archive has {size >> 20} MB, more than {MAX_ZIP >> 20}")
+        raise CannotTake(f"the archive has {size >> 20} MB: the maximum is {MAX_ZIP >> 20} MB")
     with open(path, "rb") as file:
         file.seek(max(0, size - (1 << 16) - 64))
         end = file.read()
@@ -157,27 +154,27 @@ def check_size(path: Path) -> None:
         raise CannotTake("the zip lists too many files: ask for the program alone")
 
 
-def plain_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
-    """Files, not folders and not links."""
+def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
+    """Return the files of an archive, without folders and links."""
     for member in archive.infolist():
         if not member.is_dir() and stat.S_IFMT(member.external_attr >> 16) in (0, stat.S_IFREG):
             yield member
 
 
-def members_of(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """The plain files by name; of two with one name the last counts, as for every unzip."""
+def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
+    """Return the files and their names; of two with one name the last counts, as always."""
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
-    for member in plain_members(archive):
-        name = PurePosixPath(checked_name(text_of(member)))
-        other, _ = found.get(folded(name.as_posix()), (name, member))
+    for member in list_members(archive):
+        name = PurePosixPath(check_name(decode_name(member)))
+        other, _ = found.get(fold(name.as_posix()), (name, member))
         if other != name:
             raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
-        found[folded(name.as_posix())] = name, member
+        found[fold(name.as_posix())] = name, member
     return list(found.values())
 
 
-def text_of(member: zipfile.ZipInfo) -> str:
-    """A member's name: UTF-8 where it says so or looks it, or else the old DOS letters."""
+def decode_name(member: zipfile.ZipInfo) -> str:
+    """Return a member's name: UTF-8 where it says so or looks it, or else old DOS letters."""
     name = member.filename
     if not member.flag_bits & 0x800:
         with suppress(UnicodeError):
@@ -185,23 +182,23 @@ def text_of(member: zipfile.ZipInfo) -> str:
     return unicodedata.normalize("NFC", name.replace("\\", "/"))
 
 
-def checked_name(name: str) -> str:
-    """The name, if it stays inside its folder and every system can have it."""
+def check_name(name: str) -> str:
+    """Return the name, if it stays inside its folder and every system can have it."""
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
         raise CannotTake(f"the archive has more than {MAX_DEPTH} folders in each other")
     if name.startswith("/") or ".." in parts or ":" in parts[0]:
         raise CannotTake(f"the archive reaches outside its folder, with {name[:100]!r}")
     for part in parts:
-        if portable(part) != part.strip(" .") and not is_system_file(part):
+        if make_portable(part) != part.strip(" .") and not is_system_file(part):
             raise CannotTake(f"the archive holds {part[:100]!r}, a name not for every system")
-    return "/".join(part if is_system_file(part) else portable(part) for part in parts)
+    return "/".join(part if is_system_file(part) else make_portable(part) for part in parts)
 
 
 def write_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo, path: Path) -> None:
-    """Unpack one file: no more of it than the zip says it has.
+    """Unpack one file, and no more of it than the zip says it has.
 
-    Only with these two ways of packing does `zipfile` take no more memory than it gives back.
+    `zipfile` takes no more memory than it gives back in these two ways of packing alone.
     """
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise CannotTake(OWN_WAY)

@@ -1,6 +1,6 @@
 """Blackboard: a file for each upload, with assignment, user and attempt in its name, and a receipt.
 
-The receipt is the `.txt` of an attempt. It says who the user is, also where the user's name or the
+The receipt is the `.txt` of an attempt. It names the user, even where the user's name or the
 assignment's has an underscore in it.
 """
 
@@ -10,8 +10,9 @@ from datetime import datetime
 from pathlib import Path
 
 from grader.intake.found import Upload
-from grader.intake.names import portable
-from grader.intake.roster import ClassList
+from grader.intake.lms import Lms, MarkColumn, find_title, pick
+from grader.intake.names import make_portable
+from grader.intake.roster import ClassList, Roster
 
 NAME = re.compile(
     r"(?P<attempt>(?P<assignment>.+)_(?P<user>[^_]+)_attempt_"
@@ -19,55 +20,68 @@ NAME = re.compile(
 )
 WHO = re.compile(r"Name:\s*(?P<name>.*?)\s*\((?P<user>[^()\n]+)\)\s*$", re.M)
 HEAD = 600  # characters of a receipt that Blackboard writes itself, before the student's words
+COLUMNS = ("Last Name", "First Name", "Username", "Student ID")
 
 
-def upload(path: Path, people: ClassList) -> Upload | None:
-    """Whose upload this is; None for what Blackboard does not write. The time is the school's."""
-    match = matched(path)
-    if match is None:
-        return None
-    user, full = receipt(path.with_name(f"{match['attempt']}.txt"))
-    user = user or listed_user(match, people) or match["user"]
-    name = people.name_of(["Username"], user)
-    name = name or people.name_of(["SIS Login ID", "Email address", "ID number"], user)
-    name = name or (people.name_of(["name"], full) if full and not people.knows("Username") else "")
-    name = name or people.one_of_group(user)
-    when = None
-    with suppress(ValueError):
-        when = datetime.strptime(match["when"], "%Y-%m-%d-%H-%M-%S")
-    return Upload(
-        path,
-        portable(name or user),
-        from_lms=True,
-        empty=not match["file"],
-        handed_in=when,
-        attempt=match["when"],
-        owner=user,
-    )
+class Blackboard(Lms):
+    name = "blackboard"
+    title_sign = "["
+    names_alone = False
+
+    def read_upload(self, path: Path, people: ClassList) -> Upload | None:
+        """Return whose upload this is; the time is the school's."""
+        match = match_file(path)
+        if match is None:
+            return None
+        user, full = read_receipt(path.with_name(f"{match['attempt']}.txt"))
+        user = user or find_listed_user(match, people) or match["user"]
+        name = people.find(["Username"], user)
+        name = name or people.find(["SIS Login ID", "Email address", "ID number"], user)
+        if not name and full and not people.has_column("Username"):
+            name = people.find(["name"], full)
+        when = None
+        with suppress(ValueError):
+            when = datetime.strptime(match["when"], "%Y-%m-%d-%H-%M-%S")
+        return Upload(
+            path,
+            make_portable(name or people.find_in_group(user) or user),
+            from_lms=True,
+            empty=not match["file"],
+            handed_in=when,
+            attempt=match["when"],
+            owner=user,
+        )
+
+    def read_own_name(self, path: Path) -> str | None:
+        match = match_file(path)
+        return match["file"] if match else None
+
+    def writes_gradebook(self, columns: set[str]) -> bool:
+        return set(COLUMNS[:3]) <= columns
+
+    def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
+        """Return rows by username; Blackboard knows a column by the id behind its title."""
+        own = [name for name in COLUMNS if name in roster.columns]
+        title = find_title(roster, f"{marks.title} [", marks.title)
+        return [[*own, title], *([*pick(each.row, own), each.mark] for each in marks.rows)]
 
 
-def listed_user(match: re.Match[str], people: ClassList) -> str:
-    """The user of the class list whose name is the longest end of what stands there.
+def find_listed_user(match: re.Match[str], people: ClassList) -> str:
+    """Return the user of the class list whose name is the longest end of the file's.
 
     `Lab_1_kl_6` is user `kl_6` of `Lab_1`, or `6` of `Lab_1_kl`: the list knows.
     """
     parts = f"{match['assignment']}_{match['user']}".split("_")
     ends = ("_".join(parts[at:]) for at in range(1, len(parts)))
-    return next((end for end in ends if people.name_of(["Username"], end)), "")
+    return next((end for end in ends if people.find(["Username"], end)), "")
 
 
-def own_name(path: Path) -> str | None:
-    """The file's name as the student gave it; None for what Blackboard does not write."""
-    match = matched(path)
-    return match["file"] if match else None
-
-
-def matched(path: Path) -> re.Match[str] | None:
+def match_file(path: Path) -> re.Match[str] | None:
     return None if path.is_dir() else NAME.fullmatch(path.name)
 
 
-def receipt(path: Path) -> tuple[str, str]:
-    """The user's and the full name on a receipt; empty where there is none."""
+def read_receipt(path: Path) -> tuple[str, str]:
+    """Return the user's and the full name on a receipt; empty where there is none."""
     with suppress(OSError), open(path, "rb") as file:
         match = WHO.search(file.read(HEAD).decode("utf-8-sig", "replace").partition("\n\n")[0])
         if match:

@@ -1,40 +1,59 @@
 """Brightspace: a folder for each time that a student handed in, or a file for each file of it."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
-from grader.intake.dates import moment
+from grader.intake.dates import read_moment
 from grader.intake.found import Upload
-from grader.intake.names import portable
-from grader.intake.roster import ClassList
+from grader.intake.lms import Lms, MarkColumn, Page, pick
+from grader.intake.names import make_portable
+from grader.intake.roster import ClassList, Roster
 
 NAME = re.compile(
     r"(?P<ids>\d+-\d+) - (?P<name>.+?) - (?P<when>(?:(?! - ).)*\d{4}(?:(?! - ).)*?)"
     r"(?: - (?P<file>.+))?"
 )
-INDEX = "index.html"  # a list of all that was handed in
+END_OF_LINE = "End-of-Line Indicator"  # the last column, a # in each row
 
 
-def upload(path: Path, people: ClassList) -> Upload | None:
-    """Whose upload this is; None for what Brightspace does not write. The time is the school's."""
-    match = NAME.fullmatch(path.name)
-    if match is None:
-        return None
-    name = people.name_of(["name"], match["name"]) or people.one_of_group(match["name"])
-    name = name or f"{match['name']}_{match['ids']}"
-    when = moment(match["when"])
-    return Upload(
-        path,
-        portable(name),
-        from_lms=True,
-        handed_in=when,
-        attempt=when.isoformat() if when else match["when"],
-        timeless=when is None,
-        owner=match["ids"],
-    )
+class Brightspace(Lms):
+    name = "brightspace"
+    only_commas = True
+    side_files = frozenset({"index.html"})  # a list of all that was handed in
 
+    def read_upload(self, path: Path, people: ClassList) -> Upload | None:
+        """Return whose upload this is; the time is the school's."""
+        match = NAME.fullmatch(path.name)
+        if match is None:
+            return None
+        name = people.find(["name"], match["name"]) or people.find_in_group(match["name"])
+        when = read_moment(match["when"])
+        return Upload(
+            path,
+            make_portable(name or f"{match['name']}_{match['ids']}"),
+            from_lms=True,
+            handed_in=when,
+            attempt=when.isoformat() if when else match["when"],
+            timeless=when is None,
+            owner=match["ids"],
+        )
 
-def own_name(path: Path) -> str | None:
-    """The file's name as the student gave it; None for what Brightspace does not write."""
-    match = NAME.fullmatch(path.name)
-    return match["file"] if match else None
+    def read_own_name(self, path: Path) -> str | None:
+        match = NAME.fullmatch(path.name)
+        return match["file"] if match else None
+
+    def writes_gradebook(self, columns: set[str]) -> bool:
+        return END_OF_LINE in columns or "OrgDefinedId" in columns
+
+    def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
+        """Return an identifier, the points, and a sign at the end of each row."""
+        own = [name for name in ("OrgDefinedId", "Username") if name in roster.columns]
+        table = [[*own, f"{marks.title} Points Grade", END_OF_LINE]]
+        return [*table, *([*pick(each.row, own), each.mark, "#"] for each in marks.rows)]
+
+    def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
+        """Return the folders of the download, with other files in them."""
+        if match := NAME.fullmatch(source.name):
+            folder = f"{match['ids']} - {match['name']} - {match['when']}"
+            yield from ((f"{folder}/{each.file}", each.content) for each in pages)

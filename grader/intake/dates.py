@@ -1,4 +1,4 @@
-"""Times as learning systems write them for people, in the language that their reader had set.
+"""Read times as learning systems write them for people, in the language of the reader.
 
 `Monday, 4 May 2026, 11:59 PM`, `Montag, 4. Mai 2026, 23:59`, `May 4, 2026 1159 PM`: Moodle's
 worksheet has them, and the folders of Brightspace's download.
@@ -38,22 +38,22 @@ CLOCK = re.compile(
 )
 
 
-def moment(words: str) -> datetime | None:
-    """The time that some words tell; None where they tell none, or a day without a time."""
+def read_moment(words: str) -> datetime | None:
+    """Return the time in some words; None where there is none, or a day without a time."""
     for form in DATES:
         if date := form.search(words):
             clock = CLOCK.search(words, date.end())
-            month = month_of(date["month"])
+            month = read_month(date["month"])
             if clock and month:
                 try:
                     day = datetime(int(date["year"]), month, int(date["day"]))
-                    return day.replace(hour=hour_of(clock), minute=int(clock["minute"]))
+                    return day.replace(hour=read_hour(clock), minute=int(clock["minute"]))
                 except ValueError:  # no such day, or no such hour
                     return None
     return None
 
 
-def month_of(word: str) -> int | None:
+def read_month(word: str) -> int | None:
     if word.isdecimal():
         return int(word)
     starts = {start: number for number, each in enumerate(MONTHS, 1) for start in each}
@@ -61,7 +61,7 @@ def month_of(word: str) -> int | None:
     return starts[max(hits, key=len)] if hits else None
 
 
-def hour_of(clock: re.Match[str]) -> int:
+def read_hour(clock: re.Match[str]) -> int:
     hour = int(clock["hour"])
     if not clock["half"]:
         return hour

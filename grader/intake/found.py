@@ -1,4 +1,4 @@
-"""What taking in gives: submissions where they lie, and what is left to say of the others."""
+"""Describe a class that was taken in: submissions where they lie, and notes on the others."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -8,14 +8,18 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
+from grader.errors import Stop
 
-class CannotTake(Exception):
-    """One submission that cannot be read; the message says why and what to do."""
+
+class CannotTake(Stop):
+    """A submission that cannot be read; the others of its class can."""
+
+    cannot = "grade"
 
 
 @dataclass(frozen=True)
 class Found:
-    """One submission where it lies, before anything of it is read."""
+    """A submission where it lies, before anything of it is read."""
 
     name: str  # of its result; a file name on every platform
     sources: tuple[Path, ...]  # a folder, or what was handed in
@@ -25,8 +29,8 @@ class Found:
     handed_in_by: str = ""  # one of them, where it was not this student
 
     @property
-    def whose(self) -> tuple[str, ...]:
-        """What only those have in common who handed in together."""
+    def team(self) -> tuple[str, ...]:
+        """Words that only those have in common who handed in together."""
         if self.group:
             return str(self.sources[0].parent), *sorted({self.name, *self.group})
         return tuple(str(each) for each in self.sources)
@@ -40,10 +44,15 @@ class Intake:
     troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
     notes: list[str] = field(default_factory=list)
 
+    @property
+    def names(self) -> list[str]:
+        """Everybody who handed in, also what cannot be graded."""
+        return [*(each.name for each in self.found), *self.troubles]
+
 
 @dataclass(frozen=True)
 class Upload:
-    """One file or folder of a class, and whose it is by its name."""
+    """A file or folder of a class, and whose it is by its name."""
 
     path: Path
     name: str  # as of `Found`
@@ -51,8 +60,8 @@ class Upload:
     from_lms: bool = False  # an LMS names each file by its student: those of one belong together
     empty: bool = False  # a text or a link was handed in, and no file
     handed_in: datetime | None = None
-    attempt: str = ""  # of several the last in order counts
-    timeless: bool = False  # which of several is the last is not known
+    attempt: str = ""  # the last in order counts
+    timeless: bool = False  # nobody knows which attempt is the last
     owner: str = ""  # what the LMS itself calls the student; two of one name are two all the same
 
 
@@ -65,11 +74,11 @@ class Package(Struct, frozen=True):
 
     @property
     def digest(self) -> str:
-        """The same for the same files, whoever handed them in."""
+        """A hash of the files alone, whoever handed them in."""
         return hashlib.sha256(msgspec.msgpack.encode(self.files)).hexdigest()
 
     def unpack(self, folder: Path) -> Path:
-        """Write it into a new folder named after it."""
+        """Write the files into a new folder named after the submission."""
         target = folder / self.name
         target.mkdir()
         for name, content in self.files:

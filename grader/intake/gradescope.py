@@ -1,4 +1,4 @@
-"""Gradescope's export: a folder for each submission, and a list of who handed in what, and when."""
+"""Gradescope: a folder for each submission, and a list of who handed in what, and when."""
 
 import re
 from collections.abc import Iterator
@@ -10,10 +10,11 @@ import msgspec
 import yaml
 from msgspec import Struct, field
 
+from grader.errors import Stop
 from grader.intake.found import Found, Intake
-from grader.intake.names import portable
+from grader.intake.lms import Lms
+from grader.intake.names import make_portable
 from grader.intake.roster import ClassList
-from grader.judge.submission import CannotGrade
 
 try:
     from yaml import CSafeLoader as SafeLoader
@@ -24,71 +25,74 @@ METADATA = "submission_metadata.yml"
 
 
 class MetadataLoader(SafeLoader):
-    """YAML as Ruby writes it; what bears the tag of a class of its own is left out."""
+    """YAML as Ruby writes it, without what bears the tag of a class of its own."""
 
 
 MetadataLoader.add_constructor(None, lambda loader, node: None)
 
 
 class Submitter(Struct):
-    """What Gradescope says of one person: words, mostly."""
+    """One person as Gradescope knows them; each field may be anything."""
 
     name: Any = field(default=None, name=":name")
     sid: Any = field(default=None, name=":sid")
     email: Any = field(default=None, name=":email")
 
-    def known_as(self, people: ClassList) -> str:
+    def find_name(self, people: ClassList) -> str:
         addresses = self.email, str(self.email or "").partition("@")[0]
-        known = people.name_of(["Email address", "SIS Login ID"], *addresses)
-        known = known or people.name_of(["SIS User ID", "ID number"], self.sid)
-        return portable(str(known or self.email or self.sid or self.name))
+        known = people.find(["Email address", "SIS Login ID"], *addresses)
+        known = known or people.find(["SIS User ID", "ID number"], self.sid)
+        return make_portable(str(known or self.email or self.sid or self.name))
 
 
 class Exported(Struct):
-    """What Gradescope says of one submission, as far as it matters here."""
+    """One submission in Gradescope's list, as far as it matters here."""
 
     submitters: list[Submitter] = field(name=":submitters")
     created_at: Any = field(default=None, name=":created_at")
 
 
-def is_export(folder: Path) -> bool:
-    return (folder / METADATA).is_file()
+class Gradescope(Lms):
+    name = "gradescope"
+    side_files = frozenset({METADATA})
+
+    def is_export(self, folder: Path) -> bool:
+        return (folder / METADATA).is_file()
+
+    def is_whole_export(self, folder: Path) -> bool:
+        """Tell an export from a submission that brought such a list, by the folder's name."""
+        return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
+
+    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
+        """Return the submissions of an export: one for each of those who handed in together."""
+        for place, entry in read_metadata(folder).items():
+            path = folder / make_portable(place)
+            names = [person.find_name(people) for person in entry.submitters]
+            for name in names:
+                if path.is_dir() and not path.is_symlink():
+                    yield Found(
+                        name,
+                        (path,),
+                        handed_in=add_zone(entry.created_at),
+                        group=tuple(each for each in names if each != name),
+                        handed_in_by=names[0] if name != names[0] else "",
+                    )
+                else:
+                    words = f"{path.name} is in {METADATA}, and no such folder is here"
+                    intake.troubles[name] = words
 
 
-def is_whole_export(folder: Path) -> bool:
-    """Whether a folder among others is an export, and not a submission with such a list in it.
-
-    The list says whose the work is, and a folder that bears another name may be a student's.
-    """
-    return is_export(folder) and re.fullmatch(r"assignment_\d+_export", folder.name) is not None
-
-
-def submissions(folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
-    """The submissions of an export: one for each of those who handed in together."""
+def read_metadata(folder: Path) -> dict[str, Exported]:
     try:
         with open(folder / METADATA, "rb") as file:
-            export = msgspec.convert(yaml.load(file, MetadataLoader), dict[str, Exported])
+            return msgspec.convert(yaml.load(file, MetadataLoader), dict[str, Exported])
     except (yaml.YAMLError, UnicodeError, ValueError, msgspec.ValidationError) as error:
         words = f"{folder / METADATA} is not as Gradescope writes it ({error!s:.200})"
-        raise CannotGrade(f"{words}: export the submissions again") from error
-    for place, entry in export.items():
-        path = folder / portable(place)
-        names = [person.known_as(people) for person in entry.submitters]
-        for name in names:
-            if path.is_dir() and not path.is_symlink():
-                yield Found(
-                    name,
-                    (path,),
-                    handed_in=aware(entry.created_at),
-                    group=tuple(each for each in names if each != name),
-                    handed_in_by=names[0] if name != names[0] else "",
-                )
-            else:
-                intake.troubles[name] = f"{path.name} is in {METADATA}, and no such folder is here"
+        raise Stop(f"{words}: export the submissions again") from error
 
 
-def aware(when: Any) -> datetime | None:
-    """A moment; Gradescope's own are in UTC where they do not say otherwise."""
+def add_zone(when: Any) -> datetime | None:
+    """Return a moment with its zone; Gradescope writes UTC without one."""
     if not isinstance(when, datetime):
         return None
     return when if when.tzinfo else when.replace(tzinfo=UTC)

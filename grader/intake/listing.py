@@ -1,4 +1,4 @@
-"""Listing a class: whose each file and folder is, each submission once, and what is left out."""
+"""List a class: whose each file and folder is, each submission once, and what cannot be graded."""
 
 import unicodedata
 from collections import Counter
@@ -8,156 +8,186 @@ from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-from grader.intake import (
-    blackboard,
-    brightspace,
-    canvas,
-    folders,
-    gradescope,
-    groups,
-    loose,
-    moodle,
-)
+from grader.errors import Stop
 from grader.intake.archives import unzip_class
 from grader.intake.found import CannotTake, Found, Intake, Upload
-from grader.intake.names import folded, portable
-from grader.intake.packing import laid_out, pack
+from grader.intake.groups import share_work
+from grader.intake.lms import Lms
+from grader.intake.names import fold, make_portable
+from grader.intake.packing import lay_out, pack
 from grader.intake.pieces import ManyPrograms
 from grader.intake.places import (
-    entries_of,
-    holds_program,
+    cut_suffix,
+    has_program,
     is_archive,
-    modules,
-    programs_in,
+    list_folder,
+    list_modules,
+    list_programs,
 )
 from grader.intake.roster import CALLED, ClassList
-from grader.judge.submission import CannotGrade
+from grader.intake.systems import ANY_OTHER, SYSTEMS
 from grader.judge.workplace import work_folder
 
-FORMS = (  # the first that knows a name decides
-    blackboard.upload,
-    brightspace.upload,
-    moodle.upload,
-    canvas.upload,
-    folders.upload,
-)
+SIDE_FILES = {"adjustments.toml", "roster.csv"}.union(*(each.side_files for each in SYSTEMS))
+WORK = {".py", ".ipynb"}  # what is somebody's
+UNREAD = {".zst", ".lz", ".lzma", ".z", ".lzh", ".arj", ".ace", ".cab", ".iso", ".dmg", ".001"}
 
 
 @contextmanager
-def opened_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
+def open_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
     """List the submissions in a folder or an archive of them; unpacked ones stay till the end."""
     if path.is_dir():
-        yield listed(path, people or ClassList())
+        yield list_class(path, people or ClassList())
     elif is_archive(path) and path.is_file():
         with work_folder() as temporary:
             try:
                 unzip_class(path, temporary)
             except CannotTake as error:
-                raise CannotGrade(f"{path}: {error}") from error
-            yield listed(without_wrapper(temporary), people or ClassList())
+                raise Stop(f"{path}: {error}") from error
+            yield list_class(enter_wrapper(temporary), people or ClassList())
     else:
-        raise CannotGrade(f"there is no folder of submissions at {path}, nor an archive of them")
+        raise Stop(f"there is no folder of submissions at {path}, nor an archive of them")
 
 
-def listed(folder: Path, people: ClassList) -> Intake:
-    inner = entries_of(folder)
-    if len(inner) == 1 and gradescope.is_whole_export(inner[0]):
+def list_class(folder: Path, people: ClassList) -> Intake:
+    """Return the submissions in a folder, and what there is to say of everything else."""
+    inner = list_folder(folder)
+    if len(inner) == 1 and find_export(inner[0]).is_whole_export(inner[0]):
         folder = inner[0]  # Gradescope's zip holds one folder
-    if holds_program(folder):
-        raise CannotGrade(f"{folder} is one submission, not a folder of them: leave out --class")
+    if has_program(folder):
+        raise Stop(f"{folder} is one submission, not a folder of them: leave out --class")
     intake = Intake()
-    found: list[Found] = []
-    if gradescope.is_export(folder):
-        found += gradescope.submissions(folder, people, intake)
+    found = list(find_export(folder).read_export(folder, people, intake))
     taken = {source for each in found for source in each.sources}
-    left = [path for path in entries_of(folder) if path not in taken]
-    found += by_name(left, people, intake)
-    intake.found = list(without_doubles(found, intake))
-    groups.share(intake, people, digest_or_trouble)
+    left = [path for path in list_folder(folder) if path not in taken]
+    found += list_uploads(left, people, intake)
+    intake.found = list(drop_doubles(found, intake))
+    share_work(intake, people, hash_files)
     intake.found.sort(key=lambda each: each.name)
     if not intake.found and not intake.troubles:
-        raise CannotGrade(f"{folder} holds no submission: each must be a folder or an archive")
+        raise Stop(f"{folder} holds no submission: each must be a folder or an archive")
     return intake
 
 
-def without_wrapper(folder: Path) -> Path:
-    """A zip often holds one folder, and all submissions in that."""
-    inner = entries_of(folder)
-    wrapped = len(inner) == 1 and inner[0].is_dir() and not holds_program(inner[0])
-    if wrapped and gradescope.is_export(inner[0]):
-        wrapped = gradescope.is_whole_export(inner[0])
-    return inner[0] if wrapped else folder
+def find_export(folder: Path) -> Lms:
+    """Return the system that listed the submissions of a folder in a file of its own."""
+    return next((each for each in SYSTEMS if each.is_export(folder)), ANY_OTHER)
 
 
-def by_name(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Found]:
-    """Folders and archives of any name, and what learning systems make of names."""
+def enter_wrapper(folder: Path) -> Path:
+    """Return the one folder inside, if it holds all submissions, as in many zips."""
+    inner = list_folder(folder)
+    if len(inner) != 1 or not inner[0].is_dir() or has_program(inner[0]):
+        return folder
+    export = find_export(inner[0])
+    return inner[0] if export is ANY_OTHER or export.is_whole_export(inner[0]) else folder
+
+
+# ---------------------------------------------------------------- by names of files
+
+
+def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterator[Found]:
+    """Return submissions by the names of files and folders; say what becomes of the rest."""
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
     for path in paths:
-        upload = None if path.is_symlink() else upload_at(path, people)
+        upload = None if path.is_symlink() else read_upload(path, people)
         if upload is None:
-            loose.mention(path, intake, people)
+            mention_file(path, intake, people)
         elif upload.empty:
             empty[upload.name] = path
         else:
             groups.setdefault((upload.name, upload.owner), []).append(upload)
     for (name, _), group in groups.items():
-        if any(each.timeless for each in group) and len({each.attempt for each in group}) > 1:
-            told = " and ".join(sorted({each.path.name for each in group}))
-            intake.troubles[name] = f"handed in more than once, and when is not read: {told}"
-            continue
-        last = max(each.attempt for each in group)
-        if before := sorted({each.attempt for each in group if each.attempt != last}):
-            intake.notes.append(f"{name}: of {len(before) + 1} attempts the last counts, of {last}")
-        group = [each for each in group if each.attempt == last]
-        handed_in = tuple(each.path for each in group)
-        late = any(each.late for each in group)
-        when = group[0].handed_in
-        if all(each.from_lms for each in group):
-            yield Found(name, handed_in, late, when)
-        else:
-            yield from (Found(name, (path,), late, when) for path in handed_in)
+        yield from choose_attempt(name, group, intake)
     names = {name for name, _ in groups}
     for name, path in empty.items():
         if name not in names:
             intake.troubles[name] = f"{path.name}: a text or a link was handed in, and no file"
 
 
-def upload_at(path: Path, people: ClassList) -> Upload | None:
-    """Whose a file or folder is, by the first form that knows such a name."""
-    upload = next(filter(None, (form(path, people) for form in FORMS)), None)
-    called = people.name_of([CALLED], upload.name) if upload else None
-    return replace(upload, name=portable(called)) if upload and called else upload
+def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Found]:
+    """Return a student's last attempt: one submission, or each file where a person named them."""
+    attempts = sorted({each.attempt for each in uploads})
+    if len(attempts) > 1 and any(each.timeless for each in uploads):
+        files = " and ".join(sorted({each.path.name for each in uploads}))
+        intake.troubles[name] = f"handed in more than once, at unknown times: {files}"
+        return
+    last = attempts[-1]
+    if len(attempts) > 1:
+        intake.notes.append(f"{name}: of {len(attempts)} attempts the last counts, of {last}")
+    uploads = [each for each in uploads if each.attempt == last]
+    paths = tuple(each.path for each in uploads)
+    late = any(each.late for each in uploads)
+    together = all(each.from_lms for each in uploads)
+    for sources in [paths] if together else [(path,) for path in paths]:
+        yield Found(name, sources, late, uploads[0].handed_in)
 
 
-def without_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
-    """One submission each: two with the same files are one, others are for a person to choose."""
+def read_upload(path: Path, people: ClassList) -> Upload | None:
+    """Return whose a file or folder is; of no system's name, a folder or archive has its own."""
+    uploads = (each.read_upload(path, people) for each in SYSTEMS)
+    upload = next(filter(None, uploads), None)
+    if upload is None and (path.is_dir() or is_archive(path)):
+        name = path.name if path.is_dir() else cut_suffix(path)
+        upload = Upload(path, make_portable(name))
+    called = people.find([CALLED], upload.name) if upload else None
+    return replace(upload, name=make_portable(called)) if upload and called else upload
+
+
+def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
+    """Say what to do about a file that is no submission, if anything is to be done."""
+    name = people.find_anywhere(path.stem)
+    suffix = path.suffix.lower()
+    if path.is_symlink():
+        words = f"{path.name} is a link, and links are not followed: put there what it leads to"
+        name = name or path.name
+    elif suffix in WORK:
+        words = f"{path.name} is no folder and no archive: put it into a folder"
+        name = name or path.stem
+    elif suffix in UNREAD:
+        words = f"{path.name} is packed in a way that is not read: ask for a zip"
+        name = name or path.stem
+    else:
+        words = f"nothing of the lab was found: {path.name} is no folder and no archive"
+    if name is not None:
+        intake.troubles[make_portable(name)] = words
+    elif path.name not in SIDE_FILES and suffix != ".csv":
+        intake.notes.append(f"{path.name} is no submission: skipped")
+
+
+# ---------------------------------------------------------------- each submission once
+
+
+def drop_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
+    """Return each submission once; where one student's differ, a person must choose."""
     groups: dict[str, list[Found]] = {}
     for each in found:
-        groups.setdefault(folded(each.name), []).append(each)
-    refused = {folded(name): words for name, words in intake.troubles.items()}
+        groups.setdefault(fold(each.name), []).append(each)
+    refused = {fold(name): words for name, words in intake.troubles.items()}
     for name, group in groups.items():
         places = [each.sources[0].name for each in group]
         if name in refused:
             places.append(refused[name].partition(" ")[0])
         if len(places) == 1:
             yield group[0]
-        elif name not in refused and len({digest_or_trouble(each) for each in group}) == 1:
+        elif name not in refused and len({hash_files(each) for each in group}) == 1:
             intake.notes.append(f"{' and '.join(places)} are the same: the first counts")
             yield group[0]
         else:
-            words = f"handed in more than once, as {' and '.join(told_apart(places))}: leave one"
+            words = f"handed in more than once, as {' and '.join(tell_apart(places))}: leave one"
             other = ", or rename one where they are two students'" * (len(set(places)) > 1)
             intake.troubles[group[0].name] = words + other
 
 
-def told_apart(names: list[str]) -> list[str]:
-    """Names as they are, or letter by letter where they look the same."""
+def tell_apart(names: list[str]) -> list[str]:
+    """Return names as they are, or letter by letter where they look the same."""
     same = len({unicodedata.normalize("NFC", name) for name in names}) < len(set(names))
     return [ascii(name) for name in names] if same else names
 
 
-def digest_or_trouble(each: Found) -> str:
+def hash_files(each: Found) -> str:
+    """Return a hash of what a submission holds, or why it cannot be read."""
     try:
         return pack(each).digest
     except CannotTake as error:
@@ -167,27 +197,27 @@ def digest_or_trouble(each: Found) -> str:
 # ---------------------------------------------------------------- a class without --class
 
 
-def class_in(folder: Path) -> list[str]:
-    """The submissions in a folder that is none itself; empty where it may well be one.
+def find_class(folder: Path) -> list[str]:
+    """Return the submissions in a folder that is none itself; empty where it may well be one.
 
     One submission may lie deeper in, or a folder for each of its programs. So there is a class only
     where none of the programs is in the folder itself, and one is in two or more of what it holds.
     """
     try:
-        found = [] if holds_program(folder) else listed(folder, ClassList()).found
-    except (CannotGrade, OSError):
+        found = [] if has_program(folder) else list_class(folder, ClassList()).found
+    except (Stop, OSError):
         return []
-    programs = {each.name: programs_of(each) for each in found}
+    programs = {each.name: find_programs(each) for each in found}
     count = Counter(chain.from_iterable(programs.values()))
     return [name for name, held in programs.items() if any(count[each] > 1 for each in held)]
 
 
-def programs_of(found: Found) -> frozenset[str]:
-    """The programs that a submission holds, wherever; all where two places have some."""
+def find_programs(found: Found) -> frozenset[str]:
+    """Return the programs that a submission holds, wherever; all where two places have some."""
     try:
-        with laid_out(found) as (root, _):
-            return programs_in(root)
+        with lay_out(found) as (root, _):
+            return list_programs(root)
     except ManyPrograms:
-        return modules()
-    except (CannotTake, CannotGrade, OSError):
+        return list_modules()
+    except (Stop, OSError):
         return frozenset()

@@ -1,41 +1,137 @@
 """Moodle: a folder or a file for each student and kind of upload, both in the name."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from grader.intake.found import Upload
-from grader.intake.names import portable
-from grader.intake.roster import ClassList
+from grader.intake.lms import PAGE, Lms, MarkColumn, Page
+from grader.intake.names import fold, make_portable
+from grader.intake.roster import SUBMITTED, ClassList, Roster
 
 NAME = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(_(?P<file>.*))?")
+TOTAL = "Maximum Grade"  # a column of the worksheet; the one before it is the grade's
+# Titles in the languages of its users; each stands for itself in another case, too.
+TITLES = {
+    "Identifier": ("ID", "Identifiant", "Identificador", "Identificativo", "Identificatie"),
+    "Full name": (
+        *("Vollständiger Name", "Nom complet", "Nombre completo", "Nome completo"),
+        *("Volledige naam",),
+    ),
+    "First name": ("Vorname", "Prénom", "Nombre", "Nome", "Voornaam", "Nom"),
+    "Last name": (
+        *("Nachname", "Nom de famille", "Apellido(s)", "Cognome", "Achternaam", "Apelido"),
+        *("Cognoms",),
+    ),
+    "Email address": (
+        *("E-Mail-Adresse", "Adresse de courriel", "Dirección de correo", "Indirizzo email"),
+        *("E-mailadres", "E-mail", "Adreça electrònica"),
+    ),
+    "ID number": (
+        *("ID-Nummer", "Numéro d'identification", "Número de ID", "Codice identificativo"),
+        *("Nummer (ID)", "Número de identificação (ID)", "Número ID"),
+    ),
+    "Username": (
+        *("Anmeldename", "Nom d'utilisateur", "Nombre de usuario", "Gebruikersnaam"),
+        *("Nome de utilizador", "Nom d'usuari"),
+    ),
+    "Group": ("Gruppe", "Groupe", "Grupo", "Gruppo", "Groep", "Grup"),
+    "Groups": ("Gruppen", "Groupes", "Grupos", "Gruppi", "Groepen", "Grups"),
+    TOTAL: (
+        *("Bestwertung", "Note maximale", "Calificación máxima", "Valutazione massima"),
+        *("Maximaal cijfer", "Nota máxima", "Qualificació màxima"),
+    ),
+    "Feedback comments": (
+        *("Feedback als Kommentar", "Feedback par commentaires", "Commenti"),
+        *("Comentarios de retroalimentación", "Feedback tekstvak", "Comentários de feedback"),
+        *("Comentaris de retroacció.", "Comentaris de retroacció"),
+    ),
+    SUBMITTED: (
+        *("Zuletzt geändert (Abgabe)", "Dernière modification (travail remis)"),
+        *("Última modificación (entrega)", "Ultima modifica (consegna)"),
+        *("Laatst gewijzigd (inzending)", "Última atualização (submissão)"),
+        *("Darrera modificació (tramesa)",),
+    ),
+}
 
 
-def upload(path: Path, people: ClassList) -> Upload | None:
-    """Whose upload this is; None for what Moodle does not write."""
-    match = NAME.fullmatch(path.name)
-    if match is None:
-        return None
-    known = people.name_of(["Identifier"], match["id"])
-    if known is None and not people.knows("Identifier"):
-        known = people.name_of(["name"], match["name"], *without_group(match["name"]))
-    name = known or f"{match['name']}_{match['id']}"
-    return Upload(
-        path,
-        portable(name),
-        from_lms=True,
-        empty=match["kind"] != "file",
-        handed_in=people.handed_in(name),
-        owner=match["id"],
-    )
+class Moodle(Lms):
+    """Moodle; its grading worksheet is told from the export of its gradebook, a plain list."""
+
+    name = "moodle"
+    only_commas = True
+    names_alone = False
+
+    def read_upload(self, path: Path, people: ClassList) -> Upload | None:
+        match = NAME.fullmatch(path.name)
+        if match is None:
+            return None
+        known = people.find(["Identifier"], match["id"])
+        if known is None and not people.has_column("Identifier"):
+            known = people.find(["name"], match["name"], *cut_group(match["name"]))
+        name = known or f"{match['name']}_{match['id']}"
+        return Upload(
+            path,
+            make_portable(name),
+            from_lms=True,
+            empty=match["kind"] != "file",
+            handed_in=people.times.get(name),
+            owner=match["id"],
+        )
+
+    def read_own_name(self, path: Path) -> str | None:
+        match = NAME.fullmatch(path.name)
+        return match["file"] or "file" if match else None
+
+    def writes_gradebook(self, columns: set[str]) -> bool:
+        return {"Identifier", "Grade"} <= columns
+
+    def translate(self, titles: list[str]) -> list[str]:
+        plain = {fold(TOTAL): TOTAL}  # newer ones write it in small letters
+        for name, others in TITLES.items():
+            for other in others:
+                if other != "ID" or "Bestwertung" in titles:  # many lists have an ID that is none
+                    plain.setdefault(fold(other), name)
+        columns = [plain.get(fold(title).replace("\u2019", "'"), title) for title in titles]
+        if "Full name" not in columns and "Last name" not in columns:  # Italian: one word for both
+            columns = ["Full name" if name == "First name" else name for name in columns]
+        if TOTAL in columns and "Identifier" in columns and "Grade" not in columns:
+            columns[columns.index(TOTAL) - 1] = "Grade"
+        return columns if len(set(columns)) == len(columns) else titles
+
+    def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
+        """Return the worksheet as it came, with two columns filled in."""
+        table = [[roster.titles.get(name, name) for name in roster.columns]]
+        for row, mark, summary in marks.rows:
+            cells = row | {"Grade": mark, "Feedback comments": summary}
+            table.append([cells[name] for name in roster.columns])
+        return table
+
+    def find_total(self, roster: Roster, title: str) -> str:
+        totals = {row.get(TOTAL, "").strip() for row in roster.rows}
+        return totals.pop() if len(totals) == 1 else ""
+
+    def warn_above(self, names: str, total: float) -> str:
+        return (
+            f"{names}: above {total:g}, which Moodle's worksheet leaves out without a word: set "
+            "their grades in its gradebook, or let the bonus count apart"
+        )
+
+    def name_page(self, participant: str, file: str) -> str:
+        """Return Moodle's name of somebody's file; their number follows the first `_` in it."""
+        name, _, number = participant.rpartition("_")
+        return f"{name.replace('_', ' ')}_{number}_assignsubmission_file_{file}"
+
+    def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
+        """Return files whose names hold a participant's number and the kind of upload."""
+        if match := NAME.fullmatch(source.name):
+            first = f"{match['name']}_{match['id']}"
+            for each in pages:
+                file = PAGE if each.participant else each.file
+                yield self.name_page(each.participant or first, file), each.content
 
 
-def without_group(name: str) -> list[str]:
-    """What may be the student's name where the group's stands before it: `Group 3-Ann Lee`."""
+def cut_group(name: str) -> list[str]:
+    """Return what may be the student's name in `Group 3-Ann Lee`."""
     parts = name.split("-")
     return ["-".join(parts[at:]) for at in range(1, len(parts))]
-
-
-def own_name(path: Path) -> str | None:
-    """The file's name as the student gave it; None for what Moodle does not write."""
-    match = NAME.fullmatch(path.name)
-    return match["file"] or "file" if match else None

@@ -1,4 +1,4 @@
-"""Reading one submission: archives are unpacked, the programs in it are found, and it is packed."""
+"""Read one submission: unpack archives, find the programs in them, and pack what counts."""
 
 import re
 import shutil
@@ -7,26 +7,26 @@ from contextlib import contextmanager
 from filecmp import cmp
 from pathlib import Path, PurePosixPath
 
-from grader.intake import blackboard, brightspace, canvas, moodle
 from grader.intake.archives import Bounds, check_size, unzip
 from grader.intake.found import CannotTake, Found, Package
-from grader.intake.names import MENTIONED, in_short, portable
+from grader.intake.names import MENTIONED, make_portable, shorten_list
 from grader.intake.pieces import (
     Arranged,
     ManyPrograms,
-    arranged,
-    meant,
-    no_program,
-    nothing_of_the_lab,
-    weight,
+    arrange,
+    match_name,
+    name_type,
+    rank_file,
+    refuse_empty,
 )
 from grader.intake.places import (
     DEEPEST,
+    cut_suffix,
+    enter_single_folders,
     is_archive,
-    modules,
-    stem_of,
-    unwrapped,
+    list_modules,
 )
+from grader.intake.systems import SYSTEMS
 from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
 from grader.judge.workplace import work_folder
 
@@ -34,56 +34,55 @@ COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file t
 
 
 @contextmanager
-def opened_submission(
+def open_submission(
     path: Path,
     say: Callable[[str], None] = lambda note: None,
     asked: Collection[str] = (),
 ) -> Iterator[Path]:
-    """The submission at `path`, as the lab lays it out: unpacked, and its files put together.
+    """Unpack the submission at `path` and put its files together, as the lab lays them out.
 
-    Raises CannotGrade where it cannot be taken. A folder with nothing of the lab is left as it is:
-    whoever names one sees what is in it.
+    A folder with nothing of the lab is left as it is: whoever names one sees what is in it.
     """
-    if (path.is_file() and not is_archive(path)) or not path.exists() or lies_well(path, asked):
+    if (path.is_file() and not is_archive(path)) or not path.exists() or is_laid_out(path, asked):
         yield path
         return
     with work_folder() as temporary:
         try:
-            package = pack(Found(portable(stem_of(path.resolve())), (path,)), asked)
+            package = pack(Found(make_portable(cut_suffix(path.resolve())), (path,)), asked)
         except ManyPrograms as error:
-            raise CannotGrade(f"{path}: {error}, or grade each of them with --class") from error
+            raise CannotTake(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
-            raise CannotGrade(f"{path}: {error}") from error
+            raise CannotTake(f"{path}: {error}") from error
         for note in package.notes:
             say(note)
         yield package.unpack(temporary)
 
 
-def lies_well(path: Path, asked: Collection[str] = ()) -> bool:
-    """Whether a folder can be graded as it lies, or holds nothing that could be put together."""
+def is_laid_out(path: Path, asked: Collection[str] = ()) -> bool:
+    """Tell whether a folder can be graded as it lies, or has nothing to put together."""
     if not path.is_dir():
         return False
     try:
-        laid = arranged(path, asked)
+        laid = arrange(path, asked)
     except ManyPrograms:
         return False
     as_it_is = laid.as_found and laid.root == path
-    return as_it_is or not (laid.files or archives_in(path))
+    return as_it_is or not (laid.files or list_archives(path))
 
 
 def pack(found: Found, asked: Collection[str] = ()) -> Package:
     """Read what may be taken of a submission, wherever in it the programs lie.
 
-    Raises CannotTake where there is none of those that the course asks for, or something could not
-    be read: this is no work worth nothing, but for a person to look at.
+    Raises CannotTake where it has none of the programs asked for, or cannot be read: that is not
+    worth 0 points but needs manual review.
     """
     bounds, files = Bounds(), []
-    asked = asked or modules()
+    asked = asked or list_modules()
     try:
-        with opened(found, asked) as (folder, laid, notes):
+        with open_found(found, asked) as (folder, laid, notes):
             if not any(module_of(PurePosixPath(name)) in asked for name in laid.files):
-                raise nothing_of_the_lab(folder, asked, notes)
-            for name in sorted(laid.files, key=lambda each: weight(PurePosixPath(each))):
+                refuse_empty(folder, asked, notes)
+            for name in sorted(laid.files, key=lambda each: rank_file(PurePosixPath(each))):
                 path = laid.files[name]
                 if bounds.take(name, path.stat().st_size):
                     files.append((name, path.read_bytes()))
@@ -91,31 +90,31 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
         raise CannotTake(unreadable(error, found.sources[0])) from error
     except CannotGrade as error:
         raise CannotTake(str(error)) from error
-    said = [*notes, *no_programs(files, asked), *laid.notes, *bounds.notes]
-    if len(said) > MENTIONED:
-        said[MENTIONED:] = [f"and {len(said) - MENTIONED} notes more"]
-    return Package(found.name, sorted(files), said)
+    notes = [*notes, *find_empty_programs(files, asked), *laid.notes, *bounds.notes]
+    if len(notes) > MENTIONED:
+        notes[MENTIONED:] = [f"and {len(notes) - MENTIONED} notes more"]
+    return Package(found.name, sorted(files), notes)
 
 
-def no_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
-    """Notes on programs that say nothing; raises CannotTake where one is no Python at all."""
+def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
+    """Return notes on empty programs; raises CannotTake where one is no Python at all."""
     held = {name: content for name, content in files if module_of(PurePosixPath(name)) in asked}
-    empty = {name for name, content in held.items() if no_program(content) == "empty"}
+    empty = {name for name, content in held.items() if name_type(content) == "empty"}
     if held and len(empty) == len(held):
-        raise CannotTake(f"there is nothing in what was handed in: {in_short(sorted(held))}")
+        raise CannotTake(f"all programs are empty: {shorten_list(sorted(held))}")
     for name, content in sorted(held.items()):
-        if name.endswith(".py") and name not in empty and (words := no_program(content)):
+        if name.endswith(".py") and name not in empty and (words := name_type(content)):
             raise CannotTake(f"{name} is {words}: ask for the program itself")
     alone = (f"{name} is empty" for name in sorted(empty) if "/" not in name)
     return list(alone)
 
 
 @contextmanager
-def laid_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
-    """A folder that holds the work as the lab lays it out, and what there is to say of it."""
-    with opened(found) as (folder, laid, notes):
+def lay_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
+    """Lay the work out in a folder as the lab does, with notes on it."""
+    with open_found(found) as (folder, laid, notes):
         if not laid.files:
-            yield unwrapped(folder), notes
+            yield enter_single_folders(folder), notes
         elif laid.as_found:
             yield laid.root, [*notes, *laid.notes]
         else:
@@ -127,45 +126,48 @@ def laid_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
 
 
 @contextmanager
-def opened(found: Found, asked: Collection[str] = ()) -> Iterator[tuple[Path, Arranged, list[str]]]:
-    """All that was handed in, archives unpacked, and the lab's files in it."""
+def open_found(
+    found: Found, asked: Collection[str] = ()
+) -> Iterator[tuple[Path, Arranged, list[str]]]:
+    """Unpack all that was handed in, and find the lab's files in it."""
     folder = found.sources[0]
     if len(found.sources) == 1 and folder.is_dir():
-        laid = arranged(folder, asked)
-        if complete(laid, asked) or not archives_in(folder):
-            yield folder, laid, unopened(folder, laid, asked)
+        laid = arrange(folder, asked)
+        if is_complete(laid, asked) or not list_archives(folder):
+            yield folder, laid, note_unopened(folder, laid, asked)
             return
     with work_folder() as temporary:
         bounds = Bounds()
-        gather_all(found, temporary, bounds)
-        laid = unpacked(found, temporary, bounds, asked)
-        yield temporary, laid, [*unopened(temporary, laid, asked), *bounds.notes]
+        copy_all(found, temporary, bounds)
+        laid = unpack(found, temporary, bounds, asked)
+        yield temporary, laid, [*note_unopened(temporary, laid, asked), *bounds.notes]
 
 
-def complete(laid: Arranged, asked: Collection[str]) -> bool:
-    """Whether every program is there that the course asks for."""
+def is_complete(laid: Arranged, asked: Collection[str]) -> bool:
+    """Tell whether every program is there that the course asks for."""
     held = {name.partition("/")[0].removesuffix(".py") for name in laid.files}
-    return held.issuperset(asked or modules())
+    return held.issuperset(asked or list_modules())
 
 
-def archives_in(folder: Path) -> list[Path]:
+def list_archives(folder: Path) -> list[Path]:
     return sorted(path for path in plain_files(folder) if is_archive(path))
 
 
-def unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[str]:
-    names = [path.relative_to(folder).as_posix() for path in archives_in(folder)]
+def note_unopened(folder: Path, laid: Arranged, asked: Collection[str]) -> list[str]:
+    names = [path.relative_to(folder).as_posix() for path in list_archives(folder)]
     enough = "all programs lie beside it"
     deep = f"archives are opened {DEEPEST} deep, one in the other"
-    return [f"{name} was not opened: {enough if complete(laid, asked) else deep}" for name in names]
+    why = enough if is_complete(laid, asked) else deep
+    return [f"{name} was not opened: {why}" for name in names]
 
 
-def unpacked(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Arranged:
+def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = ()) -> Arranged:
     """Unpack until all programs that are asked for are there, or nothing is left to unpack."""
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
-        archives = archives_in(folder)
-        laid = arranged(folder, asked)
-        if complete(laid, asked) or not archives:
+        archives = list_archives(folder)
+        laid = arrange(folder, asked)
+        if is_complete(laid, asked) or not archives:
             break
         for path in archives:
             packed = path.rename(path.with_name(f".{path.name}"))
@@ -175,35 +177,33 @@ def unpacked(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] 
                 shutil.rmtree(path, ignore_errors=True)
                 refused[path.relative_to(folder).as_posix()] = str(error)
             packed.unlink()
-    laid = arranged(folder, asked)
-    if refused and not complete(laid, asked):
+    laid = arrange(folder, asked)
+    if refused and not is_complete(laid, asked):
         names = {each.name for each in found.sources}
-        told = (
-            f"{name}: {words}" * (name not in names) or words for name, words in refused.items()
-        )
-        raise CannotTake("; ".join(told))
+        why = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())
+        raise CannotTake("; ".join(why))
     laid.notes += [f"left out {name}: {words}" for name, words in refused.items()]
     return laid
 
 
-def gather_all(found: Found, folder: Path, bounds: Bounds) -> None:
-    """Gather what was handed in under the names it had, the same file but once."""
-    known: dict[tuple[str, int], list[Path]] = {}
+def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
+    """Copy all that was handed in under the names it had, the same file only once."""
+    copied: dict[tuple[str, int], list[Path]] = {}
     for source in found.sources:
         if source.is_file():
-            alike = known.setdefault((first_name(source), source.stat().st_size), [])
-            if any(cmp(source, each, shallow=False) for each in alike):
+            others = copied.setdefault((read_first_name(source), source.stat().st_size), [])
+            if any(cmp(source, each, shallow=False) for each in others):
                 continue
-            alike.append(source)
+            others.append(source)
         if source.is_dir():
             paths = (path.relative_to(source).as_posix() for path in plain_files(source))
-            for inside in sorted(map(PurePosixPath, paths), key=weight):
-                gather(source / inside, folder / inside, bounds)
+            for inside in sorted(map(PurePosixPath, paths), key=rank_file):
+                copy_file(source / inside, folder / inside, bounds)
         else:
-            gather(source, free(folder / first_name(source)), bounds)
+            copy_file(source, find_free_name(folder / read_first_name(source)), bounds)
 
 
-def gather(path: Path, target: Path, bounds: Bounds) -> None:
+def copy_file(path: Path, target: Path, bounds: Bounds) -> None:
     """Copy one file; an archive may be larger than a submission, its files may not."""
     if not path.is_file():
         raise CannotTake(f"{path.name} is no file to read, but a pipe, a device or nothing")
@@ -215,8 +215,8 @@ def gather(path: Path, target: Path, bounds: Bounds) -> None:
     shutil.copyfile(path, target)
 
 
-def free(path: Path) -> Path:
-    """A second file of one name gets another, by which it is known again."""
+def find_free_name(path: Path) -> Path:
+    """Return a name that is free: a second file of one name gets a number."""
     number = 1
     while path.exists():
         number += 1
@@ -225,10 +225,9 @@ def free(path: Path) -> Path:
     return path
 
 
-def first_name(path: Path) -> str:
-    """A file's name as the student gave it; the lab's own are known again by `pieces`."""
-    forms = (blackboard, brightspace, moodle, canvas)
-    name = next(filter(None, (form.own_name(path) for form in forms)), None)
-    if name is None or meant(name, [f"{module}.py" for module in modules()]):
-        return portable(name or path.name)
-    return portable(COPY.sub("", name))
+def read_first_name(path: Path) -> str:
+    """Return a file's name as the student gave it; `pieces` recognises the lab's own."""
+    name = next(filter(None, (each.read_own_name(path) for each in SYSTEMS)), None)
+    if name is None or match_name(name, [f"{module}.py" for module in list_modules()]):
+        return make_portable(name or path.name)
+    return make_portable(COPY.sub("", name))

@@ -1,8 +1,8 @@
-"""The lab's files in what was handed in: at any depth, and under names that others have changed.
+"""Find the lab's files in what was handed in, at any depth, under names that others have changed.
 
 Browsers and learning systems put `(1)`, `-2` or `copy` into a name, and people put `final` or their
-own. Python can import no such name, so nobody meant it for a file of their own: it is taken as what
-it was, and that is said. Where two files could be the same one, a person must choose.
+own. Python can import no such name, so nobody meant it for a file of their own. It is taken as what
+it was, with a note. Where two files could be the same one, a person must choose.
 """
 
 import re
@@ -10,11 +10,12 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path, PurePosixPath
+from typing import NoReturn
 from urllib.parse import unquote
 
 from grader.intake.found import CannotTake
-from grader.intake.names import folded
-from grader.intake.places import ARCHIVES, modules
+from grader.intake.names import fold
+from grader.intake.places import ARCHIVES, list_modules
 from grader.judge.submission import load_given, plain_files
 from grader.source.regions import regions_in
 
@@ -39,12 +40,12 @@ SIGNS = {  # how a file begins that somebody saved under a program's name
 
 
 class ManyPrograms(CannotTake):
-    """More than one program in a submission: it is for a person to choose."""
+    """Two programs of one name in a submission: a person must choose."""
 
 
 @dataclass
 class Arranged:
-    """A submission as the lab lays it out: each file's name, and where it lies."""
+    """The files of a submission as the lab lays them out: names, and where each lies."""
 
     files: dict[str, Path]
     as_found: bool = True  # the files lie so in `root`
@@ -52,8 +53,8 @@ class Arranged:
     notes: list[str] = field(default_factory=list)
 
 
-def original(name: str) -> str:
-    """A file's or folder's name without what a browser or a learning system put into it."""
+def strip_additions(name: str) -> str:
+    """Return a file's or folder's name without what browsers and learning systems add to it."""
     name = unquote(name)
     name = re.sub(r"(?i)\.py\.txt$", ".py", name)
     stem, dot, suffix = name.partition(".py") if name.lower().endswith(".py") else (name, "", "")
@@ -64,25 +65,25 @@ def original(name: str) -> str:
     return stem + dot + suffix
 
 
-def meant(name: str, names: Iterable[str]) -> str | None:
-    """The one of `names` that a file's name stands for."""
-    plain = folded(original(name))
+def match_name(name: str, names: Iterable[str]) -> str | None:
+    """Return the one of `names` that a file's name stands for."""
+    plain = fold(strip_additions(name))
     return next((each for each in names if each == name), None) or next(
-        (each for each in names if folded(each) == plain), None
+        (each for each in names if fold(each) == plain), None
     )
 
 
 @cache
-def package_files() -> frozenset[str]:
-    """The files that the lab's package has, by their names in it."""
+def list_package_files() -> frozenset[str]:
+    """Return the files that the lab's package has, by their names in it."""
     given = (PurePosixPath(name).parts for name in load_given())
     return frozenset(parts[1] for parts in given if len(parts) == 2 and parts[0] == PACKAGE)
 
 
 @cache
-def package_work() -> frozenset[str]:
-    """Those of them that a student works on."""
-    names = (name for name in package_files() if name != INIT)
+def list_package_work() -> frozenset[str]:
+    """Return the files of the package that a student works on."""
+    names = (name for name in list_package_files() if name != INIT)
     return frozenset(n for n in names if regions_in(load_given()[f"{PACKAGE}/{n}"]))
 
 
@@ -98,34 +99,34 @@ class Piece:
     files: tuple[tuple[str, PurePosixPath], ...]  # the name it goes by, and where it lies
     exact: bool
 
-    def same_as(self, other: "Piece", folder: Path) -> bool:
+    def is_same(self, other: "Piece", folder: Path) -> bool:
         mine, others = ({n: (folder / p).read_bytes() for n, p in x.files} for x in (self, other))
         return mine == others
 
 
-def arranged(folder: Path, asked: Collection[str] = ()) -> Arranged:
-    """The submission in `folder`, each program of the lab where it belongs.
+def arrange(folder: Path, asked: Collection[str] = ()) -> Arranged:
+    """Return the submission in `folder` with each program of the lab where it belongs.
 
     Raises ManyPrograms where two could be the same program, and neither lies nearer to the top. Of
-    a program that the course does not ask for either will do: no mark hangs on it.
+    a program that the course does not ask for, either will do: no mark depends on it.
     """
     paths = sorted(PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
     notes: list[str] = []
-    found = candidates(paths)
-    asked = asked or modules()
+    found = find_candidates(paths)
+    asked = asked or list_modules()
     pieces = [
-        chosen(each, folder, notes, each[0].module in asked)
-        for each in by_module([*found, *renamed(paths, found)])
+        choose_piece(each, folder, notes, each[0].module in asked)
+        for each in group_by_module([*found, *find_renamed(paths, found)])
     ]
     if PACKAGE not in {piece.module for piece in pieces}:
-        pieces += loose_package(paths, folder)
+        pieces += find_loose_package(paths, folder)
     if not pieces:
         return Arranged({}, root=folder)
-    top = top_of(pieces)
+    top = find_top(pieces)
     files: dict[str, Path] = {}
     elsewhere: set[PurePosixPath] = set()
     for piece in pieces:
-        for name, path in within(piece, folder, notes):
+        for name, path in list_files(piece, folder, notes):
             files[name] = folder / path
             elsewhere.add(path)
         if not piece.exact or piece.path.parent != top:
@@ -142,8 +143,8 @@ def arranged(folder: Path, asked: Collection[str] = ()) -> Arranged:
     return Arranged(files, as_found, folder / top, notes)
 
 
-def candidates(paths: list[PurePosixPath]) -> list[Piece]:
-    """All that could be a program of the lab; what lies in a package is part of that."""
+def find_candidates(paths: list[PurePosixPath]) -> list[Piece]:
+    """Return all that could be a program of the lab; what lies in a package is part of that."""
     found: list[Piece] = []
     taken: set[PurePosixPath] = set()  # where they lie
     folders: dict[PurePosixPath, list[PurePosixPath]] = {}
@@ -151,38 +152,38 @@ def candidates(paths: list[PurePosixPath]) -> list[Piece]:
         for parent in path.parents:
             folders.setdefault(parent, []).append(path)
     for folder in sorted(folders, key=lambda each: (len(each.parts), each)):
-        module = meant(folder.name, modules())
-        if module and not covered(folder, taken) and is_package(folder, folders[folder]):
+        module = match_name(folder.name, list_modules())
+        if module and not is_covered(folder, taken) and is_package(folder, folders[folder]):
             inside = tuple((f"{module}/{p.relative_to(folder)}", p) for p in folders[folder])
             found.append(Piece(module, folder, inside, folder.name == module))
             taken.add(folder)
     for path in paths:
-        module = meant(path.name, {f"{name}.py" for name in modules()})
-        if module and not covered(path, taken):
+        module = match_name(path.name, {f"{name}.py" for name in list_modules()})
+        if module and not is_covered(path, taken):
             name = module.removesuffix(".py")
             found.append(Piece(name, path, ((module, path),), path.name == module))
             taken.add(path)
     return found
 
 
-def renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
-    """Files under names of people's own, for the programs of which there is nothing else."""
-    lacking = sorted(modules() - {piece.module for piece in found})
+def find_renamed(paths: list[PurePosixPath], found: list[Piece]) -> list[Piece]:
+    """Return files under people's own names, for programs that are missing otherwise."""
+    lacking = sorted(list_modules() - {piece.module for piece in found})
     taken = {piece.path for piece in found}
     pieces = []
     for path in paths:
         module = next((each for each in lacking if is_renamed(path.name, each)), None)
-        if module and not covered(path, taken):
+        if module and not is_covered(path, taken):
             pieces.append(Piece(module, path, ((f"{module}.py", path),), exact=False))
     return pieces
 
 
 def is_renamed(name: str, module: str) -> bool:
-    """Whether a name that Python cannot import has the program's in it, as a word of its own.
+    """Tell whether a name that Python cannot import has the program's in it, as a whole word.
 
-    A text file is one, too: some systems refuse what ends in `.py`.
+    A text file counts too: some systems refuse what ends in `.py`.
     """
-    stem, _, suffix = folded(unquote(name).strip()).rpartition(".")
+    stem, _, suffix = fold(unquote(name).strip()).rpartition(".")
     stem = stem.removesuffix(".py")
     if suffix == "txt":
         return stem == module
@@ -190,50 +191,50 @@ def is_renamed(name: str, module: str) -> bool:
     return suffix == "py" and not stem.isidentifier() and alone is not None
 
 
-def covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
+def is_covered(path: PurePosixPath, taken: set[PurePosixPath]) -> bool:
     return not taken.isdisjoint((path, *path.parents))
 
 
 def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
-    """Whether a folder of a program's name is that package, and not one around all programs."""
+    """Tell whether a folder of a program's name is that package, not one around all programs."""
     direct = {path.relative_to(folder).parts[0] for path in inside}
-    around = any(meant(name.removesuffix(".py"), modules()) for name in direct)
+    around = any(match_name(name.removesuffix(".py"), list_modules()) for name in direct)
     return INIT in direct or (not around and any(name.endswith(".py") for name in direct))
 
 
-def by_module(pieces: list[Piece]) -> list[list[Piece]]:
+def group_by_module(pieces: list[Piece]) -> list[list[Piece]]:
     groups: dict[str, list[Piece]] = {}
     for piece in pieces:
         groups.setdefault(piece.module, []).append(piece)
     return [groups[name] for name in sorted(groups)]
 
 
-def chosen(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
-    """Of all that could be one program, what lies nearest to the top.
+def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
+    """Return the candidate nearest to the top.
 
-    Of several there the one of the right name, unless it `matters`: then a person chooses.
+    Of several there, the one of the right name counts, unless it `matters`: then a person chooses.
     """
     nearest = min(len(piece.path.parts) for piece in pieces)
-    first, *others = without_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
+    first, *others = drop_backups([p for p in pieces if len(p.path.parts) == nearest], notes)
     if others and not matters:
         first = next((piece for piece in [first, *others] if piece.exact), first)
-        notes.append(f"of several programs {first.module} {first.path} is taken, none is asked for")
+        notes.append(f"{first.path} is taken of several {first.module}; none of them is asked for")
         others = []
     for other in others:
         if first.exact and other.exact and first.path.parent == other.path.parent:
             continue  # a package beside a file: Python takes the package
         apart = first.path.parent != other.path.parent  # may well be two people's
-        if apart or not first.same_as(other, folder):
-            raise too_many(first.module, [first.path, other.path])
+        if apart or not first.is_same(other, folder):
+            refuse_two(first.module, [first.path, other.path])
         notes.append(f"{first.path} and {other.path} are the same")
     for other in pieces:
-        if len(other.path.parts) > nearest and not first.same_as(other, folder):
+        if len(other.path.parts) > nearest and not first.is_same(other, folder):
             notes.append(f"{other.path} was left out: {first.path} lies nearer to the top")
     return first
 
 
-def without_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
-    """A desktop's copy beside what it was made of is somebody's backup: the other one counts."""
+def drop_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
+    """Leave out a desktop's copy that lies beside its original: that is somebody's backup."""
     kept = [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
     if not kept:
         return pieces
@@ -247,59 +248,63 @@ def is_backup(name: str) -> bool:
     return re.search(rf"\b{WORD}\b", name, re.I) is not None
 
 
-def too_many(what: str, paths: list[PurePosixPath]) -> ManyPrograms:
+def refuse_two(what: str, paths: list[PurePosixPath]) -> NoReturn:
     at = sorted({path.parent.as_posix() for path in paths})
     places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
-    return ManyPrograms(f"there is more than one program {what}, in {places}: leave one")
+    raise ManyPrograms(f"there is more than one program {what}, in {places}: leave one")
 
 
-def loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
-    """The package's files without their folder, or in one of another name."""
-    work = {path for path in paths if meant(path.name, package_work())}
+def find_loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
+    """Return the package's files where they lie without their folder, or in one of another name."""
+    work = {path for path in paths if match_name(path.name, list_package_work())}
     at = sorted({path.parent for path in work}, key=lambda each: (len(each.parts), each))
     at = [each for each in at if len(each.parts) == len(at[0].parts)]
     if not at:
         return []
     if len(at) > 1:
-        raise too_many(PACKAGE, [each / INIT for each in at])
+        refuse_two(PACKAGE, [each / INIT for each in at])
     inside = [path for path in paths if path.is_relative_to(at[0])]
     if at[0] / INIT not in inside:
-        inside = [p for p in inside if p.parent == at[0] and meant(p.name, package_files())]
+        inside = [
+            p for p in inside if p.parent == at[0] and match_name(p.name, list_package_files())
+        ]
     files = tuple((f"{PACKAGE}/{path.relative_to(at[0])}", path) for path in inside)
     here = at[0] if at[0].parts else PurePosixPath(inside[0].name)
     return [Piece(PACKAGE, here, files, exact=False)]
 
 
-def within(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, PurePosixPath]]:
-    """A piece's files, those of the lab's package under the names that it gives them."""
+def list_files(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, PurePosixPath]]:
+    """Return a piece's files, those of the lab's package under the lab's names."""
     if piece.module != PACKAGE or len(piece.files) == 1:
         return list(piece.files)
     files: dict[str, PurePosixPath] = {}
-    for name, path in sorted(piece.files, key=lambda each: (original(each[0]) != each[0], each[0])):
+    for name, path in sorted(
+        piece.files, key=lambda each: (strip_additions(each[0]) != each[0], each[0])
+    ):
         inside = PurePosixPath(name).relative_to(PACKAGE)
-        known = meant(inside.name, package_files()) if len(inside.parts) == 1 else None
+        known = match_name(inside.name, list_package_files()) if len(inside.parts) == 1 else None
         target = f"{PACKAGE}/{known}" if known else name
         other = files.setdefault(target, path)
         if other != path and is_backup(path.name):
             notes.append(f"{path} was left out as a backup")
             continue
         if other != path and (folder / other).read_bytes() != (folder / path).read_bytes():
-            raise too_many(target, [other, path])
+            refuse_two(target, [other, path])
         if target != name:
             notes.append(f"{path} is taken as {target}")
     return list(files.items())
 
 
-def top_of(pieces: list[Piece]) -> PurePosixPath:
-    """The folder that holds most of the programs, the first of those nearest to the top."""
+def find_top(pieces: list[Piece]) -> PurePosixPath:
+    """Return the folder that holds most of the programs, the first of those nearest to the top."""
     parents = [piece.path.parent for piece in pieces]
     return min(parents, key=lambda each: (-parents.count(each), len(each.parts), each))
 
 
-def weight(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
-    """The order in which files are taken while there is room: what may be the lab's comes first."""
-    programs = [*modules(), *(f"{name}.py" for name in modules())]
-    of_lab = any(meant(part, programs) for part in path.parts)
+def rank_file(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
+    """Return a file's rank while there is room: what may be the lab's comes first."""
+    programs = [*list_modules(), *(f"{name}.py" for name in list_modules())]
+    of_lab = any(match_name(part, programs) for part in path.parts)
     packed = path.suffix.lower() in ARCHIVES
     return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
 
@@ -307,8 +312,8 @@ def weight(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
 # ---------------------------------------------------------------- saying that there is nothing
 
 
-def nothing_of_the_lab(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> CannotTake:
-    """What is told where a person must look."""
+def refuse_empty(folder: Path, asked: Iterable[str], notes: Iterable[str]) -> NoReturn:
+    """Refuse a submission with nothing of the lab; say what it holds instead."""
     names = sorted(path.relative_to(folder).as_posix() for path in plain_files(folder))
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
     held = f"it holds {', '.join(names[:MENTIONED])}{more}"
@@ -316,11 +321,11 @@ def nothing_of_the_lab(folder: Path, asked: Iterable[str], notes: Iterable[str])
         hidden = "but hidden files, links or what programs leave behind"
         held = f"it holds nothing {hidden}" if any(folder.iterdir()) else "it holds no file"
     words = "; ".join([held, *notes])
-    return CannotTake(f"nothing of the lab was found ({', '.join(sorted(asked))}): {words}")
+    raise CannotTake(f"nothing of the lab was found ({', '.join(sorted(asked))}): {words}")
 
 
-def no_program(content: bytes) -> str:
-    """What a file is that bears a program's name and is none; empty where it may be Python."""
+def name_type(content: bytes) -> str:
+    """Name what a file is that is no Python; return nothing where it may be a program."""
     if not content.strip():
         return "empty"
     head = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:64].lower()

@@ -1,8 +1,8 @@
-"""Makes a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
+"""Make a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
 
-It is run as a script, in a process that may take only so much memory, time and disk: the libraries
-that read these formats meet a stranger's bytes here, and nothing else of the grader does. It prints
-the names of files that are too large, a line each, or why there is no zip.
+It is run as a script, in a process with limits on memory, time and disk: here alone the libraries
+for these formats meet a stranger's bytes. It prints the names of files that are too large, a line
+each, or why there is no zip.
 """
 
 import bz2
@@ -35,17 +35,17 @@ Files = Iterator[tuple[str, bytes | None]]  # None: too large
 
 
 class Refused(Exception):
-    """This archive is not unpacked; the message says why."""
+    """An archive that is not unpacked; the message says why."""
 
 
 def main(source: str, target: str) -> int:
-    limit()
+    set_limits()
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(encoding="utf-8", errors="replace")
     try:
         with zipfile.ZipFile(target, "w") as out:
             size = 0
-            for count, (name, content) in enumerate(files_of(source)):
+            for count, (name, content) in enumerate(read_files(source)):
                 if content is None:
                     say(name)
                     continue
@@ -66,11 +66,11 @@ def main(source: str, target: str) -> int:
 
 
 def say(words: str) -> None:
-    """On one line, whatever is in it: it is read line by line."""
+    """Print words on one line: the caller reads line by line."""
     print(" ".join(words.split())[:300])
 
 
-def limit() -> None:
+def set_limits() -> None:
     if resource is not None:
         wanted = (
             (resource.RLIMIT_AS, MEMORY),
@@ -86,20 +86,20 @@ def limit() -> None:
                 continue
 
 
-def files_of(source: str) -> Files:
-    """The plain files in an archive; of those larger than a submission may be only the names."""
+def read_files(source: str) -> Files:
+    """Return the files in an archive; of those that are too large, only the names."""
     with open(source, "rb") as file:
         head = file.read(PEEK)
     if head.startswith(b"7z\xbc\xaf\x27\x1c"):
-        return in_7z(source)
+        return read_7z(source)
     if head.startswith(b"Rar!\x1a\x07"):
-        return in_rar(source)
-    return in_tar(source)
+        return read_rar(source)
+    return read_tar(source)
 
 
-def in_tar(source: str) -> Files:
+def read_tar(source: str) -> Files:
     if not tarfile.is_tarfile(source):
-        yield one_file(source)
+        yield read_single(source)
         return
     with tarfile.open(source) as archive:
         for member in archive:
@@ -109,8 +109,8 @@ def in_tar(source: str) -> Files:
                 yield member.name, content.read()
 
 
-def one_file(source: str) -> tuple[str, bytes | None]:
-    """A single file that was made smaller, as `integrators.py.gz`: its name is the archive's."""
+def read_single(source: str) -> tuple[str, bytes | None]:
+    """Read a single compressed file, as `integrators.py.gz`, which is named after its archive."""
     kinds: dict[bytes, Any] = {b"\x1f\x8b": gzip.open, b"BZh": bz2.open, b"\xfd7zXZ": lzma.open}
     with open(source, "rb") as file:
         head = file.read(PEEK)
@@ -123,8 +123,8 @@ def one_file(source: str) -> tuple[str, bytes | None]:
     return Path(name).stem, None if len(content) > MAX_FILE else content
 
 
-def in_7z(source: str) -> Files:
-    py7zr = library("py7zr", ".7z")
+def read_7z(source: str) -> Files:
+    py7zr = load_library("py7zr", ".7z")
     try:
         with py7zr.SevenZipFile(source) as archive:
             plain = [each for each in archive.list() if each.is_file and not each.is_symlink]
@@ -145,8 +145,8 @@ def in_7z(source: str) -> Files:
         yield name, content.read()
 
 
-def in_rar(source: str) -> Files:
-    rarfile = library("rarfile", ".rar")
+def read_rar(source: str) -> Files:
+    rarfile = load_library("rarfile", ".rar")
     try:
         with rarfile.RarFile(source, errors="strict") as archive:
             if archive.needs_password():
@@ -160,7 +160,7 @@ def in_rar(source: str) -> Files:
         raise Refused(PART) from error
     yield from ((each.filename, None) for each in plain if each.file_size > MAX_FILE)
     wanted = [each.filename for each in plain if each.file_size <= MAX_FILE]
-    tools, failed = unpackers(rarfile), []
+    tools, failed = find_unpackers(rarfile), []
     for name in tools or ["no tool"]:
         rarfile.CURRENT_SETUP = tools.get(name)
         try:
@@ -181,8 +181,8 @@ def in_rar(source: str) -> Files:
     )
 
 
-def unpackers(rarfile: Any) -> dict[str, Any]:
-    """The programs of this machine that unpack a .rar, the best first."""
+def find_unpackers(rarfile: Any) -> dict[str, Any]:
+    """Return the programs of this machine that unpack a .rar, the best first."""
     kinds = {
         "unrar": rarfile.UNRAR_CONFIG,
         "unar": rarfile.UNAR_CONFIG,
@@ -199,7 +199,7 @@ def unpackers(rarfile: Any) -> dict[str, Any]:
     return {name: tool for name, tool in tools.items() if tool.check()}
 
 
-def library(name: str, format: str) -> Any:
+def load_library(name: str, format: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal, Never, TypeVar
 import msgspec
 from msgspec import Meta, Struct, structs
 
+from grader.errors import Stop
 from grader.judge.result import is_bonus
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 
@@ -30,17 +31,18 @@ ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day en
 Read = TypeVar("Read", bound=Struct)
 Kind = Literal["number", "film", "line", "why"]
 Count = Annotated[int, Meta(ge=0)]
+Share = Annotated[str, Meta(pattern=r"^\d+%$")]
 Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
 
 
-class WrongCourse(Exception):
+class WrongCourse(Stop):
     """A course cannot be as its file says; the message names the file and what to write."""
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
     """What lateness costs, begun days counted as whole: in a course, and in a class's decisions."""
 
-    per_day: Count | Annotated[str, Meta(pattern=r"^\d+%$")] = 0  # points, or a share, as "10%"
+    per_day: Count | Share = 0  # points, or a share of those earned, as "10%"
     at_most: Count = 100  # points that lateness takes
     grace: Count = 0  # minutes after the due date that cost nothing
     free_days: Count = 0  # late days that each student has
@@ -253,7 +255,7 @@ MUST = {
 }
 
 
-def convert(document: Any, kind: type[Read], around: str = "") -> Read:
+def convert(document: Any, kind: type[Read]) -> Read:
     """Return a table of the file as a struct; raises WrongCourse with a sentence.
 
     msgspec names the place of what is wrong, but not the key in a table of numbers.
@@ -262,7 +264,7 @@ def convert(document: Any, kind: type[Read], around: str = "") -> Read:
         return msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
         place = re.search(r"`\$\.?([\w.]*)(?:\[.*)?`$", str(error))
-        names = [*filter(None, [around, *(place[1].split(".") if place else [])])]
+        names = [*filter(None, place[1].split("."))] if place else []
         if unknown := re.search(r"unknown field `(.*?)`", str(error)):
             owner = {"late": Late, "questions": Asked}.get(names[-1] if names else "", Course)
             known = ", ".join(
@@ -272,7 +274,7 @@ def convert(document: Any, kind: type[Read], around: str = "") -> Read:
                 f"{': '.join([*names, ''])}there is no key {unknown[1]}; there are {known}"
             ) from None
         value = document
-        for name in names[bool(around) :]:
+        for name in names:
             value = value[name]
         if isinstance(value, dict) and names[-1] == "points":
             names, value = next(
@@ -339,11 +341,3 @@ def faults_between(course: Course) -> Iterator[str]:
     if course.due is not None and course.visible is not None and course.visible < course.due:
         visible = f"visible = {course.visible} is before due = {course.due}"
         yield f"{visible}: students could still hand in"
-
-
-def wrong_late(late: dict[str, Any]) -> Iterator[str]:
-    """Yield what is wrong with rules for late work; their date aside."""
-    try:
-        convert(late, Late, "late")
-    except WrongCourse as wrong:
-        yield str(wrong)

@@ -11,7 +11,10 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
-DECIDING = ("checks", "judge", "source", "worker", "protocol.py", "text.py")  # of grader/
+DECIDING = (  # of grader/
+    *("checks", "judge", "source", "worker"),
+    *("errors.py", "protocol.py", "text.py"),
+)
 READ = (".py", ".toml", ".json", ".ini")  # by Python and by the checks
 LIBRARIES = ("hypothesis", "msgspec", "pygame-ce", "pymunk", "pytest")
 

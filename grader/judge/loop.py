@@ -12,7 +12,7 @@ from hypothesis.errors import Flaky
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.children import Child
-from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
+from grader.judge.drawing import Example, kept_examples
 from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
@@ -56,13 +56,12 @@ class CheckLoop:
 
     def run(self) -> None:
         """Every check in the order of the rubric."""
-        with judge_settings():
-            for todo in filter(self.wanted, self.rubric.todos):
-                checks = load_checks(todo)
-                for check in todo.checks:
-                    if not hasattr(checks, check.id):
-                        raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
-                    self.judge(todo, check, getattr(checks, check.id))
+        for todo in filter(self.wanted, self.rubric.todos):
+            checks = load_checks(todo)
+            for check in todo.checks:
+                if not hasattr(checks, check.id):
+                    raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
+                self.judge(todo, check, getattr(checks, check.id))
         if self.wrong:
             raise CannotGrade(self.wrong)
 
@@ -157,7 +156,7 @@ class CheckLoop:
         cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
         if self.open_right is None or self.wrong or cut or not likely:
             return
-        with kept_examples(function), seeded(function, self.seed):
+        with kept_examples(function, self.seed):
             right = self._asked(todo, check, function, isolated=False, right=True)
         failure = right.failure
         if failure is None or (right.ended and not right.unforeseen):
@@ -182,7 +181,7 @@ class CheckLoop:
             lab = self._asked(todo, check, example, isolated)
             if lab.failure is None or lab.ended:
                 return lab, example
-        with kept_examples(function) as examples, seeded(function, self.seed):
+        with kept_examples(function, self.seed) as examples:
             lab = self._asked(todo, check, function, isolated)
         if not examples:
             return lab, function
@@ -217,7 +216,7 @@ class CheckLoop:
         All marks are decided by then. Its observations are those of the program as it is.
         """
         todo, check, function = self.functions[key]
-        with judge_settings(), kept_examples(function), seeded(function, self.seed):
+        with kept_examples(function, self.seed):
             lab = self._asked(todo, check, function, isolated=True, opener=open_child)
             if lab.connection.pieces:
                 alone = self._asked(todo, check, function, isolated=False, opener=open_child)

@@ -13,6 +13,7 @@ from pathlib import Path, PurePath, PurePosixPath
 
 import msgspec
 
+from grader.errors import Stop
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
@@ -36,8 +37,10 @@ FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was hand
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
-class CannotGrade(Exception):
+class CannotGrade(Stop):
     """Nothing here that could be graded; the message says why and what to do."""
+
+    cannot = "grade"
 
 
 @dataclass

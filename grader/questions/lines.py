@@ -20,7 +20,7 @@ from grader.questions.pictures import difference, frame_of, picture
 from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
 from grader.questions.question import Picture, Question
 from grader.questions.scene import SEEDS
-from grader.source.operators import changes, names_in
+from grader.source.operators import make_changes, names_in
 from grader.source.regions import RegionError, parsed, regions_in
 from grader.text import digits
 
@@ -115,7 +115,7 @@ def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
     code = ast.unparse(function)
     own = own_lines(tree, todo, text, function, code)
     before = code.splitlines()
-    for _, after in changes(code, names_in(function)):
+    for _, after in make_changes(code, names_in(function)):
         lines = after.splitlines()
         pairs = enumerate(zip(before, lines, strict=False), 1)
         differ = [(number, *pair) for number, pair in pairs if len(set(pair)) > 1]

@@ -9,10 +9,10 @@ import msgspec
 from rich.console import Console
 
 from grader.intake.found import CannotTake, Found
-from grader.intake.listing import opened_class
-from grader.intake.names import portable
-from grader.intake.packing import opened_submission, pack
-from grader.intake.roster import people_of
+from grader.intake.listing import open_class
+from grader.intake.names import make_portable
+from grader.intake.packing import open_submission, pack
+from grader.intake.systems import read_class_list
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options
 from grader.judge.result import Result
@@ -70,7 +70,7 @@ class Making:
 
     def result_of(self, student: str) -> Result | None:
         """What grading found out before, where that is known."""
-        path = self.results / f"{portable(student)}.json" if self.results else None
+        path = self.results / f"{make_portable(student)}.json" if self.results else None
         if path is None:
             return None
         try:
@@ -92,7 +92,7 @@ class Making:
         )
 
     def write(self, sheet: Sheet) -> None:
-        title, name = self.options.course.title, portable(sheet.student)
+        title, name = self.options.course.title, make_portable(sheet.student)
         if self.practice:
             text = page(sheet, title, "practice")
             write_whole(text.encode(), self.out / "practice" / f"{name}.html")
@@ -120,7 +120,7 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     notes: list[str] = []
     worker = start_worker()
     try:
-        with opened_submission(path, notes.append, making.options.course.modules) as folder:
+        with open_submission(path, notes.append, making.options.course.modules) as folder:
             name = printable(student or folder.resolve().name)
             made = making.make(name, folder, worker)
         making.finish()
@@ -133,7 +133,7 @@ def make_class(making: Making, path: Path, roster: Path | None, console: Console
     """A sheet for each submission of a class; each of a group gets one of their own."""
     worker = start_worker()
     try:
-        with opened_class(path, people_of(path, roster)) as intake:
+        with open_class(path, read_class_list(path, roster)) as intake:
             troubles = [Made(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
             made = []
             with Counter("making sheets", len(intake.found), console) as counter:

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import msgspec
 
-from grader.intake.names import folded
+from grader.intake.names import fold
 from grader.judge.submission import CannotGrade
 from grader.questions.question import Question, Sheet, Unreadable, earned, meant
 from grader.report.files import write_whole
-from grader.report.sinks import tables
+from grader.text import escape_formula, format_csv
 
 COLUMNS = ("student", "question", "answer")
 BY_HAND = "points"  # a column that may be left out: those that a person gave
@@ -61,7 +61,7 @@ class Marked:
 
 def mark_answers(table: Path, keys: Path) -> Marked:
     """Mark a table of answers with the keys in a folder; raises CannotGrade where there is none."""
-    sheets = {folded(sheet.student): sheet for sheet in read_keys(keys)}
+    sheets = {fold(sheet.student): sheet for sheet in read_keys(keys)}
     if not sheets:
         raise CannotGrade(f"there are no keys in {keys}: name the folder of the sheets with --out")
     given, notes = sorted_out(read_answers(table), sheets)
@@ -92,7 +92,7 @@ def read_answers(table: Path) -> list[Given]:
         raise CannotGrade(f"{table} cannot be read as a table in UTF-8: {error}") from error
     head = text.partition("\n")[0]
     rows = csv.reader(io.StringIO(text), delimiter=";" if ";" in head else ",")
-    names = [folded(each) for each in next(rows, [])]
+    names = [fold(each) for each in next(rows, [])]
     if missing := [each for each in COLUMNS if each not in names]:
         raise CannotGrade(
             f"{table} has no column {missing[0]}: its first line must be student,question,answer"
@@ -114,7 +114,7 @@ def sorted_out(
     found: dict[tuple[str, int], Given] = {}
     notes = []
     for each in lines:
-        sheet = sheets.get(folded(each.student))
+        sheet = sheets.get(fold(each.student))
         digits = each.question.removeprefix("q").removeprefix("Q").rstrip(".")
         number = int(digits) if digits.isdecimal() and len(digits) < 4 else 0
         if sheet is None:
@@ -122,10 +122,10 @@ def sorted_out(
         elif not 1 <= number <= len(sheet.questions):
             there = f"{each.student} has questions 1 to {len(sheet.questions)}"
             notes.append(f"line {each.line}: {there}, and no {each.question!r}")
-        elif (folded(each.student), number) in found:
+        elif (fold(each.student), number) in found:
             notes.append(f"line {each.line}: {each.student} answered question {number} above")
         else:
-            found[folded(each.student), number] = each
+            found[fold(each.student), number] = each
     return found, notes
 
 
@@ -161,27 +161,26 @@ def mark_of(student: str, number: int, question: Question, given: Given | None) 
 def write_points(marked: Marked, out: Path) -> tuple[Path, Path]:
     """The table of all answers, and that of students."""
     answers, totals = out / "points.csv", out / "totals.csv"
-    head = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
+    titles = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
     rows = [
         (
-            harmless(each.student),
+            each.student,
             each.number,
             each.question.kind,
             " ".join(each.question.todos),
-            harmless(each.answer),
+            each.answer,
             "" if each.points is None else each.points,
             each.question.points,
-            harmless(each.note),
+            each.note,
         )
         for each in marked.marks
     ]
-    write_whole(as_csv([head, *rows]), answers)
+    write_whole(encode_table([titles, *rows]), answers)
     by_student: dict[str, list[Mark]] = defaultdict(list)
     for each in marked.marks:
         by_student[each.student].append(each)
-    write_whole(
-        as_csv([("student", "points", "out of", "open"), *map(total, by_student.values())]), totals
-    )
+    head = ("student", "points", "out of", "open")
+    write_whole(encode_table([head, *map(total, by_student.values())]), totals)
     return answers, totals
 
 
@@ -189,12 +188,7 @@ def total(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
     """A student's points, those there were, and how many answers nobody has marked yet."""
     points = sum(each.points or 0 for each in marks)
     waiting = sum(each.points is None for each in marks)
-    return harmless(marks[0].student), points, sum(each.question.points for each in marks), waiting
-
-
-def harmless(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula; a number below 0 is none."""
-    return cell if is_number(cell) else tables.harmless(cell)
+    return marks[0].student, points, sum(each.question.points for each in marks), waiting
 
 
 def is_number(cell: str) -> bool:
@@ -205,7 +199,10 @@ def is_number(cell: str) -> bool:
     return True
 
 
-def as_csv(rows: Iterable[Sequence[object]]) -> bytes:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue().encode("utf-8")
+def encode_table(rows: Iterable[Sequence[object]]) -> bytes:
+    """Return the table with no text that a spreadsheet runs; a number below 0 is none."""
+    return format_csv(
+        rows,
+        line_end="\n",
+        escape=lambda cell: cell if is_number(cell) else escape_formula(cell),
+    ).encode("utf-8")

@@ -22,6 +22,7 @@ from rich.console import Console
 from grader import __version__
 from grader.bank.members import members
 from grader.bank.verify import verify
+from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.grade import KIT, opened
 from grader.judge.result import Result
@@ -39,8 +40,10 @@ NAME = "physics-engine"
 SECOND_ONE = "315532800"  # the same, in s
 
 
-class Refused(Exception):
+class Refused(Stop):
     """Nothing is handed out; the message says why."""
+
+    cannot = "release"
 
 
 def release(

@@ -39,8 +39,12 @@ pages = Environment(
 
 
 def of_course(text: str, course: Course) -> str:
-    """A page of Markdown as a course has it."""
-    text = pages.from_string(text).render(words_of(course))
+    """Return a page of Markdown as a course has it."""
+    return cut_page(pages.from_string(text).render(words_of(course)), course)
+
+
+def cut_page(text: str, course: Course) -> str:
+    """Remove the sections and rows of tables that a course leaves out."""
     todos = {todo.id: todo for todo in course.rubric.todos}
     known = {todo.id for todo in load_rubric().todos}
     text = "\n".join(kept_lines(text.split("\n"), todos, known - todos.keys()))
@@ -49,15 +53,19 @@ def of_course(text: str, course: Course) -> str:
 
 
 def readme_of(text: str, course: Course) -> str:
-    """The student's README as a course has it: what names something left out goes."""
+    """Remove from the student's README each part that names something a course leaves out.
+
+    The file is plain Markdown, without conditions: what depends on a TODO or a program names it.
+    """
     given = {todo.id for todo in course.given}
     every = {todo.module for todo in load_rubric().todos} - set(course.modules)
     names = [*(f"TODO {id}" for id in given), *map(start, every), *map(handed_in, every)]
     if not names:
         return text
     about = re.compile(rf"(?<![\w./])({'|'.join(map(re.escape, names))})(?![\w/])")
-    parts = PARTS.split(of_course(text, course))
-    return "".join(part for part in parts if not about.search(part))
+    parts = PARTS.split(cut_page(text, course))
+    kept = "".join(part for part in parts if not about.search(part))
+    return re.sub(r"\n{3,}", "\n\n", kept)
 
 
 def handouts_of(folder: Path, course: Course) -> dict[str, str]:

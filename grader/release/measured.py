@@ -1,11 +1,8 @@
 """What the figures of the measured pages show: numbers of handouts/results.json, for a script."""
 
 import json
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
-
-WITHIN = re.compile(r"(?P<scene>.+), (?P<engine>\w+): (?P<error>.+) within (?P<ms>\d+) ms, least")
 
 BALLS = (10, 40, 200)
 PIECES = (  # of a step: what all effects that may run at once add to it
@@ -24,20 +21,11 @@ PIECES = (  # of a step: what all effects that may run at once add to it
 def measured(results: Mapping[str, Mapping[str, Any]]) -> str:
     """The script that a page loads before its figures."""
     data = {
-        "budgets": list(budgets(results["accuracy.md"])),
         "prices": prices(results["effects.md"]),
         "charts": results["charts"],
         "limits": limits(results["hard-cases.md"]),
     }
     return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
-
-
-def budgets(lines: Mapping[str, float]) -> Iterator[dict[str, Any]]:
-    """Each scene's error by engine and ms of a frame: of the fastest repeat and the slowest."""
-    for line, least in lines.items():
-        if found := WITHIN.fullmatch(line):
-            most = lines[line.removesuffix("least") + "most"]
-            yield found.groupdict() | {"ms": int(found["ms"]), "least": least, "most": most}
 
 
 def limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -6,7 +6,8 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS, NoCourse
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS
+from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
 from grader.release.handed_out import students_tree, write_tree
@@ -29,13 +30,13 @@ def make_course(
     `make check` works in what students get.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
-        raise NoCourse(
+        raise Stop(
             f"{course} is inside the kit: nbgrader would write where solution and starter are. "
             "Name a folder outside it, or one in build."
         )
     source = course / "source" / ASSIGNMENT
     if source.exists() and not renew:
-        raise NoCourse(
+        raise Stop(
             f"there is an assignment in {source} already. --renew replaces it; "
             "settings, submissions and gradebook stay."
         )
@@ -56,7 +57,7 @@ def make_course(
 def released_files(release: Path, taken: Course) -> dict[str, bytes]:
     """What students get in an archive of `release`, but for its notebooks.
 
-    Raises NoCourse where it is none, or one that asks for other TODOs.
+    Raises Stop where it is none, or one that asks for other TODOs.
     """
     files = {}
     try:
@@ -66,14 +67,14 @@ def released_files(release: Path, taken: Course) -> dict[str, bytes]:
                 if name and not name.startswith((".", f"{NOTEBOOKS}/")):
                     files[name] = archive.read(member)
     except (OSError, zipfile.BadZipFile) as error:
-        raise NoCourse(f"{release} is no archive of a release ({error}): make one") from error
+        raise Stop(f"{release} is no archive of a release ({error}): make one") from error
     if MANIFEST in files:
         files[MANIFEST] = of_these(files[MANIFEST], files)
     asked = {todo.id for todo in taken.rubric.todos if todo.function}
     sources = [text.decode() for name, text in files.items() if name.endswith(".py")]
     there = {region.id for text in sources for region in regions_in(text)}
     if other := sorted(there ^ asked):
-        raise NoCourse(
+        raise Stop(
             f"{release} is not of this course, they differ in TODO {', '.join(other)}: "
             "run make release for it first"
         )

@@ -11,7 +11,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse
+from grader.classroom.nbgrader.submissions import ASSIGNMENT
+from grader.errors import Stop
 from grader.judge.rubric import load_rubric
 from grader.release.nbgrader_course import make_course
 from grader.release.notebooks import QUIZ, engine_notebook, read, tidied, with_practice, write
@@ -53,10 +54,10 @@ def run_nbgrader(course: Path, *arguments: str) -> None:
     scripts = str(Path(sys.executable).parent)
     command = shutil.which("nbgrader", path=scripts)
     if command is None:
-        raise NoCourse(f"there is no nbgrader in {scripts}: python -m pip install nbgrader")
+        raise Stop(f"there is no nbgrader in {scripts}: python -m pip install nbgrader")
     environment = {**os.environ, "PATH": os.pathsep.join([scripts, os.environ.get("PATH", "")])}
     done = subprocess.run(
         [command, *arguments], cwd=course, env=environment, capture_output=True, text=True
     )
     if done.returncode:
-        raise NoCourse(f"nbgrader {arguments[0]} failed:\n{done.stderr[-2000:]}")
+        raise Stop(f"nbgrader {arguments[0]} failed:\n{done.stderr[-2000:]}")

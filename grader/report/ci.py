@@ -1,4 +1,4 @@
-"""A result where the code of a submission lives: what a CI system keeps, and what it shows."""
+"""Write what a CI system keeps of a result, and what it shows beside the code."""
 
 import os
 from collections.abc import Mapping
@@ -9,45 +9,46 @@ import msgspec
 from grader.judge.result import Result
 from grader.report.files import write_json, write_whole
 from grader.report.html import write_report
-from grader.report.sinks.github import annotations, outputs
-from grader.report.sinks.junit import junit
-from grader.report.sinks.markdown import markdown
+from grader.report.sinks.github import write_annotations, write_outputs
+from grader.report.sinks.junit import write_junit
+from grader.report.sinks.markdown import write_markdown
 
 REPOSITORY = ("GITHUB_REPOSITORY", "CI_PROJECT_PATH")  # on GitHub and on GitLab: owner/name
 
 
-def named_after_repository(result: Result, environment: Mapping[str, str]) -> Result:
-    """The folder of a checkout may have any name; the repository has the student's."""
+def name_after_repository(result: Result, environment: Mapping[str, str]) -> Result:
+    """Name a result after the repository: the folder of a checkout may have any name."""
     path = next((environment[name] for name in REPOSITORY if environment.get(name)), "")
     name = path.rpartition("/")[2] or result.submission
     return msgspec.structs.replace(result, submission=name)
 
 
-def own_folder(folder: Path) -> bool:
-    """Whether reports may go there: what a submission brought along must not be among them."""
+def is_free_folder(folder: Path) -> bool:
+    """Tell whether reports may go there: nothing that a submission brought may be among them."""
     if folder.is_symlink():
         return False
     return not folder.exists() or (folder.is_dir() and not any(folder.iterdir()))
 
 
 def write_reports(result: Result, folder: Path) -> None:
-    """The files that a CI system keeps of a run; replays are there already."""
+    """Write the files that a CI system keeps of a run; replays are there already."""
     write_report(result, folder / "report.html")
     write_json(result, folder / "result.json")
-    write_whole(junit(result), folder / "junit.xml")
-    write_whole(markdown(result).encode("utf-8"), folder / "summary.md")
+    write_whole(write_junit(result), folder / "junit.xml")
+    write_whole(write_markdown(result).encode("utf-8"), folder / "summary.md")
 
 
 def tell_github(result: Result, path: Path, environment: Mapping[str, str]) -> None:
-    """Annotations into the log, and the summary and the outputs of the step; nothing elsewhere."""
+    """Print annotations, and write the summary and the outputs of the step, on GitHub alone."""
     if environment.get("GITHUB_ACTIONS") == "true":
-        print(annotations(result, folder_in_repository(path, environment)), end="", flush=True)
-    append(markdown(result), environment.get("GITHUB_STEP_SUMMARY"))
-    append(outputs(result), environment.get("GITHUB_OUTPUT"))
+        folder = locate_in_repository(path, environment)
+        print(write_annotations(result, folder), end="", flush=True)
+    append(write_markdown(result), environment.get("GITHUB_STEP_SUMMARY"))
+    append(write_outputs(result), environment.get("GITHUB_OUTPUT"))
 
 
-def folder_in_repository(path: Path, environment: Mapping[str, str]) -> str:
-    """Where the submission stands in the checkout; empty for its root, or when that is unknown."""
+def locate_in_repository(path: Path, environment: Mapping[str, str]) -> str:
+    """Return the submission's folder in the checkout; empty for its root or an unknown one."""
     folder = (path if path.is_dir() else path.parent).resolve()
     root = Path(environment.get("GITHUB_WORKSPACE") or os.curdir).resolve()
     inside = folder.relative_to(root).as_posix() if folder.is_relative_to(root) else "."

@@ -1,4 +1,4 @@
-"""Results and archives as files."""
+"""Write results and archives as files."""
 
 import os
 import zipfile
@@ -13,7 +13,7 @@ PLAIN, SCRIPT = 0o100644, 0o100755  # modes of a file
 
 
 def as_json(result: Result) -> bytes:
-    """The JSON of `--json`, indented for people."""
+    """Return the JSON of `--json`, indented for people."""
     return msgspec.json.format(msgspec.json.encode(result)) + b"\n"
 
 
@@ -22,7 +22,7 @@ def write_json(result: Result, path: Path) -> None:
 
 
 def write_whole(content: bytes, path: Path) -> None:
-    """Write it whole or not at all: a reader never meets half a file, and no link is followed."""
+    """Write a file whole or not at all: nobody reads half a file, and no link is followed."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
     with open(part, "xb") as file:

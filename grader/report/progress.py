@@ -1,4 +1,4 @@
-"""How far long work is: a bar on a terminal, a line now and then in a log."""
+"""Show the progress of long work: a bar on a terminal, a line now and then in a log."""
 
 import time
 from typing import Self
@@ -10,7 +10,7 @@ NOW_AND_THEN = 30.0  # s
 
 
 class Counter:
-    """Counts up to `total`, with the time that is left; to be used as a context manager."""
+    """A counter up to `total` that shows the time left; a context manager."""
 
     def __init__(self, what: str, total: int, console: Console) -> None:
         self.what, self.total, self.console = what, total, console
@@ -19,7 +19,7 @@ class Counter:
         here = console.is_terminal
         self.bar = Progress(*columns, more, console=console, transient=True, disable=not here)
         self.task = self.bar.add_task("", total=total, more="")
-        self.told = time.monotonic()
+        self.printed = time.monotonic()
 
     def __enter__(self) -> Self:
         self.bar.start()
@@ -29,9 +29,9 @@ class Counter:
         self.bar.stop()
 
     def reached(self, count: int, more: str = "") -> None:
-        """So many are done; `more` says what became of them."""
+        """Show that so many are done; `more` says what became of them."""
         self.bar.update(self.task, completed=count, more=more)
-        if not self.console.is_terminal and time.monotonic() - self.told >= NOW_AND_THEN:
-            self.told = time.monotonic()
+        if not self.console.is_terminal and time.monotonic() - self.printed >= NOW_AND_THEN:
+            self.printed = time.monotonic()
             words = f"{self.what}: {count} of {self.total}"
             self.console.print(f"{words}, {more}" if more else words)

@@ -1,4 +1,4 @@
-"""The result in a terminal: one line per TODO, and a few for each check that is not there yet."""
+"""Print a result in a terminal: one line per TODO, and a few for each check that failed."""
 
 import os
 import textwrap
@@ -39,11 +39,11 @@ WIDTH = 80  # at most
 
 def show(result: Result, console: Console) -> None:
     """Print the whole result."""
-    Teller(console).tell(result)
+    Printer(console).print(result)
 
 
 def show_isolation(result: Result, console: Console) -> None:
-    """Print what held the submission in, and what did not."""
+    """Print what confined the submission, and what did not."""
     say(f"isolation: {', '.join(result.isolation)}", console, indent=11, style="bright_black")
     if lacking := unconfined(result.isolation):
         words = f"not confined here: {', '.join(lacking)}. Grade only submissions you trust."
@@ -51,39 +51,39 @@ def show_isolation(result: Result, console: Console) -> None:
 
 
 @dataclass
-class Teller:
-    """Prints results. A reason that many checks share is given once."""
+class Printer:
+    """A printer of results, which gives a reason once that many checks share."""
 
     console: Console
     replays: Path | None = None  # where they are, if there are any
-    told: set[tuple[str, ...]] = field(default_factory=set)
+    given: set[tuple[str, ...]] = field(default_factory=set)  # reasons so far
 
-    def tell(self, result: Result) -> None:
+    def print(self, result: Result) -> None:
         for todo in result.shown:
-            self.tell_todo(todo)
+            self.print_todo(todo)
         words = f"{clean(result.submission)}: {total(result)}"
         say(words, self.console, style="bold")
 
-    def tell_todo(self, todo: TodoResult) -> None:
-        line = Text(todo_line(todo), style="default")
+    def print_todo(self, todo: TodoResult) -> None:
+        line = Text(write_todo(todo), style="default")
         line.stylize(STYLES[todo.state], 0, STATES)
         self.console.print(line, soft_wrap=True)
-        for checks in alike(todo.failed):
-            self.tell_failed(todo, checks)
-        for checks in alike(each for each in todo.checks if each.state == "waiting"):
-            say(f"  {subject(checks)}: {clean(checks[0].got)}", self.console, indent=4)
+        for checks in group_checks(todo.failed):
+            self.print_failed(todo, checks)
+        for checks in group_checks(each for each in todo.checks if each.state == "waiting"):
+            say(f"  {name_checks(checks)}: {clean(checks[0].got)}", self.console, indent=4)
 
-    def tell_failed(self, todo: TodoResult, checks: list[CheckResult]) -> None:
-        """Print what checks have to say that all failed for the same reason."""
+    def print_failed(self, todo: TodoResult, checks: list[CheckResult]) -> None:
+        """Print why checks failed that all failed for the same reason."""
         first, max_points = checks[0], sum(check.max_points for check in checks)
-        known = reason(first) in self.told
-        words = f"  {subject(checks)}  (0 / {max_points})" + "  as above" * known
+        is_given = find_reason(first) in self.given
+        words = f"  {name_checks(checks)}  (0 / {max_points})" + "  as above" * is_given
         say(words, self.console, indent=4, style="bold")
-        if known:
+        if is_given:
             return
-        if ("meaning", first.meaning) in self.told:
+        if ("meaning", first.meaning) in self.given:
             first = msgspec.structs.replace(first, meaning="")
-        self.told |= {reason(first), ("meaning", first.meaning)}
+        self.given |= {find_reason(first), ("meaning", first.meaning)}
         for line in reasons(first, task_of(todo)):
             say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
         if self.replays is not None and first.replay is not None:
@@ -91,82 +91,82 @@ class Teller:
             say(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", self.console, indent=2, whole=True)
 
 
-def todo_line(todo: TodoResult) -> str:
-    """A TODO's state, number, title and points."""
+def write_todo(todo: TodoResult) -> str:
+    """Return a TODO's state, number, title and points on one line."""
     bonus = " bonus" * todo.bonus
     points = f"{todo.points:>3} / {todo.max_points}{bonus}"
     return f"{todo.state.upper():<{STATES}}{todo.id:<6}{todo.title:<48}{points}"
 
 
-def alike(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
-    """The checks in groups that have the same reason."""
+def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
+    """Return the checks in groups that have the same reason."""
     groups: dict[tuple[str, ...], list[CheckResult]] = {}
     for check in checks:
-        groups.setdefault(reason(check), []).append(check)
+        groups.setdefault(find_reason(check), []).append(check)
     return list(groups.values())
 
 
-def reason(check: CheckResult) -> tuple[str, ...]:
-    """What is equal for two checks that failed alike: an error is one, whatever was run.
+def find_reason(check: CheckResult) -> tuple[str, ...]:
+    """Return what two checks share that failed for one reason: an error, whatever was run.
 
-    A loop that never ends is one, too, however much time a check had left for it.
+    A loop that never ends is one reason, however much time a check had left for it.
     """
     if check.state != "error":
         return check.ran, check.expected, check.got
     return ("endless",) if check.got.startswith(ENDLESS) else (check.got,)
 
 
-def subject(checks: list[CheckResult]) -> str:
+def name_checks(checks: list[CheckResult]) -> str:
     return checks[0].title if len(checks) == 1 else plural(len(checks), "check")
 
 
-def show_standing(result: Result, teller: Teller) -> None:
-    """Print what a student wants to know: the result, what its words mean, and what comes next."""
-    teller.tell(result)
+def show_all(result: Result, console: Console, replays: Path | None = None) -> None:
+    """Print all of a result for its student, what the states mean, and what to do next."""
+    Printer(console, replays).print(result)
     if words := hidden_points_note(result):
-        say(words, teller.console)
-    teller.console.print()
-    show_states(result, teller.console)
-    show_next(result, teller.console)
+        say(words, console)
+    console.print()
+    show_states(result, console)
+    show_next(result, console)
 
 
 def show_states(result: Result, console: Console) -> None:
-    """Say what the states mean, those that are there."""
+    """Print what the states in a result mean."""
     for state, meaning in MEANINGS.items():
         if any(todo.state == state for todo in result.shown):
             say(f"{state.upper():<{STATES}}{meaning}", console, STATES, "bright_black")
 
 
 def show_next(result: Result, console: Console) -> None:
-    """The one thing to do next: the first TODO that was begun, or else the first of all.
+    """Print the one thing to do next: the first TODO that was begun, or else the first of all.
 
-    No bonus task, unless nothing else was asked.
+    It is no bonus task, unless there is nothing else.
     """
-    asked = result.counted or result.todos
-    left = [todo for todo in asked if todo.state in (*FAILED, "not started")]
+    todos = result.counted or result.todos
+    left = [todo for todo in todos if todo.state in (*FAILED, "not started")]
     if not left:
         return
     todo = min(left, key=lambda each: (each.id == "whole", each.state == "not started"))
-    if words := mend_first(todo):
+    if words := describe_obstacle(todo):
         say(words, console, 6, "bold")
         return
-    headline, *commands = go_on_with(todo)
+    headline, *commands = suggest_todo(todo)
     say(headline, console, 6, "bold")
     for line in commands:
         say(line, console)
 
 
-def mend_first(todo: TodoResult) -> str:
-    """What must be mended before anything else can be said of a TODO; empty where nothing must."""
+def describe_obstacle(todo: TodoResult) -> str:
+    """Return what must be corrected before a TODO can be checked at all; empty for nothing."""
     cannot, _, module = todo.checks[0].ran.partition("import ")
     if todo.state != "error" or not module or cannot:
         return ""
-    return f"Next: mend {first_place(todo)}: nothing in {module} can be checked before"
+    return f"Next: mend {find_place(todo)}: nothing in {module} can be checked before"
 
 
-def go_on_with(todo: TodoResult) -> list[str]:
-    """The TODO to go on with, and what to type for it."""
-    place = first_place(todo)
+def suggest_todo(todo: TodoResult) -> list[str]:
+    """Return the TODO to go on with, and what to type for it."""
+    place = find_place(todo)
     lines = [f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place)]
     lines.append(f"  check it alone: {command('check', todo.id)}")
     if todo.id != "whole":
@@ -174,23 +174,23 @@ def go_on_with(todo: TodoResult) -> list[str]:
     return lines
 
 
-def first_place(todo: TodoResult) -> str:
+def find_place(todo: TodoResult) -> str:
     return next(filter(None, map(place_of, todo.checks)), "")
 
 
 def say(
     words: str, console: Console, indent: int = 0, style: str = "", whole: bool = False
 ) -> None:
-    """Print words; what does not fit on their line goes on below, `indent` columns in.
+    """Print words, wrapped into lines of which all but the first are indented.
 
     A single word that is longer than a line is broken, unless it must stay `whole`.
     """
-    for line in wrapped(words, console, indent, whole):
+    for line in wrap(words, console, indent, whole):
         write(line, console, style)
 
 
-def wrapped(words: str, console: Console, indent: int = 0, whole: bool = False) -> list[str]:
-    """The lines that words take; see `say`."""
+def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> list[str]:
+    """Return the lines that `say` prints."""
     return textwrap.wrap(
         words,
         min(console.width, WIDTH),

@@ -9,7 +9,6 @@ for (const [name, chart] of Object.entries(measured.charts)) {
       lesson: ["red", ""],
       stable: ["blue", "8 4"],
       compiled: ["ink", "2 4"],
-      asleep: ["grey", "12 4"],
       pymunk: ["orange", "12 4 2 4"],
       box2d: ["green", "4 4"],
       explicit_euler: ["red", ""],
@@ -19,7 +18,6 @@ for (const [name, chart] of Object.entries(measured.charts)) {
       passes: ["red", ""],
       step: ["blue", "8 4"],
       "shared substeps": ["green", "2 4"],
-      edits: ["orange", "0 1000"],
       "as it is": ["ink", "0 1000"],
     };
     const axis = element("select", {}, ...chart.panels.map(({ x }) => element("option", {}, x)));
@@ -68,15 +66,13 @@ for (const [name, chart] of Object.entries(measured.charts)) {
       if (!read) return figure.say("All curves are switched off.");
       const [across, acrossUnit] = parts(panel.x);
       const [up, unit] = parts(chart.y);
-      const { range } = read;
-      const repeats = range ? `, ${words(range[0])} to ${words(range[1])}${unit} in repeats` : "";
       const value = {
         high: `above ${words(chart.ends[1])}${unit}, or given up`,
         low: `below ${words(chart.ends[0])}${unit}`,
       }[read.edge];
       figure.circle(read.at, 10, { stroke: "ink" });
       figure.say(
-        `${read.name}: ${up} ${value || words(read.y) + unit}${repeats}; ${across}: ${words(read.x)}${acrossUnit}.`,
+        `${read.name}: ${up} ${value || words(read.y) + unit}; ${across}: ${words(read.x)}${acrossUnit}.`,
       );
     }
 
@@ -105,19 +101,13 @@ for (const [name, chart] of Object.entries(measured.charts)) {
       if (chart.frame === "x" && panel === chart.panels[0] && reach[0] < frame && frame < reach[1]) {
         figure.line([at(frame, low), at(frame, high)], "grey", 1);
         figure.text(at(frame, 0).x - 5, 50, "a frame", { color: "grey", anchor: "end", size: 12 });
-      } else if (chart.frame === "y") {
-        figure.line([at(reach[0], frame), at(reach[1], frame)], "grey", 1);
-        figure.text(70, at(0, frame).y - 6, "a frame, 16.7 ms", { color: "grey", size: 12 });
       }
       marks = [];
-      for (const { look, name: curve, points, range, high: given, low: less } of panel.curves) {
+      for (const { look, name: curve, points, high: given, low: less } of panel.curves) {
         if (!shown[look].checked) continue;
         const [color, dash] = LOOKS[look];
         const place = (x, y) => at(Math.log10(x), Math.log10(y));
-        const own = points.map(([x, y], i) => ({ x, y, at: place(x, y), range: range && range[i] }));
-        for (const { x, range: ends } of own) {
-          if (ends) figure.line([place(x, ends[0]), place(x, ends[1])], color, 5);
-        }
+        const own = points.map(([x, y]) => ({ x, y, at: place(x, y) }));
         figure.line(own.map((mark) => mark.at), color, 2, dash);
         const size = look === "as it is" ? 8 : 4.5;
         for (const mark of own) figure.circle(mark.at, size, { fill: color, stroke: "paper", width: 1 });

@@ -25,9 +25,6 @@ that answer where it says so. A figure that misses has MISSED behind it.
 stopped: the engine raised an error. never: what was waited for did not happen."""
 
 
-# ---------------------------------------------------------------- what a case is
-
-
 @dataclass
 class Figure:
     """One number of a case: its key in what the trial returns, and what is asked of it."""
@@ -69,7 +66,7 @@ class Case:
     longer: dict = field(default_factory=dict)  # "full" or "soak": the fields that differ then
 
     def at(self, length):
-        """The case for a quick, full or soak run: each takes over what the shorter one has."""
+        """Return the case for a quick, full or soak run: each keeps what the shorter one has."""
         case = self
         for name in LENGTHS[: LENGTHS.index(length) + 1]:
             case = replace(case, **self.longer.get(name, {}))
@@ -77,12 +74,12 @@ class Case:
 
 
 def each(make, key, values, **fixed):
-    """Makers of a scene, one for each value of one of its settings."""
+    """Return makers of a scene, one for each value of one of its settings."""
     return [partial(make, **{key: value}, **fixed) for value in values]
 
 
 def chosen(cases, length):
-    """The cases of a run of that length."""
+    """Return the cases of a run of that length."""
     return [case.at(length) for case in cases if case.quick or length != "quick"]
 
 
@@ -101,11 +98,8 @@ class Bench:
         return engine
 
 
-# ---------------------------------------------------------------- running it
-
-
 def run_case(case, name):
-    """What an engine does in a case: for each figure a number, or a word when it gives up."""
+    """Run a case in an engine. Return a number for each figure, or a word if it gives up."""
     if name not in case.engines:
         return [NO_ANSWER] * len(case.figures)
     results = [run_scene(case, name, make()) for make in case.scenes]
@@ -113,7 +107,7 @@ def run_case(case, name):
 
 
 def run_scene(case, name, scene):
-    """The figures of one scene by their keys."""
+    """Return the figures of one scene by their keys."""
     bench = Bench(case, name)
     try:
         result = case.trial(bench, scene)
@@ -129,7 +123,7 @@ def run_scene(case, name, scene):
 
 
 def combine(case, figure, cells):
-    """One cell of those of several scenes; a word counts more than any number."""
+    """Combine the cells of several scenes; a word counts more than any number."""
     words = [cell for cell in cells if isinstance(cell, str) or not math.isfinite(cell)]
     if words:
         return words[0] if isinstance(words[0], str) else "NaN"
@@ -141,17 +135,14 @@ def combine(case, figure, cells):
 
 
 def holds(figure, cell):
-    """Whether a cell of the stable engine keeps to the figure's rule. No word ever does."""
+    """Return true if a cell of the stable engine keeps the figure's rule. No word does."""
     if isinstance(cell, str):
         return False
     return RULES[figure.rule](cell, figure.exact, figure.limit)
 
 
-# ---------------------------------------------------------------- writing it down
-
-
 def number(value, digits=2):
-    """A number in few characters; a word stays as it is."""
+    """Return a number in few characters; a word stays as it is."""
     if isinstance(value, str):
         return value
     if value in (0, math.inf):
@@ -163,7 +154,7 @@ def number(value, digits=2):
 
 
 def must_hold(figure):
-    """A figure's rule in a few characters."""
+    """Return a figure's rule in a few characters."""
     if figure.rule == "":
         return NO_ANSWER
     if figure.rule == "<=" and figure.limit == 0:
@@ -172,8 +163,8 @@ def must_hold(figure):
     return f"{rule} {number(figure.limit, 3)}"
 
 
-def table_rows(case, cells):
-    """The rows of a case, one per figure. cells holds the answers by the engines' names."""
+def list_rows(case, cells):
+    """Return the rows of a case, one per figure. cells holds the answers by engine."""
     rows = []
     for i, figure in enumerate(case.figures):
         digits = 6 if figure.exact and math.isfinite(figure.exact) else 2
@@ -185,35 +176,27 @@ def table_rows(case, cells):
     return rows
 
 
-def lines_of(case, cells):
-    """What each engine came to, by names for results.json, and what must hold. cells as above."""
-    lines = bounds_of(case)
+def list_lines(case, cells):
+    """Return what each engine came to, and what must hold, by names for results.json."""
+    lines = {}
     for i, figure in enumerate(case.figures):
-        for name, answers in cells.items():
+        name = f"{case.title}: {figure.words}"
+        if figure.rule:
+            lines[f"{name}: must hold"] = figure.limit
+        for engine, answers in cells.items():
             known = not isinstance(answers[i], str) and math.isfinite(answers[i])
-            lines[f"{case.title}: {figure.words}: {name}"] = (
-                answers[i] if known else number(answers[i], 6)
-            )
+            lines[f"{name}: {engine}"] = answers[i] if known else number(answers[i], 6)
     return lines
 
 
-def bounds_of(case):
-    """What must hold of those figures that have a rule, by names for results.json."""
-    ruled = [figure for figure in case.figures if figure.rule]
-    return {f"{case.title}: {figure.words}: must hold": figure.limit for figure in ruled}
-
-
-# ---------------------------------------------------------------- the program
-
-
 def run_all(cases):
-    """All cases on all engines: the table's rows, how often the stable engine misses, all lines."""
+    """Run all cases on all engines. Return the table's rows, the number of misses, all lines."""
     rows, missed, lines, progress = [], 0, {}, Progress(len(cases))
     for case in cases:
         progress.step(1, case.title)
         cells = {name: run_case(case, name) for name in ENGINES}
-        rows += table_rows(case, cells)
-        lines |= lines_of(case, cells)
+        rows += list_rows(case, cells)
+        lines |= list_lines(case, cells)
         answers = zip(case.figures, cells["stable"], strict=True)
         missed += sum(not holds(figure, cell) for figure, cell in answers)
     progress.end()

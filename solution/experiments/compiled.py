@@ -1,9 +1,8 @@
 """The stable engine's own source, compiled to machine code: the same bits, several times faster.
 
 It needs mypy (python -m pip install mypy setuptools) and a C compiler. The folder stable_engine
-stays as it is; the compiled copy is the package stable_compiled in build/compiled. The window, the
-hard cases and the published tests use it where it is. accuracy.py and effects time it beside the
-plain source, in which they count opcodes. All of them say so.
+stays as it is; the compiled copy is the package stable_compiled in build/compiled. The window and
+the hard cases use it where it is, and accuracy.py times it beside the plain source. They say so.
 
     python -m experiments.compiled
 
@@ -16,19 +15,18 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import time
 from pathlib import Path
 
 from .engines import ENGINES, Stable
 from .measures import bits, run
-from .scenes import NAMED, pile
+from .scenes import NAMED
 
 TREE = Path(__file__).parents[1]
+WHEEL = Path(__file__).with_name("wheel")  # what a wheel is made from, and a trial of it
 OUT = Path("build/compiled")
 INSTALLED = Path(sysconfig.get_path("platlib"))
 FOLDERS = (TREE / OUT, TREE.parent / OUT, INSTALLED)  # where it is; the second is the kit's own
 NAME = "stable_compiled"
-ROUNDS = 12  # of timing, taken in turns
 LEFT_PLAIN = ("reading.py", "validate.py")  # their classes come from others that are not compiled
 EFFECT = "\nclass Effect:"
 KEPT_OPEN = """
@@ -42,36 +40,10 @@ from setuptools import setup
 
 setup(ext_modules=mypycify({modules!r}))
 """
-FALLS = """\
-from stable_compiled import Body, Box, Circle, Contacts, Friction, World, world
-
-made = World(effects=[Contacts(), Friction()])
-made.add(Body(Box((100, 10)), (0, 10)))
-ball = made.add(Body(Circle(10), (0, -50), 1.0))
-for _ in range(240):
-    made.step(1 / 120)
-assert not world.__file__.endswith(".py"), world.__file__
-assert abs(ball.y + 10) < 0.001, ball
-"""  # what a wheel must be able to do
-PROJECT = """\
-[build-system]
-requires = ["setuptools>=77", "mypy>=2.0", "pygame-ce>=2.5.2"]
-build-backend = "setuptools.build_meta"
-
-[project]
-name = "{name}"
-version = "1"
-description = "The stable engine of the physics assignment, compiled."
-requires-python = ">=3.11"
-dependencies = ["mypy-extensions>=1.0", "pygame-ce>=2.5.2"]
-
-[tool.setuptools]
-packages = ["stable_compiled"]
-"""
 
 
 def sources():
-    """The files of the engine by name, as they are compiled.
+    """Return the files of the engine by name, as they are compiled.
 
     In the compiled copy alone, Effect says that classes of plain Python may inherit from it.
     """
@@ -94,11 +66,11 @@ def write_sources(folder):
 def write_project(folder):
     """Write a project into folder from which pip or cibuildwheel makes a wheel of the package."""
     modules = write_sources(folder)
+    (folder / "setup.py").write_text(SETUP.format(modules=modules), "utf-8")
+    shutil.copyfile(WHEEL / "pyproject.toml", folder / "pyproject.toml")
     trial = folder / "trial"  # not beside the sources, which Python would import for the wheel
     trial.mkdir(exist_ok=True)
-    (trial / "falls.py").write_text(FALLS, "utf-8")
-    (folder / "setup.py").write_text(SETUP.format(modules=modules), "utf-8")
-    (folder / "pyproject.toml").write_text(PROJECT.format(name=NAME.replace("_", "-")), "utf-8")
+    shutil.copyfile(WHEEL / "falls.py", trial / "falls.py")
 
 
 def build(folder):
@@ -113,7 +85,7 @@ def build(folder):
 
 
 def load(folder):
-    """The compiled engine in folder, or None where there is none for this source and Python."""
+    """Import the compiled engine in folder. Return None without one for this source and Python."""
     package = folder / NAME
     try:
         fresh = all((package / name).read_text("utf-8") == t for name, t in sources().items())
@@ -159,7 +131,7 @@ def time_compiled(folders=FOLDERS):
 
 
 def find(folders):
-    """The first folder with a compiled engine, which Compiled then has; None without."""
+    """Find the first folder with a compiled engine, and have Compiled use it. None without."""
     for folder in folders:
         Compiled.package = load(folder)
         if Compiled.package:
@@ -168,7 +140,7 @@ def find(folders):
 
 
 def same_bits(seconds=2.0):
-    """The named scenes in which the two builds differ in any bit of any body after so long."""
+    """Return the named scenes in which the two builds differ in any bit after so long."""
     differ = []
     for name, make in NAMED.items():
         plain, compiled = Stable(make()), Compiled(make())
@@ -177,19 +149,6 @@ def same_bits(seconds=2.0):
         if bits(plain) != bits(compiled):
             differ.append(name)
     return differ
-
-
-def times_faster(rounds=ROUNDS):
-    """How many times faster the compiled build steps a pile of 60 balls at rest."""
-    engines, least = (Stable(pile(60, 300)), Compiled(pile(60, 300))), [float("inf")] * 2
-    for engine in engines:
-        run(engine, 2)
-    for _ in range(rounds):
-        for i, engine in enumerate(engines):
-            start = time.process_time()
-            run(engine, 0.2)
-            least[i] = min(least[i], time.process_time() - start)
-    return least[0] / least[1]
 
 
 def main(arguments=None):
@@ -214,7 +173,6 @@ def main(arguments=None):
     print(
         f"the same bits in {len(NAMED)} scenes: {'NO: ' + ', '.join(differ) if differ else 'yes'}"
     )
-    print(f"a pile of 60 balls: {times_faster():.1f} times faster")
     print(f"to use it, put {folder} on PYTHONPATH and import {NAME} for stable_engine")
     sys.exit(1 if differ else 0)
 

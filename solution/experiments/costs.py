@@ -13,7 +13,7 @@ PROCESSOR = time.get_clock_info("process_time").resolution <= FINE
 
 
 def now():
-    """Seconds of this process's own time where that clock is fine enough: others do not count.
+    """Return seconds of this process's own time where that clock is fine enough.
 
     Else the time of day. On an idle machine they run alike.
     """
@@ -21,7 +21,7 @@ def now():
 
 
 def wall_times(runs, rounds, slice_seconds=SLICE):
-    """Seconds per simulated second, one for each (engine, dt) of runs.
+    """Measure seconds per simulated second, one for each (engine, dt) of runs.
 
     Rounds are interleaved: each gives every engine a slice, so that a busy moment of the machine
     hits all alike. Of each engine the fastest slice counts. None where an engine raises.
@@ -40,38 +40,28 @@ def wall_times(runs, rounds, slice_seconds=SLICE):
 
 
 def repeated_times(runs, repeats, rounds):
-    """wall_times again and again: for each of runs its time in every repeat, or None as there."""
+    """Measure wall_times repeatedly. Return each run's time in every repeat, or None."""
     found = zip(*[wall_times(runs, rounds) for _ in range(repeats)], strict=True)
     return [None if None in taken else list(taken) for taken in found]
 
 
 def spread(values):
-    """The least, the middle and the most of some numbers, such as the repeats of a time."""
+    """Return the least, the middle and the most of some numbers, such as the repeats of a time."""
     return [min(values), median(values), max(values)]
 
 
 def shares(taken, unit):
-    """A time in shares of another one, repeat by repeat: least, middle and most. None if unknown.
+    """Return a time in shares of another one: least, middle and most of the repeats, or None.
 
     What slows down the machine for a while slows down both, and so leaves their share alone.
     """
-    return spread(in_shares(taken, unit)) if taken and unit else None
-
-
-def in_shares(taken, unit):
-    """A time in shares of another one, for every repeat."""
-    return [one / other for one, other in zip(taken, unit, strict=True)]
-
-
-def middle_half(values):
-    """The least, the middle and the most of that half of many numbers that lies in the middle."""
-    inner = sorted(values)
-    quarter = len(inner) // 4
-    return spread(inner[quarter : len(inner) - quarter])
+    if not taken or not unit:
+        return None
+    return spread([one / other for one, other in zip(taken, unit, strict=True)])
 
 
 def time_slice(engine, dt, slice_seconds=SLICE):
-    """Seconds per simulated second over one slice, or None if the engine raises."""
+    """Return seconds per simulated second over one slice, or None if the engine raises."""
     steps = max(1, round(slice_seconds / dt))
     start = now()
     try:
@@ -83,7 +73,7 @@ def time_slice(engine, dt, slice_seconds=SLICE):
 
 
 def opcodes_per_second(engine, dt, steps=COUNTED):
-    """Opcodes per simulated second, or None if the engine raises. pymunk runs hardly any."""
+    """Count opcodes per simulated second. None if the engine raises. pymunk runs few."""
 
     def call():
         for _ in range(steps):

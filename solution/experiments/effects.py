@@ -1,13 +1,11 @@
 """What each effect costs: `python -m experiments.effects [--quick] [--markdown FILE]`.
 
 Takes a pile of balls at rest, declares one effect after the other, and counts what one step takes:
-opcodes, milliseconds, and what the engine did (pairs, contacts, solves ...). The price of an effect
-is the difference between two such runs. Prints the tables, and writes them with their figures to
-build/effects. How tables and figures look is in effects_report.py.
+opcodes, and what the engine did (pairs, contacts, solves ...). The price of an effect is the
+difference between two such runs. Prints the tables, and writes them with a figure to build/effects.
 """
 
 import argparse
-import gc
 import json
 import math
 import platform
@@ -20,10 +18,9 @@ from mini_engine import joints, solver, world
 from mini_engine.bonus.world import with_bonus
 from stable_engine import contact, contacts, friction, rods, springs, sweep
 
-from . import effects_report, statements
-from .compiled import Compiled, time_compiled
-from .costs import now as clock_now
+from . import effects_report
 from .engines import Lesson, Stable, State
+from .figures import draw_figures
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
 from .scenes import BOUNCE, DT, EFFECTS, TOUCH, Ball, Scene, Spring, all_but, pile, slot
@@ -34,8 +31,6 @@ HEAPS = (40, 200, 400)  # balls, for the two bonus tasks that save work
 LULL = 1.25  # s, after which a pile at rest is asleep
 USERS = 10  # rods, springs, bullets
 WARM_UP = 20  # steps before anything is counted
-TIMED = 10  # steps in one round of the clock
-ROUNDS, QUICK_ROUNDS = 60, 3  # for 40 balls; fewer for more
 DAMPING = (0.05, 0.3)  # 1/s
 OUT = Path("build/effects")
 
@@ -77,7 +72,7 @@ STACKED = [row.title for row in ROWS if row.title not in APART]  # these add up 
 
 
 def settled(count):
-    """A pile at rest. What is tied or flagged in it counts only where that effect is declared."""
+    """Return a pile at rest. Ties and flags count only where their effect is declared."""
     width = 26.0 * max(4, round(math.sqrt(2.5 * count)))
     engine = Stable(replace(pile(count, width), effects=(*TOUCH, "Damping"), damping=(1.0, 1.0)))
     run(engine, 4)
@@ -93,7 +88,7 @@ def settled(count):
 
 
 def neighbours(bodies):
-    """The closest pairs of balls that do not touch: tied, they lie as they lay before."""
+    """Return the closest pairs of balls that do not touch: tied, they lie as they lay before."""
     balls = [
         (i, body, State(*body.pos, 0, 0, 0, 0))
         for i, body in enumerate(bodies)
@@ -106,7 +101,7 @@ def neighbours(bodies):
 
 
 def with_fliers(scene):
-    """That pile, and bullets far above it that move more than their radius in a step."""
+    """Add bullets far above the pile that move more than their radius in a step."""
     pile_of_them = [replace(body) for body in scene.bodies]
     for i in scene.moving():
         pile_of_them[i].bullet = False
@@ -116,12 +111,12 @@ def with_fliers(scene):
 
 
 def row_of_balls(count):
-    """Balls far apart, and nothing else."""
+    """Return balls far apart, and nothing else."""
     return Scene([Ball((100.0 * i, 0.0)) for i in range(count)], ())
 
 
 def packed(count):
-    """Five rows of balls in a bin and the rest on top, each ball on two of the row below.
+    """Return five rows of balls in a bin, each ball on two of the row below, and the rest on top.
 
     They overlap as little as in a pile at rest: by less than the solver leaves alone.
     """
@@ -176,47 +171,43 @@ def put_back(body, data):
 # ---------------------------------------------------------------- counting
 
 
-def one(_):
-    return 1
-
-
 def rows_of(effect):
-    """How many contacts one pass of contacts or friction goes over."""
+    """Count the contacts that one pass of contacts or friction solves."""
     return sum(len(group.contacts) for group in effect.groups)
 
 
 def has_work(world):
-    """Whether there is anything to solve in a lesson's world."""
+    """Return true if there is anything to solve in a lesson's world."""
     return bool(world.contacts or world.joints)
 
 
 def awake(effect):
-    """How many joints one pass goes over."""
+    """Count the joints that one pass solves."""
     return len(effect.awake)
 
 
 STABLE_WORK = [
-    ("pairs", contact.collide, one),
+    ("pairs", contact.collide, 1),
     ("contact solves", contacts.Contacts.solve, rows_of),
     ("contact solves", contacts.Contacts.relax, rows_of),
     ("friction solves", friction.Friction.relax, rows_of),
     ("rod solves", rods.Rods.solve, awake),
     ("rod solves", rods.Rods.relax, awake),
     ("spring forces", springs.Springs.force, awake),
-    ("sweeps", sweep.first_hit, one),
+    ("sweeps", sweep.first_hit, 1),
 ]
 LESSON_WORK = [
-    ("pairs", lesson_contacts.collide, one),
+    ("pairs", lesson_contacts.collide, 1),
     ("solver runs", world.World.solve, has_work),
-    ("contact solves", solver.solve_normal, one),
-    ("friction solves", solver.solve_friction, one),
-    ("rod solves", joints.DistanceJoint.solve, one),
-    ("damping runs", world.World.apply_damping, one),
+    ("contact solves", solver.solve_normal, 1),
+    ("friction solves", solver.solve_friction, 1),
+    ("rod solves", joints.DistanceJoint.solve, 1),
+    ("damping runs", world.World.apply_damping, 1),
 ]
 
 
 def count(repeated, work):
-    """What one step takes: opcodes, in which files, and what was done."""
+    """Count the opcodes of one step, by file, and the work that it did."""
     engine = repeated.engine
     repeated.reset()
     by_file = count_opcodes(lambda: engine.world.step(DT))
@@ -226,32 +217,11 @@ def count(repeated, work):
     return {"opcodes": sum(by_file.values()), "by_file": dict(by_file), "done": done}
 
 
-def clock(cases, rounds):
-    """Milliseconds per step of each case, the least of every round.
-
-    They take turns within a round, so that noise falls on all.
-    """
-    taken = {name: [] for name in cases}
-    gc.disable()
-    for _ in range(rounds):
-        for name, repeated in cases.items():
-            taken[name].append(min(clock_step(repeated) for _ in range(TIMED)))
-    gc.enable()
-    return taken
+# ---------------------------------------------------------------- the lists
 
 
-def clock_step(repeated):
-    repeated.reset()
-    start = clock_now()
-    repeated.engine.world.step(DT)
-    return (clock_now() - start) * 1000
-
-
-# ---------------------------------------------------------------- the four lists
-
-
-def price_list(balls, rounds):
-    """Rows of the price list for a pile of so many balls."""
+def list_prices(balls):
+    """Return the rows of the price list for a pile of so many balls."""
     heap = settled(balls)
     scenes = {"pile": heap, "still": heap, "asleep": heap, "flying": with_fliers(heap)}
     cases = {}
@@ -261,30 +231,17 @@ def price_list(balls, rounds):
                 scene = replace(scenes[row.scene], effects=effects)
                 cases[row.scene, effects] = RepeatedStep(Stable(scene), row.scene)
     counted = {key: count(repeated, STABLE_WORK) for key, repeated in cases.items()}
-    turns = max(1, rounds * 40 // max(balls, 40))
-    times = clock(cases, turns)
-    compiled = clock_compiled(cases, turns) if Compiled.package else dict.fromkeys(cases)
     listed = []
     for row in ROWS:
         key, base = (row.scene, row.effects), (row.scene, row.base)
         less = counted[base]["opcodes"] if row.base is not None else 0
         now = {"title": row.title, "effects": row.effects, "base": row.base, **counted[key]}
-        listed.append(now | {"price": now["opcodes"] - less, "ms": times[key]})
-        listed[-1]["compiled ms"] = compiled[key]
+        listed.append(now | {"price": now["opcodes"] - less})
     return listed
 
 
-def clock_compiled(cases, rounds):
-    """The same in the compiled engine, beside nothing else: its balls lie as those before did."""
-    again = {
-        key: RepeatedStep(Compiled(repeated.engine.scene), repeated.kind)
-        for key, repeated in cases.items()
-    }
-    return clock(again, rounds)
-
-
-def undeclared_list(balls):
-    """For each effect, the opcodes in its own files with all declared, and with all others."""
+def list_undeclared(balls):
+    """Return, for each effect, the opcodes in its own files with all declared, and with others."""
     heap = settled(balls)
     listed = []
     for effect in EFFECTS:
@@ -298,8 +255,8 @@ def undeclared_list(balls):
     return listed
 
 
-def lesson_list(balls, rounds):
-    """The lesson's engine on the same pile: what it leaves out where a scene has no use for it."""
+def list_lesson(balls):
+    """Return what the lesson's engine does on the same pile, and leaves out where it can."""
     heap = settled(balls)
     scenes = {
         "balls far apart": row_of_balls(balls),
@@ -309,58 +266,53 @@ def lesson_list(balls, rounds):
         "with friction and damping": replace(heap, effects=(*TOUCH, "Damping")),
     }
     cases = {title: RepeatedStep(Lesson(scene)) for title, scene in scenes.items()}
-    counted = {title: count(repeated, LESSON_WORK) for title, repeated in cases.items()}
-    times = clock(cases, rounds)
-    return [{"title": title, **counted[title], "ms": times[title]} for title in cases]
+    return [{"title": title, **count(case, LESSON_WORK)} for title, case in cases.items()]
 
 
-def bonus_list(balls, rounds):
-    """The lesson's engine on a pile at rest, before and after bonus tasks B3 and B1."""
+def list_bonus(balls):
+    """Return what the lesson's engine does on a pile at rest, before and after B3 and B1."""
     scene = packed(balls)
     cases = {
         "before": RepeatedStep(Lesson(scene)),
-        "B3: a grid": RepeatedStep(bonus_engine(scene, grid=True)),
-        "B1: sleep, all awake": RepeatedStep(bonus_engine(scene, sleeping=True)),
+        "B3: a grid": RepeatedStep(make_bonus_engine(scene, grid=True)),
+        "B1: sleep, all awake": RepeatedStep(make_bonus_engine(scene, sleeping=True)),
         # Between sleepers no pair is looked at: here the grid only shortens the wait.
-        "B1: asleep": RepeatedStep(bonus_engine(scene, sleeping=True, grid=True), "asleep"),
+        "B1: asleep": RepeatedStep(make_bonus_engine(scene, sleeping=True, grid=True), "asleep"),
     }
-    counted = {title: count(repeated, LESSON_WORK) for title, repeated in cases.items()}
-    times = clock(cases, max(1, rounds // 20, rounds * 40**2 // balls**2))
     return [
-        {"title": title, "asleep": sleepers(repeated.engine), **counted[title], "ms": times[title]}
-        for title, repeated in cases.items()
+        {"title": title, "asleep": count_sleepers(case.engine), **count(case, LESSON_WORK)}
+        for title, case in cases.items()
     ]
 
 
-def bonus_engine(scene, sleeping=False, grid=False):
-    """A lesson's engine in whose world these bonus tasks are switched on."""
+def make_bonus_engine(scene, sleeping=False, grid=False):
+    """Return a lesson's engine with these bonus tasks switched on."""
     engine = Lesson(scene)
     engine.world = with_bonus(engine.world)
     engine.world.sleeping, engine.world.grid = sleeping, grid
     return engine
 
 
-def sleepers(engine):
-    """How many bodies of a lesson's engine are asleep."""
+def count_sleepers(engine):
     return sum(getattr(body, "asleep", False) for body in engine.bodies)
 
 
-def measure(sizes=SIZES, rounds=ROUNDS, heaps=HEAPS):
-    """All lists, as plain data."""
+def measure(sizes=SIZES, heaps=HEAPS):
+    """Return all lists, as plain data."""
     middle = sizes[len(sizes) // 2]
     progress = Progress(sum(sizes) + 2 * middle + sum(heaps))
     prices = {}
     for balls in sizes:
         progress.step(balls, f"{balls} balls")
-        prices[str(balls)] = price_list(balls, rounds)
+        prices[str(balls)] = list_prices(balls)
     progress.step(middle, "effects that are not declared")
-    undeclared = undeclared_list(middle)
+    undeclared = list_undeclared(middle)
     progress.step(middle, "the lesson's engine")
-    lesson = lesson_list(middle, rounds)
+    lesson = list_lesson(middle)
     bonus = {}
     for balls in heaps:
         progress.step(balls, f"bonus tasks, {balls} balls")
-        bonus[str(balls)] = bonus_list(balls, rounds)
+        bonus[str(balls)] = list_bonus(balls)
     progress.end()
     return {
         "python": platform.python_version(),
@@ -376,7 +328,7 @@ def measure(sizes=SIZES, rounds=ROUNDS, heaps=HEAPS):
 def main(arguments=None):
     """Run from the command line."""
     parser = argparse.ArgumentParser(prog="python -m experiments.effects", description="Prices.")
-    parser.add_argument("--quick", action="store_true", help="fewer rounds, a small bonus pile")
+    parser.add_argument("--quick", action="store_true", help="a small bonus pile only")
     parser.add_argument("--balls", type=int, nargs="+", help="sizes of the piles")
     parser.add_argument("--out", type=Path, default=OUT, help="folder for results and figures")
     parser.add_argument("--markdown", type=Path, help="file whose block of tables is renewed")
@@ -385,16 +337,15 @@ def main(arguments=None):
     heaps = options.balls or (HEAPS[:1] if options.quick else HEAPS)
     if min(sizes) < USERS:
         parser.error(f"--balls is {min(sizes)}, but it must be {USERS} or more.")
-    results = measure(sizes, QUICK_ROUNDS if options.quick else ROUNDS, heaps)
+    results = measure(sizes, heaps)
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "results.json").write_text(json.dumps(results, indent=1) + "\n", "utf-8")
-    tables = effects_report.tables(results)
+    tables = effects_report.make_tables(results)
     print("\n".join(table.text() for table in tables))
-    print(effects_report.figures(results, options.out))
+    print(draw_figures([("effects-stacked", effects_report.make_bars(results))], options.out))
     if options.markdown:
-        write_markdown(options.markdown, tables, statements.of_effects(results))
+        write_markdown(options.markdown, tables, effects_report.make_lines(results))
 
 
 if __name__ == "__main__":
-    print(time_compiled())
     main()

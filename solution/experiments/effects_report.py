@@ -1,38 +1,22 @@
-"""How the price list of effects looks: tables, and figures where matplotlib is there."""
+"""The price list of effects as tables, as bars, and as lines that the handouts rest on."""
 
-from .costs import in_shares, middle_half
-from .table import Table, span
+from .table import Table
 
-COLOURS = {  # safe for colour-blind eyes
-    "move only": "#bbbbbb",
-    "contacts": "#0072b2",
-    "friction": "#56b4e9",
-    "bounce": "#009e73",
-    "10 rods": "#d55e00",
-    "10 springs": "#e69f00",
-    "damping": "#f0e442",
-    "10 bullets, slow": "#cc79a7",
-    "sleep, all awake": "#444444",
-}
-NO_MATPLOTLIB = "No figures: they need matplotlib. To get it: python -m pip install matplotlib"
+UNDECLARED = ("declared", "undeclared")
 
 
-# ---------------------------------------------------------------- tables
-
-
-def tables(results):
-    """All tables."""
+def make_tables(results):
     middle = results["middle"]
     return [
-        price_table(results["prices"]),
-        step_table(results["prices"][middle], f"One whole step with {middle} balls"),
-        undeclared_table(results["undeclared"], middle),
-        step_table(results["lesson"], f"The lesson's engine: one step with {middle} balls"),
-        bonus_table(results["bonus"]),
+        tabulate_prices(results["prices"]),
+        tabulate_steps(results["prices"][middle], f"One whole step with {middle} balls"),
+        tabulate_undeclared(results["undeclared"], middle),
+        tabulate_steps(results["lesson"], f"The lesson's engine: one step with {middle} balls"),
+        tabulate_bonus(results["bonus"]),
     ]
 
 
-def price_table(prices):
+def tabulate_prices(prices):
     heads = ["effect", "on top of", *(f"{balls} balls" for balls in prices)]
     rows = []
     for lines in zip(*prices.values(), strict=True):
@@ -42,112 +26,68 @@ def price_table(prices):
     return Table("Price in opcodes per step", heads, rows)
 
 
-def step_table(lines, title):
-    """What a step takes. The first row's time is the unit of the others."""
-    compiled = ["compiled ms"] if lines[0].get("compiled ms") else []
-    heads = ["scene", "opcodes", "ms", "times the first", *compiled, *lines[0]["done"]]
-    rows = []
-    for line in lines:
-        ratio = middle_half(in_shares(line["ms"], lines[0]["ms"]))
-        cost = [f"{line['opcodes']:,}", span(middle_half(line["ms"])), span(ratio)]
-        cost += [span(middle_half(line[name])) for name in compiled]
-        rows.append([line["title"], *cost, *(f"{number:,}" for number in line["done"].values())])
+def tabulate_steps(lines, title):
+    heads = ["scene", "opcodes", *lines[0]["done"]]
+    rows = [
+        [line["title"], f"{line['opcodes']:,}", *(f"{count:,}" for count in line["done"].values())]
+        for line in lines
+    ]
     return Table(title, heads, rows)
 
 
-def undeclared_table(lines, middle):
+def tabulate_undeclared(lines, middle):
     heads = ["effect", "its own files", "declared", "not declared"]
     rows = [
-        [
-            line["effect"],
-            ", ".join(line["files"]),
-            f"{line['declared']:,}",
-            f"{line['undeclared']:,}",
-        ]
+        [line["effect"], ", ".join(line["files"]), *(f"{line[key]:,}" for key in UNDECLARED)]
         for line in lines
     ]
     return Table(f"Opcodes per step in an effect's own files, {middle} balls", heads, rows)
 
 
-def bonus_table(sizes):
-    """Before and after the bonus tasks; each pile's time before is the unit of its others."""
-    heads = ["balls", "scene", "opcodes", "ms", "share of before", "asleep", "calls to collide"]
+def tabulate_bonus(sizes):
+    heads = ["balls", "scene", "opcodes", "asleep", "calls to collide", "contacts"]
     rows = []
     for balls, lines in sizes.items():
         for line in lines:
-            ratio = middle_half(in_shares(line["ms"], lines[0]["ms"]))
-            cost = [f"{line['opcodes']:,}", span(middle_half(line["ms"])), span(ratio)]
             done = line["done"]
-            counts = [line["asleep"], done["pairs"], done["contacts"], done["contact solves"]]
-            rows.append([balls, line["title"], *cost, *(f"{number:,}" for number in counts)])
+            counts = [line["opcodes"], line["asleep"], done["pairs"], done["contacts"]]
+            counts.append(done["contact solves"])
+            rows.append([balls, line["title"], *(f"{count:,}" for count in counts)])
     title = "The lesson's engine before and after bonus tasks B1 and B3"
-    return Table(title, [*heads, "contacts", "contact solves"], rows)
+    return Table(title, [*heads, "contact solves"], rows)
 
 
-# ---------------------------------------------------------------- figures
+def make_bars(results):
+    """Return a bar per size of the pile: opcodes per ball, one piece per effect."""
+    bars = {
+        f"{balls} balls": {
+            line["title"]: line["price"] / int(balls)
+            for line in lines
+            if line["title"] in results["stacked"]
+        }
+        for balls, lines in results["prices"].items()
+    }
+    says = "Contacts and friction are most of the price"
+    return {"says": says, "x": "opcodes per step and ball", "bars": bars}
 
 
-def figures(results, folder):
-    """Draw both figures, as SVG and PNG. Returns a sentence about where they are."""
-    try:
-        import matplotlib
-    except ImportError:
-        return NO_MATPLOTLIB
-    matplotlib.use("Agg")
-    matplotlib.rcParams["svg.hashsalt"] = "effects"  # the same file from the same numbers
-    matplotlib.rcParams["svg.fonttype"] = "none"
-    save(stacked_bars(results), folder, "effects-stacked")
-    save(growth(results), folder, "effects-growth")
-    return f"Figures: {folder}/effects-stacked.png and effects-growth.png, and the same as .svg"
+def make_lines(results):
+    """Return the price list by names: a line has one number."""
+    lines = {}
+    for balls, rows in results["prices"].items():
+        for row in rows:
+            lines[f"{balls} balls, {row['title']}: price in opcodes"] = row["price"]
+            lines |= list_step(f"{balls} balls, {row['title']}", row)
+    for row in results["undeclared"]:
+        lines[f"{row['effect']}, not declared: opcodes in its own files"] = row["undeclared"]
+    for row in results["lesson"]:
+        lines |= list_step(f"lesson, {row['title']}", row)
+    for balls, rows in results["bonus"].items():
+        for row in rows:
+            lines |= list_step(f"{balls} balls, {row['title']}", row)
+    return lines
 
 
-def save(figure, folder, name):
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
-    figure.savefig(folder / f"{name}.png", dpi=110)
-
-
-def stacked_bars(results):
-    """A bar per size of the pile: opcodes per ball, one piece per effect."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(8, 3.8), layout="constrained")
-    axes = figure.subplots()
-    sizes = list(results["prices"])
-    bottoms = [0.0] * len(sizes)
-    for title in results["stacked"]:
-        heights = [price(results, size, title) / int(size) for size in sizes]
-        labels = [f"{size} balls" for size in sizes]
-        axes.barh(labels, heights, left=bottoms, color=COLOURS[title], label=title, height=0.62)
-        bottoms = [low + height for low, height in zip(bottoms, heights, strict=True)]
-    axes.invert_yaxis()
-    axes.set_xlabel("opcodes per step and ball")
-    axes.set_title("Contacts and friction are most of the price", loc="left")
-    axes.spines[["top", "right"]].set_visible(False)
-    figure.legend(loc="outside lower center", ncols=5, frameon=False)
-    return figure
-
-
-def growth(results):
-    """A line per effect: its price against the number of balls."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(8, 4.6), layout="constrained")
-    axes = figure.subplots()
-    sizes = [int(size) for size in results["prices"]]
-    for title in results["stacked"]:
-        prices = [price(results, str(size), title) for size in sizes]
-        axes.loglog(sizes, prices, "o-", color=COLOURS[title], label=title)
-    axes.set_xticks(sizes, [str(size) for size in sizes])
-    axes.minorticks_off()
-    axes.set_xlabel("balls in the pile")
-    axes.set_ylabel("price, opcodes per step")
-    axes.set_title("Ten rods cost ten rods, however many balls lie around", loc="left")
-    axes.grid(color="#e5e5e5")
-    axes.spines[["top", "right"]].set_visible(False)
-    figure.legend(loc="outside right center", frameon=False)
-    return figure
-
-
-def price(results, size, title):
-    """The price (opcodes per step) of one row."""
-    return next(line["price"] for line in results["prices"][size] if line["title"] == title)
+def list_step(name, row):
+    counts = {f"{name}: {what}": count for what, count in row["done"].items()}
+    return {f"{name}: opcodes of a step": row["opcodes"], **counts}

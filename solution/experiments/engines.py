@@ -21,7 +21,6 @@ import mini_engine
 import stable_engine
 from mini_engine import ITERATIONS
 
-from .edits import AimedRod, EditedWorld
 from .scenes import Ball
 
 SUBSTEPS = 4  # of the stable engine
@@ -35,41 +34,62 @@ State = namedtuple("State", "x y vx vy angle omega")
 Touch = namedtuple("Touch", "x y nx ny impulse")
 
 
-class Built:
-    """What all builders share."""
+class Builder:
+    """The base of all builders. Each one has add(data), rod(a, b) and spring(s)."""
+
+    def fill(self):
+        """Add the scene's bodies, and the rods and springs that it declares."""
+        scene = self.scene
+        self.bodies = [self.add(data) for data in scene.bodies]
+        for a, b in scene.rods if "Rods" in scene.effects else ():
+            self.rod(a, b)
+        for spring in scene.springs if "Springs" in scene.effects else ():
+            self.spring(spring)
 
     def drop(self, ball):
         """Add a ball while the scene runs."""
         self.scene.bodies.append(ball)
         self.bodies.append(self.add(ball))
 
+    def lag(self, dt):
+        """Return how long (s) velocities lag behind positions: half a step of Euler's."""
+        return dt / self.substeps / 2
 
-class Undeclaring(Built):
-    """A builder for an engine in which nothing is declared: it knows no effects by name."""
+    def contacts(self):
+        """Count the contacts."""
+        return len(self.touches())
+
+    def asleep(self):
+        """Count the bodies that sleep."""
+        return 0
 
     @property
     def complaints(self):
-        """What the stable engine says of the same scene, in which it takes no step."""
+        """Return the stable engine's complaints about the scene: other engines declare nothing."""
         return Stable(self.scene).complaints
 
 
-class Lesson(Undeclaring):
+class Lesson(Builder):
     """The lesson's engine: the one in this folder, yours. It has no springs."""
 
     name = "lesson"
 
-    def __init__(self, scene, passes=ITERATIONS, substeps=1, edits=()):
+    def __init__(self, scene, passes=ITERATIONS, substeps=1):
         self.scene, self.substeps = scene, substeps
         rates = scene.damping if "Damping" in scene.effects else (0.0, 0.0)
-        self.world = EditedWorld(edits, scene.gravity, *rates)
+        self.world = mini_engine.World(scene.gravity, *rates)
         self.world.iterations = passes
-        self.bodies = [self.add(data) for data in scene.bodies]
-        rod = AimedRod if "rods" in edits else mini_engine.DistanceJoint
-        if "Rods" in scene.effects:
-            self.world.joints += [rod(self.bodies[a], self.bodies[b]) for a, b in scene.rods]
+        self.fill()
 
     def add(self, data):
         return self.world.add(self.body(data))
+
+    def rod(self, a, b):
+        rod = mini_engine.DistanceJoint(self.bodies[a], self.bodies[b])
+        self.world.joints.append(rod)
+
+    def spring(self, s):
+        """Leave out a spring: this engine has none."""
 
     def body(self, data):
         effects = self.scene.effects
@@ -97,18 +117,8 @@ class Lesson(Undeclaring):
     def touches(self):
         return [Touch(*c.point, *c.normal, c.jn) for c in self.world.contacts]
 
-    def lag(self, dt):
-        """How long (s) velocities lag behind places: half a step of semi-implicit Euler."""
-        return dt / self.substeps / 2
 
-    def contacts(self):
-        return len(self.world.contacts)
-
-    def asleep(self):
-        return 0
-
-
-class Stable(Built):
+class Stable(Builder):
     """The stable engine, with the effects the scene calls for."""
 
     name = "stable"
@@ -118,15 +128,12 @@ class Stable(Built):
         self.scene, self.substeps = scene, substeps
         effects = [self.effect(name) for name in scene.effects]
         self.world = self.package.World(scene.gravity, substeps, effects)
-        self.bodies = [self.add(data) for data in scene.bodies]
-        if "Rods" in scene.effects:
-            for a, b in scene.rods:
-                self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
-        if "Springs" in scene.effects:
-            for s in scene.springs:
-                a, b = self.bodies[s.a], self.bodies[s.b]
-                self.world.add(self.package.Spring(a, b, s.stiffness, s.damping, s.length))
-        self.complaints = self.world.check()  # asked here, so that no step warns
+        self.fill()
+        self.said = self.world.check()  # called here, so that no step warns
+
+    @property
+    def complaints(self):
+        return self.said
 
     def effect(self, name):
         make = getattr(self.package, name)
@@ -134,6 +141,13 @@ class Stable(Built):
 
     def add(self, data):
         return self.world.add(self.body(data))
+
+    def rod(self, a, b):
+        self.world.add(self.package.Rod(self.bodies[a], self.bodies[b]))
+
+    def spring(self, s):
+        ends = self.bodies[s.a], self.bodies[s.b]
+        self.world.add(self.package.Spring(*ends, s.stiffness, s.damping, s.length))
 
     def body(self, data):
         surface = {"restitution": data.restitution, "friction": data.friction}
@@ -156,8 +170,9 @@ class Stable(Built):
         self.bodies[i].vel = velocity
 
     def touches(self):
-        """A contact's first body is a ball, on whose rim the point lies. Impulses are those of the
-        latest substep, times as many as there are in a step.
+        """Return contacts: the point is on the rim of the first body, a ball.
+
+        Impulses are those of the latest substep, times the number of substeps.
         """
         effect = self.world.effects.get("Contacts")
         found = []
@@ -166,18 +181,11 @@ class Stable(Built):
             found.append(Touch(x, y, c.nx, c.ny, c.jn * self.substeps))
         return found
 
-    def lag(self, dt):
-        return dt / self.substeps / 2
-
-    def contacts(self):
-        effect = self.world.effects.get("Contacts")
-        return len(effect.touching) if effect else 0
-
     def asleep(self):
         return sum(body.asleep for body in self.bodies)
 
 
-class Pymunk(Undeclaring):
+class Pymunk(Builder):
     """The same scene in pymunk.
 
     pymunk multiplies what two surfaces have; the other engines take the root of the product of
@@ -196,14 +204,7 @@ class Pymunk(Undeclaring):
             self.space.collision_slop = slop  # px, the overlap that it leaves alone
         if "Damping" in scene.effects:
             self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
-        self.bodies = [self.add(data) for data in scene.bodies]
-        if "Rods" in scene.effects:
-            for a, b in scene.rods:
-                self.tie(pymunk.PinJoint(self.bodies[a], self.bodies[b]))
-        if "Springs" in scene.effects:
-            for s in scene.springs:
-                ends = self.bodies[s.a], self.bodies[s.b], (0, 0), (0, 0)
-                self.tie(pymunk.DampedSpring(*ends, s.length, s.stiffness, s.damping))
+        self.fill()
 
     def add(self, data):
         if isinstance(data, Ball) and data.mass > 0:
@@ -225,8 +226,15 @@ class Pymunk(Undeclaring):
         self.space.add(body, shape)
         return body
 
+    def rod(self, a, b):
+        self.tie(pymunk.PinJoint(self.bodies[a], self.bodies[b]))
+
+    def spring(self, s):
+        ends = self.bodies[s.a], self.bodies[s.b], (0, 0), (0, 0)
+        self.tie(pymunk.DampedSpring(*ends, s.length, s.stiffness, s.damping))
+
     def tie(self, joint):
-        """Add a joint; what it holds overlapping must not collide."""
+        """Add a joint. The two bodies that it ties do not collide."""
         joint.collide_bodies = False
         self.space.add(joint)
 
@@ -250,7 +258,9 @@ class Pymunk(Undeclaring):
             for point in points.points:
                 place = (point.point_a + point.point_b) / 2
                 share = arbiter.total_impulse.length / len(points.points)
-                found[first.id, second.id, place] = Touch(*place, *points.normal, share)
+                found[frozenset((first.id, second.id)), place] = Touch(
+                    *place, *points.normal, share
+                )
 
         for body in self.bodies:
             if body.body_type != STATIC:
@@ -258,15 +268,8 @@ class Pymunk(Undeclaring):
         return list(found.values())
 
     def lag(self, dt):
-        """pymunk moves first and changes velocities then: they run half a step ahead."""
+        """Return the lag: pymunk moves first and changes velocities then, half a step ahead."""
         return -dt / self.substeps / 2
-
-    def contacts(self):
-        pairs = set()
-        for body in self.bodies:
-            if body.body_type != STATIC:
-                body.each_arbiter(lambda arbiter: pairs.add(frozenset(arbiter.bodies)))
-        return len(pairs)
 
     def asleep(self):
         return sum(body.is_sleeping for body in self.bodies)
@@ -277,7 +280,7 @@ POSITION_SHARE = 3 / 8  # of Box2D's passes: it advises 8 for velocities and 3 f
 NO_COLLISIONS = -1  # a group of Box2D's in which nothing collides
 
 
-class Box2d(Undeclaring):
+class Box2d(Builder):
     """The same scene in Box2D, in metres.
 
     Its friction is that of the other engines. Of two restitutions it takes the larger one: the same
@@ -290,13 +293,7 @@ class Box2d(Undeclaring):
         self.scene, self.passes, self.substeps = scene, passes, substeps
         gravity = (scene.gravity[0] / PX_PER_M, scene.gravity[1] / PX_PER_M)
         self.world = Box2D.b2World(gravity)
-        self.bodies = [self.add(data) for data in scene.bodies]
-        if "Rods" in scene.effects:
-            for a, b in scene.rods:
-                self.tie(a, b, math.dist(scene.bodies[a].pos, scene.bodies[b].pos))
-        if "Springs" in scene.effects:
-            for s in scene.springs:
-                self.spring(s)
+        self.fill()
 
     def add(self, data):
         effects = self.scene.effects
@@ -330,18 +327,21 @@ class Box2d(Undeclaring):
         body.CreateFixture(shape=shape, density=data.mass / area, **surface)
         return body
 
-    def tie(self, a, b, length, **soft):
-        """A joint between two centres; what it holds overlapping does not collide."""
-        ends = {"bodyA": self.bodies[a], "bodyB": self.bodies[b], "collideConnected": False}
-        places = {"localAnchorA": (0, 0), "localAnchorB": (0, 0)}
-        self.world.CreateDistanceJoint(**ends, **places, length=length / PX_PER_M, **soft)
+    def rod(self, a, b):
+        self.tie(a, b, math.dist(self.scene.bodies[a].pos, self.scene.bodies[b].pos))
 
     def spring(self, s):
-        """A spring as Box2D has it, by the frequency and damping ratio of the two masses on it."""
+        """Add a spring by its frequency and its damping ratio, as Box2D has them."""
         masses = [self.scene.bodies[i].mass for i in (s.a, s.b) if self.scene.bodies[i].mass]
         omega = math.sqrt(s.stiffness * sum(1 / m for m in masses))
         ratio = s.damping * omega / (2 * s.stiffness) if s.stiffness else 0.0
         self.tie(s.a, s.b, s.length, frequencyHz=omega / (2 * math.pi), dampingRatio=ratio)
+
+    def tie(self, a, b, length, **soft):
+        """Join two centres. The two bodies do not collide."""
+        ends = {"bodyA": self.bodies[a], "bodyB": self.bodies[b], "collideConnected": False}
+        anchors = {"localAnchorA": (0, 0), "localAnchorB": (0, 0)}
+        self.world.CreateDistanceJoint(**ends, **anchors, length=length / PX_PER_M, **soft)
 
     def step(self, dt):
         positions = math.ceil(POSITION_SHARE * self.passes)
@@ -359,7 +359,7 @@ class Box2d(Undeclaring):
         self.bodies[i].awake = True
 
     def touches(self):
-        """Box2D tells impulses only to whoever listens to every step: none are told here."""
+        """Return contacts without impulses, which Box2D gives to listeners only."""
         found = []
         for contact in self.world.contacts:
             if contact.touching:
@@ -367,12 +367,6 @@ class Box2d(Undeclaring):
                 (x, y), (nx, ny) = manifold.points[0], manifold.normal
                 found.append(Touch(PX_PER_M * x, PX_PER_M * y, nx, ny, None))
         return found
-
-    def lag(self, dt):
-        return dt / self.substeps / 2
-
-    def contacts(self):
-        return sum(contact.touching for contact in self.world.contacts)
 
     def asleep(self):
         return sum(not self.bodies[i].awake for i in self.scene.moving())

@@ -19,7 +19,7 @@ def run(engine, seconds, dt=DT):
 
 
 def watch(engine, seconds, measure, dt=DT):
-    """What measure() says after each step."""
+    """Return what measure() returns after each step."""
     seen = []
     for _ in range(round(seconds / dt)):
         engine.step(dt)
@@ -28,7 +28,7 @@ def watch(engine, seconds, measure, dt=DT):
 
 
 def states(engine):
-    """The states of all bodies, in the scene's order."""
+    """Return the states of all bodies, in the scene's order."""
     return [engine.read(i) for i in range(len(engine.scene.bodies))]
 
 
@@ -37,22 +37,22 @@ def speed(state):
 
 
 def top_speed(engine):
-    """The speed of the fastest ball."""
+    """Return the speed of the fastest ball."""
     return max(speed(engine.read(i)) for i in engine.scene.moving())
 
 
 def bits(engine):
-    """Every number of every body with all its bits, as text."""
+    """Return every number of every body with all its bits, as text."""
     return [float(number).hex() for state in states(engine) for number in state]
 
 
 def finite(engine):
-    """Whether no number of any body is NaN or infinite."""
+    """Return true if no number of any body is NaN or infinite."""
     return all(math.isfinite(number) for state in states(engine) for number in state)
 
 
 def overlap(ball, at, other, there):
-    """How deep a ball is in another ball or a block, by their data and states; negative apart."""
+    """Return the overlap of a ball and another ball or a block; negative if they are apart."""
     x, y = at.x - there.x, at.y - there.y
     if isinstance(other, Ball):
         return ball.radius + other.radius - math.hypot(x, y)
@@ -63,7 +63,7 @@ def overlap(ball, at, other, there):
 
 
 def deepest_overlap(engine):
-    """The deepest overlap of any two bodies of which one can move, or 0. Tied ones do not count."""
+    """Return the deepest overlap of any two bodies, or 0. Static or tied pairs do not count."""
     bodies, now = engine.scene.bodies, states(engine)
     moving, tied = engine.scene.moving(), {frozenset(rod) for rod in engine.scene.rods}
     deepest, seen = 0.0, set()
@@ -76,7 +76,7 @@ def deepest_overlap(engine):
 
 
 def stretches(engine):
-    """How far each rod is from the length it starts with."""
+    """Return how far each rod is from the length it starts with."""
     bodies = engine.scene.bodies
     found = []
     for a, b in engine.scene.rods:
@@ -91,34 +91,15 @@ def worst_stretch(engine):
 
 
 def sinking(engine, seconds, dt=DT):
-    """How far the last ball comes down, how far it ever rises, and the top speed in the end."""
+    """Return how far the last ball sinks, how far it ever rises, and the top speed at the end."""
     top = engine.scene.moving()[-1]
     start = engine.read(top).y
     rises = watch(engine, seconds, lambda: start - engine.read(top).y, dt)
     return -rises[-1], max(0.0, *rises), top_speed(engine)
 
 
-def swinging(engine, seconds, dt=DT):
-    """A pendulum's largest stretch, mean period (s) and largest change of its energy height.
-
-    The bob is body 1 and the peg at x = 0. The period is None before a second passage to the left.
-    """
-    start, x = energy_height(engine, 1, dt), engine.read(1).x
-    stretch, change, passages = 0.0, 0.0, []
-    for i in range(round(seconds / dt)):
-        engine.step(dt)
-        before, x = x, engine.read(1).x
-        if x <= 0 < before:
-            passages.append((i + before / (before - x)) * dt)
-        stretch = max(stretch, worst_stretch(engine))
-        change = max(change, energy_height(engine, 1, dt) - start, key=abs)
-    rounds = len(passages) - 1
-    period = (passages[-1] - passages[0]) / rounds if rounds > 0 else None
-    return stretch, period, change
-
-
 def energy_height(engine, i, dt=DT):
-    """Height above y = 0 that a ball could reach with the energy of its flight.
+    """Return height above y = 0 that a ball could reach with the energy of its flight.
 
     An engine's velocities belong to another moment than its places; gravity over that lag is added.
     """
@@ -128,7 +109,7 @@ def energy_height(engine, i, dt=DT):
 
 
 def energy(engine, dt=DT):
-    """Energy of all balls per kg of the heaviest, px²/s²: flight, spin, height and springs."""
+    """Return the energy of all balls (kg px²/s²): flight, spin, height and springs."""
     scene = engine.scene
     gx, gy = scene.gravity
     total = 0.0
@@ -144,7 +125,7 @@ def energy(engine, dt=DT):
 
 
 def swing_energy(engine, dt=DT):
-    """The energy of a chain that hangs from a peg, above the one it has at rest. See energy."""
+    """Return the energy of a hanging chain above the one that it has at rest. See energy."""
     scene = engine.scene
     depth, rest = 0.0, 0.0
     for a, b in scene.rods:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def count_opcodes(call):
-    """How many opcodes call() runs, by the name of the file they are in."""
+    """Count the opcodes that call() runs, by the name of their file."""
     counts = defaultdict(int)
 
     def trace(frame, event, _):
@@ -32,11 +32,6 @@ def count_opcodes(call):
         sys.settrace(before)
         if collecting:
             gc.enable()
-    return by_name(counts)
-
-
-def by_name(counts):
-    """Counts by a file's whole path, added up by its name."""
     named = Counter()
     for path, count in counts.items():
         named[Path(path).name] += count
@@ -44,29 +39,29 @@ def by_name(counts):
 
 
 def files_run(call):
-    """The names of the files whose functions call() runs."""
+    """Return the names of the files whose functions call() runs."""
     paths = set()
     profiled(call, lambda frame: paths.add(frame.f_code.co_filename))
     return {Path(path).name for path in paths}
 
 
 def count_calls(call, watched):
-    """How often call() does what is watched.
+    """Count the calls of watched functions while call() runs.
 
-    watched has rows of (name, function, how much): each time the function starts, the count of
-    that name grows by how_much(its first argument).
+    watched has rows of (name, function, amount): each time the function starts, the count of that
+    name grows by the amount, or by amount(first argument) where that is a function.
     """
     counts = Counter({name: 0 for name, _, _ in watched})
     rows = defaultdict(list)
-    for name, function, how_much in watched:
-        rows[function.__code__].append((name, how_much))
+    for name, function, amount in watched:
+        rows[function.__code__].append((name, amount))
 
     def look(frame):
         code = frame.f_code
         if code in rows:
             first = frame.f_locals[code.co_varnames[0]]
-            for name, how_much in rows[code]:
-                counts[name] += how_much(first)
+            for name, amount in rows[code]:
+                counts[name] += amount(first) if callable(amount) else amount
 
     profiled(call, look)
     return counts

@@ -8,30 +8,30 @@ from itertools import chain, cycle, repeat
 
 
 def at_random(shortest=1 / 1000, longest=1 / 50, seed=1):
-    """Any step between these two."""
+    """Yield any step between these two."""
     rng = random.Random(seed)
     while True:
         yield rng.uniform(shortest, longest)
 
 
 def hiccups(step=1 / 60, count=60, pause=0.1):
-    """Equal steps, but the last of so many is a pause."""
+    """Yield equal steps, but the last of so many is a pause."""
     return cycle(chain(repeat(step, count - 1), [pause]))
 
 
 def in_turns(long=1 / 30, short=1 / 240, count=1):
-    """So many long steps, then as many short ones in their time, and again."""
+    """Yield so many long steps, then as many short ones in their time, and again."""
     return cycle(chain(repeat(long, count), repeat(short, round(count * long / short))))
 
 
 def ramps(long=1 / 30, short=1 / 1000, count=60):
-    """Steps that shrink bit by bit within so many, and grow again."""
+    """Yield steps that shrink bit by bit within so many, and grow again."""
     down = [long * (short / long) ** (i / count) for i in range(count)]
     return cycle([*down, *reversed(down)])
 
 
 def lasting(seconds, steps):
-    """The first of these steps, until they last so many seconds."""
+    """Yield the first of these steps, until they last so many seconds."""
     passed = 0.0
     for dt in steps:
         if passed >= seconds:

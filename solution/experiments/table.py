@@ -8,14 +8,14 @@ BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
 
 
 class Table:
-    """A heading and rows of cells, all of them text."""
+    """A title, heads and rows of cells, all of them text."""
 
     def __init__(self, title, heads, rows, note=""):
         self.title, self.heads, self.note = title, heads, note
         self.rows = [[str(cell) for cell in row] for row in rows]
 
     def text(self):
-        """For the terminal: columns of equal width, numbers to the right of their names."""
+        """Return the table for a terminal, in columns of equal width."""
         rows = [self.heads, *self.rows]
         widths = [max(len(row[i]) for row in rows) for i in range(len(self.heads))]
         lines = [
@@ -28,6 +28,7 @@ class Table:
         )
 
     def markdown(self):
+        """Return the table for a handout."""
         rows = [self.heads, ["---"] * len(self.heads), *self.rows]
         lines = ["| " + " | ".join(row) + " |" for row in rows]
         parts = [f"**{self.title}**", "\n".join(lines), self.note]
@@ -37,7 +38,7 @@ class Table:
 def write_markdown(path, tables, lines, **more):
     """Put the tables between the two markers of a file, or into a file of their own.
 
-    lines, which the text around them rests on, go into results.json beside it, and so does more.
+    lines, on which the text around them rests, go into results.json beside it, and so does more.
     """
     block = "\n".join(table.markdown() for table in tables)
     text = path.read_text(encoding="utf-8") if path.exists() else f"{BEGIN}\n{END}\n"
@@ -54,7 +55,7 @@ def write_markdown(path, tables, lines, **more):
 
 
 def number(value):
-    """A number in three digits, or the word that stands for it."""
+    """Return a number in three digits; a word stays as it is."""
     if value is None:
         return "-"
     if isinstance(value, str):
@@ -68,13 +69,8 @@ def number(value):
     return f"{mantissa}e{int(exponent)}"
 
 
-def times(value):
-    """A ratio, such as 3.1x."""
-    return "-" if value is None else f"{number(value)}x"
-
-
 def span(values, unit=""):
-    """The least and the most of some numbers in two digits each, or once where they agree so far.
+    """Return the least and the most of some numbers in two digits, or one where they are equal.
 
     A word stays as it is.
     """
@@ -85,8 +81,13 @@ def span(values, unit=""):
     return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
 
 
+def as_range(name, values):
+    """Return the two lines of a range, if there is one."""
+    return {f"{name}, least": min(values), f"{name}, most": max(values)} if values else {}
+
+
 class Progress:
-    """One line on a terminal: how much is done and how long the rest will take."""
+    """A line on a terminal that shows how much is done and how long the rest will take."""
 
     def __init__(self, total, stream=None):
         self.total, self.done, self.start = total, 0.0, time.monotonic()
@@ -94,7 +95,7 @@ class Progress:
         self.shown = self.stream.isatty()
 
     def step(self, weight, what):
-        """Say what comes next, and count what came before."""
+        """Show what comes next, and count what came before."""
         if self.shown:
             share = min(self.done / self.total, 1)
             spent = time.monotonic() - self.start

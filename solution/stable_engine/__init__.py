@@ -1,4 +1,4 @@
-"""A physics engine of rolling balls that stays stable. A scene declares its effects.
+"""Simulate rolling balls, and stay stable. A scene declares its effects.
 
 Read in this order: shapes, body, effect, world, contacts, friction, bounce, then any other effect.
 """

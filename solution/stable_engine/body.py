@@ -1,10 +1,10 @@
-"""A body: a shape with a place, a velocity and a mass."""
+"""A body: a shape with a position, a velocity and a mass."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import hypot, isfinite
-from typing import TYPE_CHECKING
+from typing import Any
 
 from pygame import Vector2
 
@@ -12,12 +12,36 @@ from .reading import read
 from .shapes import Box, Circle
 from .validate import finite, not_negative, number, pair, refuse, require
 
-if TYPE_CHECKING:
-    from .sleep import Island
-    from .world import World
-
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
 LEAST = 1e-100  # kg and kg px²: far below, and far above its inverse, floats run out of range
+
+
+class Listeners:
+    """The part of a world that its bodies call when something of them is set."""
+
+    static_moved_hooks: list[Callable[..., Any]]
+    body_changed_hooks: list[Callable[..., Any]]
+    lighter_hooks: list[Callable[..., Any]]
+
+
+class Island:
+    """Bodies that fell asleep together and wake together. on_wake is called when they do."""
+
+    def __init__(self, bodies: list[Body], on_wake: Callable[[], None]) -> None:
+        self.bodies = bodies
+        self.on_wake = on_wake
+        for body in bodies:
+            body.island = self
+            body.asleep = body.idle = True
+            body.vx = body.vy = body.w = 0.0
+
+    def wake(self) -> None:
+        """Wake all its bodies."""
+        for body in self.bodies:
+            body.island = None
+            body.asleep = body.idle = False
+            body.still = 0.0
+        self.on_wake()
 
 
 class Body:
@@ -57,7 +81,7 @@ class Body:
         else:
             refuse("Body.shape", shape, "a Circle or a Box")
         self.shape = shape
-        self.world: World | None = None
+        self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
         self.restitution_given = self.friction_given = False
         self.e, self.mu = RESTITUTION, FRICTION
@@ -92,12 +116,15 @@ class Body:
 
     @property
     def is_static(self) -> bool:
-        """Whether no force can move this body."""
+        """Return whether no force can move this body."""
         return self.inv_mass == 0
 
     @property
     def mass(self) -> float:
-        """The mass in kg, 0 for a static body, which stays static. Setting it wakes the body."""
+        """Return the mass in kg, 0 for a static body, which stays static.
+
+        Setting it wakes the body.
+        """
         return self.m
 
     @mass.setter
@@ -113,7 +140,7 @@ class Body:
 
     @property
     def restitution(self) -> float:
-        """The share of speed that an impact gives back, 0 to 1. Setting it wakes the body."""
+        """Return the share of speed that an impact returns, 0 to 1. Setting it wakes the body."""
         return self.e
 
     @restitution.setter
@@ -124,7 +151,7 @@ class Body:
 
     @property
     def friction(self) -> float:
-        """The friction of its surface, 0 or more. Setting it wakes the body."""
+        """Return the friction of its surface, 0 or more. Setting it wakes the body."""
         return self.mu
 
     @friction.setter
@@ -135,7 +162,7 @@ class Body:
 
     @property
     def pos(self) -> Vector2:
-        """The centre in px. Set it as a whole, which wakes the body: a part cannot be set."""
+        """Return the centre in px. Set both coordinates at once; this wakes the body."""
         return read("Body.pos", self.x, self.y)
 
     @pos.setter
@@ -145,7 +172,10 @@ class Body:
 
     @property
     def vel(self) -> Vector2:
-        """The velocity in px/s. Set it as a whole, which wakes the body: a part cannot be set."""
+        """Return the velocity in px/s.
+
+        Set it as a whole, which wakes the body: a part cannot be set.
+        """
         return read("Body.vel", self.vx, self.vy)
 
     @vel.setter
@@ -155,7 +185,7 @@ class Body:
 
     @property
     def omega(self) -> float:
-        """The spin in rad/s, clockwise on the screen. Setting it wakes the body."""
+        """Return the spin in rad/s, clockwise on the screen. Setting it wakes the body."""
         return self.w
 
     @omega.setter
@@ -177,7 +207,7 @@ class Body:
         self.wake()
 
     def contains(self, point: Iterable[float]) -> bool:
-        """Whether a point (px) is in the body or on its edge."""
+        """Return whether a point (px) is in the body or on its edge."""
         x, y = pair("Body.contains's point", point)
         dx, dy = x - self.x, y - self.y
         if self.radius:

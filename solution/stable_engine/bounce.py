@@ -4,8 +4,7 @@ from math import sqrt
 
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect
-from .world import World
+from .effect import Effect, WorldState
 
 PASSES = 20  # within one step, in which an impact travels from ball to ball
 
@@ -21,7 +20,7 @@ class Bounce(Effect):
 
     rank = 6
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 
@@ -55,7 +54,7 @@ class Bounce(Effect):
         return True
 
     def rebound_speed(self, c: Contact, closing: float, h: float) -> float:
-        """The speed (px/s) at which a ball leaves a static body, exact for any step size.
+        """Return the speed (px/s) at which a ball leaves a static body, exact for any step size.
 
         A contact is found after the ball has crossed the surface and has gained speed below it. So
         e is applied to the speed at the surface, which follows from conservation of energy.
@@ -73,7 +72,8 @@ class Bounce(Effect):
 
 
 def separating(c: Contact) -> bool:
-    """Whether a pair has bounced off. The solver must not push it out as well, or it rises higher.
+    """Return whether a pair has bounced off. The solver must not push it out as well, or it rises
+    higher.
 
     So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that still
     moves towards the wall would press the ball into it.

@@ -1,4 +1,4 @@
-"""The broad phase: which bodies are near each other, by sort and sweep."""
+"""Find the bodies that are near each other, by sort and sweep: the broad phase."""
 
 from operator import attrgetter
 
@@ -29,7 +29,7 @@ class Bounds:
             self.side_low, self.side_high = y - hy - margin, y + hy
 
     def begins_before(self, other: "Bounds") -> bool:
-        """Whether the sweep comes to this box first."""
+        """Return whether the sweep comes to this box first."""
         if self.low != other.low:
             return self.low < other.low
         if self.side_low != other.side_low:

@@ -4,8 +4,7 @@ from math import hypot
 
 from .body import Body
 from .contacts import RESTING_SPEED, Contacts
-from .effect import Effect
-from .world import World
+from .effect import Effect, WorldState
 
 SWEEP_FROM = 0.5  # radii, a bullet that moves further in one step is swept
 OVERLAP = 0.05  # radii, how deep a stopped bullet overlaps, so that the next step finds the contact
@@ -23,7 +22,7 @@ class Bullets(Effect):
     def __init__(self) -> None:
         self.bullets: list[Body] = []
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
 

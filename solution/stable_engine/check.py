@@ -1,22 +1,17 @@
-"""What a scene calls for and does not declare, and what it declares and has no use for."""
+"""Name the effects that a scene needs and does not declare, or declares and does not use."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .body import Body
-    from .joint import Joint
-    from .world import World
+from .body import Body
+from .effect import WorldState
+from .joint import Joint
 
 
-def complaints(world: World) -> list[str]:
-    """One sentence for each effect that is called for and missing, or declared and not used."""
+def complaints(world: WorldState) -> list[str]:
+    """Return one sentence for each effect that is missing, or declared and not used."""
     return [*missing(world), *unused(world)]
 
 
-def missing(world: World) -> list[str]:
-    """A sentence for each effect that the scene calls for and does not declare.
+def missing(world: WorldState) -> list[str]:
+    """Return a sentence for each effect that the scene calls for and does not declare.
 
     Friction and restitution that were given call for their effects, above 0 and where something
     can move. A static body calls for contacts unless a joint is tied to it: it is there to be
@@ -41,16 +36,16 @@ def missing(world: World) -> list[str]:
     ]
 
 
-def tied(body: Body, world: World) -> bool:
-    """Whether a rod or spring is tied to the body."""
+def tied(body: Body, world: WorldState) -> bool:
+    """Return whether a rod or spring is tied to the body."""
     joints: list[Joint] = []
     for effect in world.effects.values():
         joints += getattr(effect, "joints", [])
     return any(body in (joint.a, joint.b) for joint in joints)
 
 
-def unused(world: World) -> list[str]:
-    """A sentence for each declared effect that nothing in the scene has a use for."""
+def unused(world: WorldState) -> list[str]:
+    """Return a sentence for each declared effect that nothing in the scene has a use for."""
     return [
         f"This scene declares {name}(), but has no use for it. Leave it out, or add what it is for."
         for name, effect in world.effects.items()

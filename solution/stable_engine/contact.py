@@ -44,11 +44,11 @@ class Contact:
 
     @property
     def normal(self) -> Vector2:
-        """The unit normal from A to B."""
+        """Return the unit normal from A to B."""
         return Vector2(self.nx, self.ny)
 
     def closing_speed(self) -> float:
-        """How fast A and B come together, in px/s."""
+        """Return how fast A and B come together, in px/s."""
         a, b = self.a, self.b
         return (a.vx - b.vx) * self.nx + (a.vy - b.vy) * self.ny
 
@@ -59,7 +59,7 @@ def collide(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
-    """Two circles. With the same centre they have no normal, so each pair gets one of its own.
+    """Return the normal and depth of two circles. With one centre, each pair gets its own normal.
 
     Were it the same for all, a heap of balls in one place would spread along one line only.
     """
@@ -72,7 +72,7 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
-    """A circle and a box. A centre inside the box leaves through the nearest face."""
+    """Return normal and depth of a circle and a box. A centre inside leaves by the nearest face."""
     x, y = a.x - b.x, a.y - b.y
     dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
     distance = sqrt(dx * dx + dy * dy)
@@ -85,7 +85,7 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
 
 
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
-    """What collide found of two bodies that touched before; c has the normal they had then.
+    """Return the normal and depth of two bodies that touched before, with normal (c.nx, c.ny).
 
     A circle whose centre has got into a box leaves through the face it came in by. Through the
     nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.

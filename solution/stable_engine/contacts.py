@@ -6,11 +6,10 @@ from math import hypot
 from .body import Body
 from .broad_phase import Bounds, BroadPhase
 from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
-from .effect import Effect
+from .effect import Effect, WorldState
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import NO_HIT, first_hit, stop_at_first_hit
 from .validate import refuse
-from .world import World
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
@@ -63,7 +62,7 @@ class Contacts(Effect):
         self.pace = Pace(STIFFENING)
         self.h = 0.0  # s, the substep of the impulses that are kept
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.begin_contact_hooks = world.hooks("begin_contact")
         self.after_impact_hooks = world.hooks("after_impact")
@@ -78,7 +77,7 @@ class Contacts(Effect):
             self.touching = self.find_contacts(h * self.world.substep_count)
 
     def any_moved(self) -> bool:
-        """Whether any body is no longer where contacts were last found."""
+        """Return whether any body is no longer where contacts were last found."""
         for last in self.broad_phase.bounds:
             body = last.body
             if abs(body.x - last.x) + abs(body.y - last.y) > REDETECT_DISTANCE:
@@ -86,7 +85,7 @@ class Contacts(Effect):
         return False
 
     def find_contacts(self, dt: float) -> list[Contact]:
-        """The contacts of all bodies where they are now, with the impulses they had before.
+        """Return the contacts of all bodies where they are now, with the impulses they had before.
 
         Bodies that touch are in contact. So are slow ones that may touch within dt seconds: such
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
@@ -123,7 +122,7 @@ class Contacts(Effect):
         return list(found.values())
 
     def new_contact(self, a: Body, b: Body) -> Contact:
-        """A contact, with what other effects need of it filled in."""
+        """Return a contact, with what other effects need of it filled in."""
         c = Contact(a, b)
         for begin_contact in self.begin_contact_hooks:
             begin_contact(c)
@@ -280,7 +279,9 @@ class Contacts(Effect):
         return True
 
     def went_through(self, c: Contact) -> bool:
-        """Whether the centre of a ball was in a static body in this step, at its start or later."""
+        """Return whether the centre of a ball was in a static body in this step, at its start or
+        later.
+        """
         if c.found < -c.a.radius:
             return True
         for last in self.broad_phase.bounds:
@@ -310,7 +311,7 @@ class Contacts(Effect):
         stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
 
     def of_body(self, body: Body) -> list[Contact]:
-        """The contacts of a body, those it sleeps with among them."""
+        """Return the contacts of a body, those it sleeps with among them."""
         contacts = [*self.cache.values(), *self.sleeping_cache.values()]
         return [c for c in contacts if body in (c.a, c.b)]
 
@@ -375,7 +376,7 @@ class Contacts(Effect):
 
 
 def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
-    """The balls that touch a body, and those that touch them; static bodies pass nothing on."""
+    """Return the balls that touch a body, directly or through others; statics end the search."""
     beside: dict[Body, list[Body]] = {}
     for c in contacts:
         beside.setdefault(c.a, []).append(c.b)
@@ -403,5 +404,5 @@ def share_push(deep: list[Contact]) -> None:
 
 
 def pair_both_ways(a: Body, b: Body) -> set[tuple[int, int]]:
-    """The pair by its ids, whichever comes first."""
+    """Return the pair by its ids, whichever comes first."""
     return {(a.id, b.id), (b.id, a.id)}

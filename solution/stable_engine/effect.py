@@ -1,15 +1,45 @@
-"""What an effect is: a part of the physics that a scene declares, called at stages of a step."""
+"""The base of all effects, and the world as effects know it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from .body import Body, Listeners
 from .validate import require
 
 if TYPE_CHECKING:
-    from .body import Body
     from .contact import Contact
-    from .world import World
+
+
+class WorldState(Listeners):
+    """The world as effects know it: its bodies, and the effects that the scene declares."""
+
+    g: tuple[float, float]  # px/s²
+    substep_count: int
+    bodies: list[Body]
+    awake: list[Body]  # the balls that can move now
+    statics: list[Body]
+    effects: dict[str, Effect]
+
+    def remove(self, thing: Any) -> None:
+        """Take a body or joint out: see World.remove."""
+        raise NotImplementedError
+
+    def hooks(self, name: str) -> list[Callable[..., Any]]:
+        """Return the hooks of this name that the scene's effects override, lowest rank first."""
+        effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
+        base = getattr(Effect, name)
+        return [getattr(e, name) for e in effects if getattr(type(e), name) is not base]
+
+    def need(self, name: str, user: object) -> Any:
+        """Return the effect of that name. Raises ValueError when the scene does not declare it."""
+        if name not in self.effects:
+            raise ValueError(
+                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
+                f"Declare it: World(effects=[..., {name}()])."
+            )
+        return self.effects[name]
 
 
 class Effect:
@@ -20,9 +50,9 @@ class Effect:
     """
 
     rank: ClassVar[int]
-    world: World
+    world: WorldState
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         """Become part of a world, once. Look up here the other effects that this one needs."""
         name = f"{type(self).__name__}.world"
         require(not hasattr(self, "world"), name, "another one already", "new: make a new effect")
@@ -35,7 +65,10 @@ class Effect:
         """Take a joint off this effect's own list."""
 
     def is_used(self) -> bool:
-        """Whether anything in the world has a use for this effect. Asked by World.check alone."""
+        """Return whether anything in the world has a use for this effect.
+
+        Asked by World.check alone.
+        """
         return True
 
     # once per step
@@ -75,22 +108,24 @@ class Effect:
         """Fill in what this effect needs of a new contact, such as its friction."""
 
     def body_changed(self, body: Body) -> None:
-        """The mass, friction or restitution of a body was set: take over the new value."""
+        """Take over a new mass, friction or restitution of a body."""
 
     def lighter(self, body: Body, share: float) -> None:
-        """The mass of a body is about to fall to this share of what it was: 0 where it leaves."""
+        """Prepare for a body whose mass falls to this share of what it was: 0 where it leaves."""
 
     def static_moved(self, body: Body) -> None:
-        """The place, velocity or spin of a static body was set: wake whom it concerns."""
+        """Wake the bodies that a new position, velocity or spin of a static body concerns."""
 
     def forget(self, body: Body) -> None:
-        """A body leaves the world: drop all that refers to it."""
+        """Drop all that refers to a body, which leaves the world."""
 
     def after_impact(self, c: Contact, jn: float) -> None:
         """Respond to an impact of jn (kg px/s) along the normal: friction acts at that instant."""
 
     def links(self) -> list[tuple[Body, Body]]:
-        """The pairs of bodies it connects, the edges of islands: they sleep and wake together."""
+        """Return the pairs of bodies it connects, the edges of islands: they sleep and wake
+        together.
+        """
         return []
 
     def awake_changed(self) -> None:

@@ -4,8 +4,7 @@ from math import sqrt
 
 from .contact import Contact
 from .contacts import Contacts, Group
-from .effect import Effect
-from .world import World
+from .effect import Effect, WorldState
 
 
 class Friction(Effect):
@@ -16,7 +15,7 @@ class Friction(Effect):
 
     rank = 5
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)

@@ -1,4 +1,4 @@
-"""What rods and springs have in common."""
+"""Share what rods and springs have in common."""
 
 from math import hypot
 from typing import ClassVar, Generic, TypeVar
@@ -37,7 +37,7 @@ class Joint:
 
     @property
     def length(self) -> float:
-        """The distance in px at which it is at rest. Setting it wakes both ends."""
+        """Return the distance in px at which it is at rest. Setting it wakes both ends."""
         return self.rest
 
     @length.setter
@@ -46,7 +46,7 @@ class Joint:
         self.changed()
 
     def fitting(self, length: float) -> float:
-        """A length as a float. Raises ValueError when it is no length for such a joint."""
+        """Return a length as a float. Raises ValueError when it is no length for such a joint."""
         return not_negative(f"{type(self).__name__}.length", length)
 
     def changed(self) -> None:
@@ -73,7 +73,7 @@ class Joint:
             self.nx, self.ny = 0.0, 1.0
 
     def speed(self) -> float:
-        """How fast B moves away from A, in px/s."""
+        """Return how fast B moves away from A, in px/s."""
         return (self.b.vx - self.a.vx) * self.nx + (self.b.vy - self.a.vy) * self.ny
 
     def apply_impulse(self, j: float) -> None:

@@ -1,4 +1,4 @@
-"""What is read of a body: a Vector2 that cannot be changed in place."""
+"""Return readings of a body: a Vector2 that cannot be changed in place."""
 
 from typing import Any
 
@@ -26,7 +26,7 @@ class Reading(Vector2):
 
 
 def read(field: str, x: float, y: float) -> Vector2:
-    """A reading of the field of that name."""
+    """Return a reading of the field of that name."""
     reading = Reading(x, y)
     reading.field = field
     return reading
@@ -44,7 +44,7 @@ def refuse_change(vector: Vector2) -> None:
 
 
 def guarded(name: str) -> Any:
-    """The method of Vector2 of that name, refused where it would change a reading."""
+    """Return the method of Vector2 of that name, refused where it would change a reading."""
     change = getattr(Vector2, name)
 
     def method(self: Vector2, *arguments: Any) -> Any:

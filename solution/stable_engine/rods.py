@@ -65,7 +65,7 @@ class Rods(Joints[Rod]):
                 self.let_touch(rod, rod.rest >= rod.a.radius + rod.b.radius)
 
     def let_touch(self, rod: Rod, may: bool) -> None:
-        """Whether the ends of a rod may touch: a contact would fight one that lets them overlap."""
+        """Let the ends of a rod touch or not: a contact would fight a rod shorter than that."""
         contacts = self.world.effects.get("Contacts")
         if not isinstance(contacts, Contacts):
             return

@@ -1,34 +1,11 @@
 """Sleep: bodies at rest are left out of the step, so they cost nothing."""
 
-from __future__ import annotations
-
-from .body import Body
+from .body import Body, Island
 from .contacts import Contacts
-from .effect import Effect
-from .world import World
+from .effect import Effect, WorldState
 
 STILL_SPEED = 3.0  # px/s, of the centre and of the rim
 STILL_TIME = 0.5  # s
-
-
-class Island:
-    """Bodies that fell asleep together and wake together."""
-
-    def __init__(self, bodies: list[Body], sleep: Sleep) -> None:
-        self.bodies = bodies
-        self.sleep = sleep
-        for body in bodies:
-            body.island = self
-            body.asleep = body.idle = True
-            body.vx = body.vy = body.w = 0.0
-
-    def wake(self) -> None:
-        """Wake all its bodies."""
-        for body in self.bodies:
-            body.island = None
-            body.asleep = body.idle = False
-            body.still = 0.0
-        self.sleep.update_awake()
 
 
 class Sleep(Effect):
@@ -41,7 +18,7 @@ class Sleep(Effect):
 
     rank = 4
 
-    def attach(self, world: World) -> None:
+    def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.link_hooks = world.hooks("links")
         self.awake_changed_hooks = world.hooks("awake_changed")
@@ -72,12 +49,12 @@ class Sleep(Effect):
         """Put every island to sleep that has lain still for STILL_TIME."""
         still = [i for i in self.find_islands() if min(b.still for b in i) > STILL_TIME]
         for island in still:
-            Island(island, self)
+            Island(island, self.update_awake)
         if still:
             self.update_awake()
 
     def find_islands(self) -> list[list[Body]]:
-        """The awake balls in groups, by union-find: connected ones get the same root."""
+        """Return the awake balls in groups, by union-find: connected ones get the same root."""
         parent = {body: body for body in self.world.awake}
 
         def root(body: Body) -> Body:
@@ -103,5 +80,5 @@ class Sleep(Effect):
 
 
 def sleepers(contacts: Contacts) -> list[Body]:
-    """The sleeping balls in a contact: one is only found where the other body is awake."""
+    """Return the sleeping balls in a contact: one is only found where the other body is awake."""
     return [body for c in contacts.touching for body in (c.a, c.b) if body.asleep]

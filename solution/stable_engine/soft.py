@@ -32,7 +32,7 @@ class Pace:
         self.slept = 0.0  # s, the longest at which anybody who sleeps now has fallen asleep
 
     def follow(self, h: float) -> float:
-        """The pace (s) of a step that takes substeps of h seconds."""
+        """Return the pace (s) of a step that takes substeps of h seconds."""
         self.h = max(h, self.h - self.stiffening * h)
         return self.h
 

@@ -39,7 +39,7 @@ def stop_at_first_hit(
 def first_hit(
     statics: list[Body], radius: float, x: float, y: float, dx: float, dy: float
 ) -> float:
-    """The time of impact of a ball that moves from (x, y) by (dx, dy), or NO_HIT.
+    """Return the time of impact of a ball that moves from (x, y) by (dx, dy), or NO_HIT.
 
     As a fraction of the step, 0 at its start and 1 at its end.
     """
@@ -51,12 +51,14 @@ def first_hit(
 
 
 def hit_circle(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
-    """The time of impact with a circle; the ball starts at (x, y) from the centre of s."""
+    """Return the time of impact with a circle; the ball starts at (x, y) from the centre of s."""
     return hit_point(s.radius + radius, x, y, dx, dy)
 
 
 def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
-    """The time of impact with a box: a point against its faces moved out, its corners rounded."""
+    """Return the time of impact with a box: a point against its faces moved out, its corners
+    rounded.
+    """
     enter, leave = 0.0, NO_HIT
     for start, move, half in ((x, dx, s.hx + radius), (y, dy, s.hy + radius)):
         if move == 0:
@@ -75,7 +77,7 @@ def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) ->
 
 
 def hit_point(reach: float, x: float, y: float, dx: float, dy: float) -> float:
-    """The time at which something that starts at (x, y) from a point is within reach (px)."""
+    """Return the time at which a start at (x, y) from a point comes within reach (px)."""
     length2, ahead, outside = dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - reach * reach
     root2 = ahead * ahead - length2 * outside
     if outside <= 0 or ahead >= 0 or root2 < 0:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Iterable
-from typing import Any, TypeVar
+from collections.abc import Iterable
+from typing import TypeVar
 
 from .body import Body
 from .check import complaints, missing
-from .effect import Effect
+from .effect import Effect, WorldState
 from .joint import Joint
 from .validate import pair, refuse, require, whole
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 
 
-class World:
+class World(WorldState):
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
     gravity in px/s². Each step is made of that many substeps. Both can be set later on. Raises
@@ -31,11 +31,11 @@ class World:
     ) -> None:
         self.substep_count = whole("World.substeps", substeps)
         self.g = pair("World.gravity", gravity)  # px/s²
-        self.bodies: list[Body] = []
-        self.awake: list[Body] = []  # the balls that can move now
-        self.statics: list[Body] = []
+        self.bodies = []
+        self.awake = []
+        self.statics = []
         self.added = 0  # how many bodies ever were
-        self.effects: dict[str, Effect] = {}
+        self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
         for effect in effects:
@@ -68,7 +68,7 @@ class World:
 
     @property
     def gravity(self) -> tuple[float, float]:
-        """The gravity in px/s². Setting another one wakes all bodies."""
+        """Return the gravity in px/s². Setting another one wakes all bodies."""
         return self.g
 
     @gravity.setter
@@ -80,27 +80,12 @@ class World:
 
     @property
     def substeps(self) -> int:
-        """How many substeps make a step."""
+        """Return how many substeps make a step."""
         return self.substep_count
 
     @substeps.setter
     def substeps(self, value: int) -> None:
         self.substep_count = whole("World.substeps", value)
-
-    def hooks(self, name: str) -> list[Callable[..., Any]]:
-        """The hooks of this name that the scene's effects override, lowest rank first."""
-        effects = sorted(self.effects.values(), key=lambda effect: effect.rank)
-        base = getattr(Effect, name)
-        return [getattr(e, name) for e in effects if getattr(type(e), name) is not base]
-
-    def need(self, name: str, user: object) -> Any:
-        """The effect of that name. Raises ValueError when the scene does not declare it."""
-        if name not in self.effects:
-            raise ValueError(
-                f"{type(user).__name__} needs {name}(), which this scene does not declare. "
-                f"Declare it: World(effects=[..., {name}()])."
-            )
-        return self.effects[name]
 
     def add(self, thing: Thing) -> Thing:
         """Add a body, rod or spring and return it.
@@ -169,7 +154,7 @@ class World:
         self.need(joint.effect, joint).remove(joint)
 
     def bodies_at(self, point: Iterable[float]) -> list[Body]:
-        """The bodies that a point (px) is in or on the edge of, in the order of adding."""
+        """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
         at = pair("World.bodies_at's point", point)
         return [body for body in self.bodies if body.contains(at)]
 

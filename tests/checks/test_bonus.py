@@ -12,9 +12,9 @@ from mixed_trees import mixed
 from rich.console import Console
 
 from grader.bank.verify import shared_worker
-from grader.classroom.book import outcome_of
-from grader.classroom.dashboard import Entry, rates_of
-from grader.classroom.grading import rates, table_of
+from grader.classroom.book import make_outcome
+from grader.classroom.dashboard import Entry, count_rates
+from grader.classroom.grading import tabulate_class, tabulate_rates
 from grader.judge.course import FULL
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
@@ -22,12 +22,12 @@ from grader.judge.rubric import load_rubric
 from grader.judge.wording import total
 from grader.release.notebooks import engine_notebook
 from grader.report.files import as_json
-from grader.report.sinks.classroom50 import NEEDED, classroom50
-from grader.report.sinks.github import annotations, outputs
-from grader.report.sinks.gradescope import gradescope
-from grader.report.sinks.junit import junit
-from grader.report.sinks.markdown import markdown
-from grader.report.terminal import Teller, show_next
+from grader.report.sinks.classroom50 import NEEDED, write_classroom50
+from grader.report.sinks.github import write_annotations, write_outputs
+from grader.report.sinks.gradescope import write_gradescope
+from grader.report.sinks.junit import write_junit
+from grader.report.sinks.markdown import write_markdown
+from grader.report.terminal import Printer, show_next
 
 BONUS = frozenset(todo.id for todo in load_rubric().todos if todo.bonus)
 WORTH = {"B1": 4, "B2": 3, "B3": 4, "B4": 2, "B5": 2, "B6": 1}
@@ -132,7 +132,7 @@ def test_only_what_was_asked_decides_whether_a_result_is_complete(with_bonus: Re
 
 def told(result: Result) -> str:
     console = Console(width=80, record=True, file=io.StringIO())
-    Teller(console).tell(result)
+    Printer(console).print(result)
     show_next(result, console)
     return console.export_text()
 
@@ -152,48 +152,55 @@ def test_a_student_who_asks_for_a_bonus_task_is_led_on(with_bonus: Result):
 
 
 def test_every_form_adds_up_without_the_bonus(with_bonus: Result):
-    for form in (classroom50(with_bonus, RUNNER), gradescope(with_bonus)):
+    for form in (write_classroom50(with_bonus, RUNNER), write_gradescope(with_bonus)):
         made = json.loads(form)
         assert made["score"] == 100
         assert sum(test.get("score", 0) for test in made["tests"]) == 100
         assert sum(test.get("max-score", test.get("max_score", 0)) for test in made["tests"]) == 100
-    encoded = outputs(with_bonus).partition("result=")[2]
+    encoded = write_outputs(with_bonus).partition("result=")[2]
     reported = json.loads(base64.b64decode(encoded))
     assert reported["status"] == "pass" and reported["max_score"] == 100
     assert sum(test["score"] for test in reported["tests"]) == 100
 
 
 def test_a_bonus_task_that_was_not_begun_is_in_no_report(without_bonus: Result):
-    forms = (gradescope(without_bonus), junit(without_bonus), markdown(without_bonus).encode())
+    forms = (
+        write_gradescope(without_bonus),
+        write_junit(without_bonus),
+        write_markdown(without_bonus).encode(),
+    )
     assert not [form for form in forms if b"TODO B" in form or b"| B" in form]
 
 
 def test_a_bonus_task_is_a_warning_and_no_error(with_bonus: Result):
-    assert annotations(with_bonus).startswith("::warning ")
-    assert "::error" not in annotations(with_bonus)
+    assert write_annotations(with_bonus).startswith("::warning ")
+    assert "::error" not in write_annotations(with_bonus)
 
 
 def test_the_class_book_counts_no_bonus(without_bonus: Result, with_bonus: Result):
-    outcomes = [outcome_of("ann", as_json(each), 1.0, "") for each in (without_bonus, with_bonus)]
+    outcomes = [make_outcome("ann", as_json(each), 1.0, "") for each in (without_bonus, with_bonus)]
     assert [(each.points, each.left) for each in outcomes] == [(100, [])] * 2
     assert not [
-        cell for cell in rates(outcomes, FULL).columns[0].cells if str(cell).startswith("B")
+        cell
+        for cell in tabulate_rates(outcomes, FULL).columns[0].cells
+        if str(cell).startswith("B")
     ]
     starter = msgspec.structs.replace(
         outcomes[0], left=[todo for todo in outcomes[0].todos if todo not in BONUS]
     )
-    assert list(table_of([starter]).columns[2].cells) == ["all"]
+    assert list(tabulate_class([starter]).columns[2].cells) == ["all"]
 
 
 def test_a_dashboard_lists_the_bonus_tasks_that_somebody_began(
     without_bonus: Result, with_bonus: Result
 ):
     entries = [
-        Entry(outcome_of(name, as_json(each), 1.0, ""), each)
+        Entry(make_outcome(name, as_json(each), 1.0, ""), each)
         for name, each in (("ann", without_bonus), ("ben", with_bonus))
     ]
     listed = [
-        [rate.id for rate in rates_of(some) if rate.id in BONUS] for some in (entries[:1], entries)
+        [rate.id for rate in count_rates(some) if rate.id in BONUS]
+        for some in (entries[:1], entries)
     ]
     assert listed == [[], ["B1", "B2"]]
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from grader.classroom.adjustments import Adjustments, load_adjustments
+from grader.errors import Stop
 from grader.intake.found import Found
-from grader.judge.submission import CannotGrade
 
 DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)
 LATE = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = 10\nat_most = 25\n"
@@ -35,47 +35,47 @@ def adjust(**what: object) -> str:
     ],
 )
 def test_days_that_have_begun_cost_their_points(tmp_path, after, points):
-    final = loaded(tmp_path, LATE).final(Found("ann", (), handed_in=DUE + after), 80)
+    final = loaded(tmp_path, LATE).decide(Found("ann", (), handed_in=DUE + after), 80)
     assert final.points == points
     assert bool(final.reasons) == (points < 80)
 
 
 def test_a_mark_of_the_lms_without_a_time_is_one_day(tmp_path):
-    final = loaded(tmp_path, LATE).final(Found("ann", (), late=True), 80)
+    final = loaded(tmp_path, LATE).decide(Found("ann", (), late=True), 80)
     assert final.points == 70 and final.reasons == ("1 day late: -10",)
 
 
 def test_points_never_fall_below_0(tmp_path):
-    assert loaded(tmp_path, LATE).final(Found("ann", (), late=True), 4).points == 0
+    assert loaded(tmp_path, LATE).decide(Found("ann", (), late=True), 4).points == 0
 
 
 def test_who_is_excused_loses_nothing_and_it_is_said(tmp_path):
-    final = loaded(tmp_path, LATE + adjust(late=False)).final(Found("ann", (), late=True), 80)
+    final = loaded(tmp_path, LATE + adjust(late=False)).decide(Found("ann", (), late=True), 80)
     assert final.points == 80 and final.reasons == ("1 day late: 0", "excused: ill")
 
 
 def test_points_are_added_and_set_in_the_order_of_the_file(tmp_path):
     both = loaded(tmp_path, LATE + adjust(points=50) + adjust(add=-3))
-    final = both.final(Found("ann", (), late=True), 80)
+    final = both.decide(Found("ann", (), late=True), 80)
     assert final.points == 47
     assert final.reasons == ("1 day late: -10", "ill: set to 50", "ill: -3")
 
 
 def test_nobody_else_is_touched(tmp_path):
     adjustments = loaded(tmp_path, adjust(add=5))
-    assert adjustments.final(Found("ben", ()), 80).reasons == ()
-    assert adjustments.unused(["ben"]) == ["Ann"] and adjustments.unused(["ANN"]) == []
+    assert adjustments.decide(Found("ben", ()), 80).reasons == ()
+    assert adjustments.find_unused(["ben"]) == ["Ann"] and adjustments.find_unused(["ANN"]) == []
 
 
 @pytest.mark.parametrize(
     "text, words",
     [
         ("[[adjust]]\nstudent = 'a'\nadd = 1\n", "reason"),
-        ("[[adjust]]\nstudent = 'a'\nreason = ' '\nadd = 1\n", "needs a reason"),
+        ("[[adjust]]\nstudent = 'a'\nreason = ' '\nadd = 1\n", "reason = . . must not be empty"),
         (adjust(), "one of"),
         (adjust(add=1, points=2), "one of"),
         (adjust(late=True), "late = false"),
-        (adjust(add=1.5), "add = 1.5 of .Ann. must be a whole number"),
+        (adjust(add=1.5), "about .Ann.: add = 1.5 must be a whole number"),
         (adjust(ad=1), "ad"),
         ("[late]\nper_day = -1\n", "0 or more"),
         ("[late]\nper_day = 1\ndue = 2026-05-04T22:00:00\n", "time zone"),
@@ -83,7 +83,7 @@ def test_nobody_else_is_touched(tmp_path):
     ],
 )
 def test_what_cannot_be_meant_is_refused(tmp_path, text, words):
-    with pytest.raises(CannotGrade, match=words):
+    with pytest.raises(Stop, match=words):
         loaded(tmp_path, text)
 
 
@@ -91,30 +91,30 @@ def test_a_date_alone_is_the_end_of_that_day_in_the_schools_zone(tmp_path):
     """As in course.toml; people write extensions so."""
     text = 'zone = "Asia/Kolkata"\n[late]\ndue = 2026-05-04\nper_day = 10\n'
     decided = loaded(tmp_path, text + adjust(due="2026-05-09"))
-    assert decided.due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
-    assert decided.due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
-    with pytest.raises(CannotGrade, match="due = 2026-05-04 23:59:59 needs its time zone"):
+    assert decided.find_due(Found("ann", ())) == datetime(2026, 5, 9, 18, 29, 59, tzinfo=UTC)
+    assert decided.find_due(Found("ben", ())) == datetime(2026, 5, 4, 18, 29, 59, tzinfo=UTC)
+    with pytest.raises(Stop, match="due = 2026-05-04 23:59:59 needs its time zone"):
         loaded(tmp_path, "[late]\ndue = 2026-05-04\n")
 
 
 @pytest.mark.parametrize(
     "line, words",
     [
-        ("points = 70.5", "points = 70.5 of 'Ann' must be a whole number"),
-        ("add = '5'", "add = '5' of 'Ann' must be a whole number"),
-        ("bonus = true", "bonus = True of 'Ann' must be a whole number"),
+        ("points = 70.5", "about 'Ann': points = 70.5 must be a whole number"),
+        ("add = '5'", "about 'Ann': add = '5' must be a whole number"),
+        ("bonus = true", "about 'Ann': bonus = True must be a whole number"),
         ("due = '09.05.2026'", "must be a date without quotes, as in due = 2027"),
     ],
 )
 def test_what_is_no_number_or_date_is_said_in_the_words_of_the_file(tmp_path, line, words):
     name, _, value = line.partition(" = ")
-    with pytest.raises(CannotGrade) as refused:
+    with pytest.raises(Stop) as refused:
         loaded(tmp_path, LATE + f"[[adjust]]\nstudent = 'Ann'\nreason = 'x'\n{name} = {value}\n")
     assert words in str(refused.value)
 
 
 def test_a_missing_file_is_said(tmp_path):
-    with pytest.raises(CannotGrade, match="no adjustments at"):
+    with pytest.raises(Stop, match="no adjustments at"):
         load_adjustments(tmp_path / "none.toml")
 
 
@@ -122,7 +122,7 @@ def test_a_missing_file_is_said(tmp_path):
 
 
 def final(tmp_path: Path, text: str, points: int | None = 80, **found: object):
-    return loaded(tmp_path, text).final(Found("ann", (), **found), points)
+    return loaded(tmp_path, text).decide(Found("ann", (), **found), points)
 
 
 def late_by(**time: float) -> dict[str, datetime]:
@@ -186,8 +186,8 @@ def test_times_without_a_zone_are_the_schools(tmp_path):
 def test_one_decision_for_several_and_an_address_by_its_first_half(tmp_path):
     text = "[[adjust]]\nstudent = ['ann', 'ben@x']\nreason = 'pair'\nadd = 1\n"
     decided = loaded(tmp_path, text)
-    assert decided.final(Found("ben@x", ()), 5).points == 6
-    assert decided.final(Found("ann@y", ()), 5).points == 6
+    assert decided.decide(Found("ben@x", ()), 5).points == 6
+    assert decided.decide(Found("ann@y", ()), 5).points == 6
     decided.refuse_doubts(["ann@y", "ben@x"])
-    with pytest.raises(CannotGrade, match="could be ann@x or ann@y"):
+    with pytest.raises(Stop, match="could be ann@x or ann@y"):
         decided.refuse_doubts(["ann@x", "ann@y"])

@@ -15,25 +15,25 @@ from pathlib import Path
 
 import psutil
 import pytest
+from command_line import run_grader
 from fragile_pool import FragilePool, result_of
 from rich.console import Console
-from typer.testing import CliRunner
 
 from grader.bank.members import add_odd_names
 from grader.classroom import batch, grading
 from grader.classroom.adjustments import Adjust, Adjustments
 from grader.classroom.batch import Run, grade_class
+from grader.classroom.book import Book
 from grader.classroom.executor import Graded, grade_package, shared_worker
-from grader.classroom.fingerprint import key_of
-from grader.classroom.grading import ClassOptions, page_of, run_class
-from grader.classroom.similarity import Prints, prints_of
-from grader.cli import classroom as commands
-from grader.intake.found import Found, Package
-from grader.intake.listing import opened_class
+from grader.classroom.fingerprint import make_key
+from grader.classroom.grading import ClassOptions, run_class, write_page
+from grader.classroom.similarity import Prints, make_prints
+from grader.errors import Stop
+from grader.intake.found import Found, Intake, Package
+from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.judge.fingerprint import DECIDING, deciding_files
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.submission import CannotGrade
 from grader.report import progress
 from grader.report.files import as_json
 
@@ -74,11 +74,16 @@ def classroom(tmp_path: Path) -> Path:
     return tmp_path / "class"
 
 
+def start(intake: Intake, classroom: Path) -> Run:
+    return Run(intake, Book(classroom.parent / "out"), "key")
+
+
 def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = None) -> Run:
     """One run; `.names` of its executor are those that were graded anew."""
     executor = Inline()
-    with opened_class(classroom) as intake:
-        run = grade_class(intake, classroom.parent / "out", key, executor, QUIET, adjustments)
+    with open_class(classroom) as intake:
+        run = Run(intake, Book(classroom.parent / "out"), key, adjustments or Adjustments())
+        grade_class(run, executor, QUIET)
     run.names = executor.names
     return run
 
@@ -89,15 +94,15 @@ def graded(classroom: Path, key: str = "key", adjustments: Adjustments | None = 
 def test_a_log_gets_a_line_now_and_then(classroom, monkeypatch):
     monkeypatch.setattr(progress, "NOW_AND_THEN", 0.0)
     log = Console(record=True, force_terminal=False, file=io.StringIO())
-    with opened_class(classroom) as intake:
-        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    with open_class(classroom) as intake:
+        grade_class(start(intake, classroom), Inline(), log)
     assert "grading: 1 of 3, 1 graded\ngrading: 2 of 3, 2 graded\n" in log.export_text()
 
 
 def test_a_log_of_short_work_gets_none(classroom):
     log = Console(record=True, force_terminal=False, file=io.StringIO())
-    with opened_class(classroom) as intake:
-        grade_class(intake, classroom.parent / "out", "key", Inline(), log)
+    with open_class(classroom) as intake:
+        grade_class(start(intake, classroom), Inline(), log)
     assert log.export_text() == ""
 
 
@@ -114,8 +119,8 @@ def test_only_what_changed_is_graded_again(classroom):
 
 def test_a_result_that_is_gone_or_touched_is_made_again(classroom):
     run = graded(classroom)
-    run.book.result_file("ann").unlink()
-    run.book.result_file("cem").write_text("{}", encoding="utf-8")
+    run.book.locate_result("ann").unlink()
+    run.book.locate_result("cem").write_text("{}", encoding="utf-8")
     assert graded(classroom).names == ["ann", "cem"]
 
 
@@ -133,11 +138,11 @@ def test_a_line_cut_off_by_a_kill_costs_that_submission_only(classroom):
 
 
 def test_no_result_outlives_its_submission(classroom):
-    assert graded(classroom).book.result_file("ann").exists()
+    assert graded(classroom).book.locate_result("ann").exists()
     shutil.rmtree(classroom / "ann")
     (classroom / "ann.zip").write_bytes(b"not a zip")
     run = graded(classroom)
-    assert not run.book.result_file("ann").exists()
+    assert not run.book.locate_result("ann").exists()
     assert "broken" in {each.name: each.trouble for each in run.outcomes}["ann"]
     assert run.counts == {"graded": 0, "kept": 2, "trouble": 1}
 
@@ -146,13 +151,13 @@ def test_results_of_others_in_the_folder_stay_and_are_mentioned(classroom):
     graded(classroom)
     shutil.rmtree(classroom / "ben")
     run = graded(classroom)
-    assert run.book.result_file("ben").exists()
+    assert run.book.locate_result("ben").exists()
     assert any("others than this class: ben" in note for note in run.notes)
 
 
 def test_the_key_depends_on_all_that_decides(tmp_path):
     keys = {
-        key_of(options)
+        make_key(options)
         for options in (
             Options(),
             Options(seed=1),
@@ -161,7 +166,7 @@ def test_the_key_depends_on_all_that_decides(tmp_path):
             Options(shipped_reference()),
         )
     }
-    assert len(keys) == 5 and key_of(Options(seed=1)) in keys
+    assert len(keys) == 5 and make_key(Options(seed=1)) in keys
 
 
 def test_what_decides_no_points_does_not_count(tmp_path):
@@ -184,9 +189,8 @@ def test_what_decides_uses_nothing_that_does_not_count():
                     used.setdefault(str(node.module).split(".")[1], set()).add(path.name)
     places = {Path(name).stem for name in DECIDING}
     assert places <= {*used, "worker", "checks"}, "something counts that nothing uses"
-    # Replays show what was decided, in the words of reports.
     shown = {name: files for name, files in used.items() if name not in places}
-    assert shown == {"player": {"filming.py", "replay.py"}, "words": {"replay.py"}}
+    assert shown == {}
 
 
 # ---------------------------------------------------------------- adjustments, table, notes
@@ -194,9 +198,9 @@ def test_what_decides_uses_nothing_that_does_not_count():
 
 def test_adjustments_stay_on_top_and_results_as_they_are(classroom):
     adjustments = Adjustments(adjust=[Adjust("ann", "=ill", add=40), Adjust("eve", "x", add=1)])
-    before = graded(classroom).book.result_file("ann").read_bytes()
+    before = graded(classroom).book.locate_result("ann").read_bytes()
     for run in (graded(classroom, adjustments=adjustments), graded(classroom, "k", adjustments)):
-        assert run.book.result_file("ann").read_bytes() == before
+        assert run.book.locate_result("ann").read_bytes() == before
         with open(run.book.table, encoding="utf-8-sig", newline="") as file:
             row = next(row for row in csv.DictReader(file) if row["name"] == "ann")
         assert (row["points"], row["found"], row["adjusted"]) == ("41", "1", "'=ill: +40")
@@ -209,7 +213,7 @@ def test_marks_for_the_lms_are_those_after_adjustments(classroom):
     (classroom / "list.csv").write_text("Email address\nann@x\nben@x\n", encoding="utf-8")
     out = classroom / "marks.csv"
     files = [str(classroom / "list.csv"), "--results", str(classroom.parent / "out")]
-    done = CliRunner().invoke(commands.app, ["marks", *files, "--out", str(out)])
+    done = run_grader("marks", *files, "--out", out)
     assert done.exit_code == 0 and "ann: ill: set to 2" in done.output
     rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
     assert [row["Grade"] for row in rows] == ["100.0", "50.0"]
@@ -252,9 +256,9 @@ def test_and_where_only_comparing_goes_wrong(classroom, monkeypatch):
     def breaks(package: Package, whose: tuple[str, ...]) -> Prints:
         if package.name == "ben":
             raise UnicodeEncodeError("utf-8", "x", 0, 1, "surrogates")
-        return prints_of(package, whose)
+        return make_prints(package, whose)
 
-    monkeypatch.setattr(batch, "prints_of", breaks)
+    monkeypatch.setattr(batch, "make_prints", breaks)
     assert graded(classroom).names == ["ann", "cem"]
 
 
@@ -265,7 +269,7 @@ def test_names_and_words_are_harmless_in_the_table(classroom):
 
 
 def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
-    monkeypatch.setattr(grading, "opened_executor", lambda wanted: FragilePool(wanted.options, 1))
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: FragilePool(wanted.options, 1))
     (classroom / "roster.csv").write_text(
         "First name,Last name,Email address\nA,A,ann@x\nD,D,dora@x\n", encoding="utf-8"
     )
@@ -282,8 +286,8 @@ def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypa
 def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
     for name in ("killer", "killer2", "raiser", *(f"more{n}" for n in range(3))):
         shutil.copytree(classroom / "ann", classroom / name)
-    with opened_class(classroom) as intake, FragilePool(Options(), 2) as pool:
-        run = grade_class(intake, classroom.parent / "out", "key", pool, QUIET)
+    with open_class(classroom) as intake, FragilePool(Options(), 2) as pool:
+        run = grade_class(start(intake, classroom), pool, QUIET)
     troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
     assert troubles.keys() == {"killer", "killer2", "raiser"}
     assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
@@ -300,8 +304,8 @@ def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classr
                 future.set_running_or_notify_cancel()
             return future
 
-    with opened_class(classroom) as intake, pytest.raises(CannotGrade, match="goes on from there"):
-        grade_class(intake, classroom.parent / "out", "key", Leaving(), QUIET)
+    with open_class(classroom) as intake, pytest.raises(Stop, match="goes on from there"):
+        grade_class(start(intake, classroom), Leaving(), QUIET)
     assert graded(classroom).names == ["ben", "cem"]
 
 
@@ -312,7 +316,7 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
     run = run_class(tmp_path / "class", ClassOptions(ONLY_8A, jobs=1), QUIET)
     for name in ("anna", "ben"):
         alone = as_json(grade(tmp_path / "class" / name, ONLY_8A, shared_worker()))
-        assert run.book.result_file(name).read_bytes() == alone
+        assert run.book.locate_result(name).read_bytes() == alone
     assert [each.points for each in run.outcomes] == [2, 0]
     assert "anna" in (tmp_path / "class-results.class.html").read_text(encoding="utf-8")
     assert (tmp_path / "class-results" / "anna.html").is_file()
@@ -321,9 +325,9 @@ def test_a_class_gets_the_bytes_that_each_gets_alone(tmp_path):
 def test_a_page_of_too_many_is_left_to_its_command(classroom, monkeypatch):
     run = graded(classroom)
     monkeypatch.setattr(grading, "LONGEST_PAGE", 2)
-    assert "more than 2, by `grader dashboard" in page_of(run)
+    assert "more than 2, by `grader dashboard" in write_page(run)
     monkeypatch.setattr(grading, "LONGEST_PAGE", 3)
-    assert page_of(run).endswith("out.class.html")
+    assert write_page(run).endswith("out.class.html")
 
 
 def command(classroom: Path) -> list[str]:
@@ -353,7 +357,7 @@ def test_a_kill_in_the_middle_and_a_rerun_are_an_undisturbed_run(tmp_path, monke
     assert done.returncode == 0, done.stderr
     kept = int(done.stdout.split(" kept")[0].split()[-1])
     assert kept in (stands, stands - 1)  # one may have been written and not yet been noted
-    monkeypatch.setattr(grading, "opened_executor", lambda _: nullcontext(InThisProcess()))
+    monkeypatch.setattr(grading, "open_executor", lambda _: nullcontext(InThisProcess()))
     undisturbed = run_class(tmp_path / "undisturbed" / "class", ClassOptions(ONLY_8A), QUIET)
     assert snapshot(results) == snapshot(undisturbed.book.folder)
 

@@ -13,15 +13,16 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from grader.classroom import cluster, fingerprint
+from grader.classroom import cluster
 from grader.classroom.cluster import grade_here
 from grader.classroom.executor import ExecutorFailed
-from grader.classroom.fingerprint import packed_reference
+from grader.classroom.fingerprint import pack_reference
 from grader.classroom.grading import ClassOptions, run_class
+from grader.errors import Stop
 from grader.intake.found import Package
+from grader.judge import fingerprint
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import CannotGrade
 from grader.report.files import as_json
 
 distributed = pytest.importorskip("distributed", reason="needs the extra `cluster`")
@@ -82,7 +83,7 @@ def test_a_cluster_gives_the_same_bytes_though_a_worker_is_killed(workers, class
 
 def test_no_scheduler_is_a_sentence(classroom, monkeypatch):
     monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
-    with pytest.raises(CannotGrade, match="there is no Dask scheduler"):
+    with pytest.raises(Stop, match="there is no Dask scheduler"):
         graded(classroom, "out", cluster="tcp://127.0.0.1:9")
 
 
@@ -90,7 +91,7 @@ def test_workers_with_another_grader_are_refused(workers, classroom):
     with distributed.Client(workers, set_as_default=False) as client:
         client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))
         try:
-            with pytest.raises(CannotGrade, match=r"another version .* on tcp://"):
+            with pytest.raises(Stop, match=r"another version .* on tcp://"):
                 graded(classroom, "out", cluster=workers.scheduler_address)
         finally:
             client.restart()
@@ -102,7 +103,7 @@ def test_a_worker_with_another_grader_that_joins_later_stops_the_class():
 
 
 def test_the_reference_that_travels_is_enough(tmp_path):
-    reference = packed_reference(shipped_reference())
+    reference = pack_reference(shipped_reference())
     assert reference is not None
     modules = {todo.module for todo in load_rubric().todos}
     assert {Path(name).parts[0].removesuffix(".py") for name, _ in reference.files} == modules

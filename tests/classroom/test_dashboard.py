@@ -9,14 +9,14 @@ from urllib.parse import unquote
 
 import msgspec
 import pytest
+from command_line import run_grader
 from msgspec import structs
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
-from typer.testing import CliRunner
 
 from grader.bank.members import members
-from grader.classroom.book import Book, Outcome, outcome_of
-from grader.classroom.dashboard import NoResults, read_class, write_dashboard
-from grader.cli import classroom as commands
+from grader.classroom.book import Book, Outcome, make_outcome
+from grader.classroom.dashboard import read_class, write_dashboard
+from grader.errors import Stop
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.report.files import as_json, write_json
@@ -57,7 +57,7 @@ def make_class(folder: Path, count: int, name: str = "student {:03}", words: str
     with Book(folder) as book:
         for number in range(count):
             content = as_json(result(number, words))
-            outcome = outcome_of(name.format(number), content, 2.0 + (number == 5) * 9, "")
+            outcome = make_outcome(name.format(number), content, 2.0 + (number == 5) * 9, "")
             book.write(outcome, content)
             outcomes.append(outcome)
         if count > 4:
@@ -67,7 +67,7 @@ def make_class(folder: Path, count: int, name: str = "student {:03}", words: str
             outcomes[4] = msgspec.structs.replace(
                 outcomes[4], late=True, reasons=[f"1 day late: -10 {words}"], final=final
             )
-        book.close_with(outcomes)
+        book.finish(outcomes)
     return write_dashboard(folder, read_class(folder))
 
 
@@ -118,12 +118,12 @@ def test_a_students_page_has_the_mark_the_dates_and_what_was_decided(tmp_path: P
     at = datetime(2026, 5, 4, 22, tzinfo=UTC)
     content = as_json(result(1))
     with Book(tmp_path / "class") as book:
-        ann = outcome_of("ann", content, 1.0, "")
+        ann = make_outcome("ann", content, 1.0, "")
         book.write(ann, content)
         ann = structs.replace(ann, final=70, reasons=["1 day late: -10", "<ill>: +2"], due=at)
         ann = structs.replace(ann, handed_in=at, notes=["a (1).py is taken as a.py"])
         ben = Outcome("ben", "broken", final=70, max_points=98, by_hand=True, reasons=["seen: 70"])
-        book.close_with([ann, ben, Outcome("cem", "broken")])
+        book.finish([ann, ben, Outcome("cem", "broken")])
     write_dashboard(tmp_path / "class", read_class(tmp_path / "class"))
     pages = {n: (tmp_path / "class" / f"{n}.html").read_text() for n in ("ann", "ben", "cem")}
     for words in ("Mark: <strong>70</strong> of 98", "1 day late: -10", "&lt;ill&gt;: +2"):
@@ -173,9 +173,9 @@ def test_results_without_a_book_are_shown_and_rubbish_is_named(tmp_path: Path):
 
 
 def test_an_empty_folder_is_refused(tmp_path: Path):
-    with pytest.raises(NoResults, match="there are no results in"):
+    with pytest.raises(Stop, match="there are no results in"):
         read_class(tmp_path)
-    assert CliRunner().invoke(commands.app, ["dashboard", str(tmp_path)]).exit_code == 2
+    assert run_grader("dashboard", tmp_path).exit_code == 2
 
 
 @pytest.mark.soak
@@ -188,7 +188,7 @@ def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
         write_json(graded, tmp_path / "results" / f"{student}.json")
     before = (tmp_path / "results" / "ann.json").read_bytes()
     folders = [str(tmp_path / "results"), "--submissions", str(tmp_path / "class")]
-    done = CliRunner().invoke(commands.app, ["dashboard", *folders])
+    done = run_grader("dashboard", *folders)
     assert done.exit_code == 0, done.output
     (replay,) = [link for link in links(tmp_path / "results.class.html") if "/ann/" in link]
     assert '<canvas id="picture"' in (tmp_path / replay).read_text(encoding="utf-8")

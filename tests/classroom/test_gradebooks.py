@@ -4,12 +4,11 @@ from pathlib import Path
 
 import gradebooks
 import pytest
-from typer.testing import CliRunner
+from command_line import run_grader
 
 from grader.classroom.book import NOTHING, Book, Outcome
-from grader.classroom.marks import Marking, marks, parts_from_results
-from grader.cli import classroom as commands
-from grader.intake.roster import read_roster
+from grader.classroom.marks import Marking, Scores, make_marks, make_parts
+from grader.intake.systems import read_roster
 
 TITLE = "Physics engine"
 CANVAS = f"""\
@@ -72,7 +71,7 @@ def made(tmp_path: Path, text: str, outcomes: list[Outcome], encoding: str = "ut
     (tmp_path / "list.csv").write_bytes(text.encode(encoding))
     roster = read_roster(tmp_path / "list.csv")
     marking = Marking(TITLE, {"engine": 1})
-    file = marks(roster, roster.key(), parts_from_results(outcomes), marking)
+    file = make_marks(roster, roster.choose_key(), Scores(make_parts(outcomes), marking))
     return file.text.encode(file.encoding), file
 
 
@@ -155,13 +154,13 @@ def test_a_group_that_handed_in_two_ways_is_for_a_person(tmp_path):
 
 def test_the_command_writes_blackboards_file_as_blackboard_does(tmp_path):
     with Book(tmp_path / "out") as book:
-        book.close_with(graded(""))
+        book.finish(graded(""))
     (tmp_path / "list.xls").write_bytes(BLACKBOARD.encode("utf-16"))
     files = [str(tmp_path / "list.xls"), "--results", str(tmp_path / "out")]
     settings = tmp_path / "marks.toml"
     settings.write_text(f'title = "{TITLE}"\n[shares]\nengine = 1\n', encoding="utf-8")
     out = ["--out", str(tmp_path / "marks.xls"), "--settings", str(settings)]
-    done = CliRunner().invoke(commands.app, ["marks", *files, *out])
+    done = run_grader("marks", *files, *out)
     assert done.exit_code == 1, done.output
     told = gradebooks.blackboard((tmp_path / "marks.xls").read_bytes(), TITLE)
     assert told["cem"] == ("70.0", "") and told["ben"] == ("", "")

@@ -17,11 +17,12 @@ import ci_readers
 import msgspec
 import pytest
 
-from grader.classroom.gradescope import NoWheels, write_autograder
+from grader.classroom.gradescope import write_autograder
 from grader.classroom.gradescope.autograder import Settings
+from grader.errors import Stop
 from grader.judge.grade import KIT
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.gradescope import write_gradescope
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="Gradescope's machines run Linux")
 
@@ -244,7 +245,7 @@ def test_bonus_is_said_and_not_summed():
     check = CheckResult("a", "Sleeps", "unit", "passed", 3, 3)
     bonus = TodoResult("B1", "Sleep", "passed", 3, 3, None, [check])
     engine = TodoResult("1", "Touch", "passed", 3, 3, None, [check])
-    made = json.loads(gradescope(Result(1, "ann", 3, 3, 3, ["processes"], [engine, bonus])))
+    made = json.loads(write_gradescope(Result(1, "ann", 3, 3, 3, ["processes"], [engine, bonus])))
     _, extra = ci_readers.gradescope_tests(made)
     assert made["score"] == 3 and made["output"] == "3 of 3 points, and 3 bonus"
     assert extra["name"].endswith("(bonus: 3 of 3)") and "score" not in extra
@@ -273,7 +274,7 @@ def test_it_is_set_up_from_its_own_packages_and_grades(tmp_path: Path):
     version = "{}.{}".format(*sys.version_info)
     try:
         write_autograder(tmp_path / "autograder.zip", Settings(), version)
-    except NoWheels:
+    except Stop:
         pytest.skip("pip reaches no package index from here, and packages are what is set up")
     top = tmp_path / "autograder"
     lay_out(tmp_path / "autograder.zip", top)

@@ -7,16 +7,15 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from command_line import run_grader
 from page_readers import HOSTILE, Reader
 from points_pool import Inline
 from rich.console import Console
-from typer.testing import CliRunner
 
 from grader.bank.members import members
 from grader.classroom import grading
 from grader.classroom.grading import ClassOptions, run_class
-from grader.classroom.similarity import EXPECTED, Pair, alike, prints_of, read_alike
-from grader.cli import classroom as commands
+from grader.classroom.similarity import EXPECTED, Pair, find_pairs, make_prints, read_pairs
 from grader.intake.found import Found, Package
 from grader.intake.packing import pack
 from grader.judge.grade import KIT, Options
@@ -45,7 +44,7 @@ def right(tmp_path_factory) -> dict[str, Package]:
 
 
 def shares(packages: list[Package]) -> list[Pair]:
-    return alike([prints_of(each) for each in packages], 0.0)
+    return find_pairs([make_prints(each) for each in packages], 0.0)
 
 
 @pytest.mark.soak
@@ -72,34 +71,38 @@ def dressed(package: Package) -> Package:
 
 @pytest.mark.parametrize("name", ["whole-very-terse", "whole-functional-style"])
 def test_a_copy_is_shown_however_it_is_dressed(right, name):
-    (pair,) = alike([prints_of(p) for p in [*(right[n] for n in WHOLE), dressed(right[name])]])
+    (pair,) = find_pairs(
+        [make_prints(p) for p in [*(right[n] for n in WHOLE), dressed(right[name])]]
+    )
     assert set(pair.names) == {"copy", name} and pair.share > 0.8
 
 
 def test_what_everybody_was_given_and_the_solutions_wording_tell_nothing(tmp_path):
     trees = [pack(Found(name, (KIT / name,))) for name in ("starter", "solution")]
-    assert all(not prints_of(each).runs for each in trees)
+    assert all(not make_prints(each).runs for each in trees)
     twins = [Package(name, trees[1].files) for name in ("ann", "ben")]
-    assert alike([prints_of(each) for each in twins], 0.0) == []
+    assert find_pairs([make_prints(each) for each in twins], 0.0) == []
 
 
 def test_who_handed_in_together_is_no_pair(right):
     together = (Path("one folder"),)
     package = right["whole-very-terse"]
-    both = [prints_of(Package(name, package.files), together) for name in ("ann", "ben")]
-    apart = [prints_of(Package(name, package.files)) for name in ("ann", "ben")]
-    assert not alike(both) and alike(apart) == [Pair("ann", "ben", 1.0, alike(apart)[0].runs)]
+    both = [make_prints(Package(name, package.files), together) for name in ("ann", "ben")]
+    apart = [make_prints(Package(name, package.files)) for name in ("ann", "ben")]
+    assert not find_pairs(both) and find_pairs(apart) == [
+        Pair("ann", "ben", 1.0, find_pairs(apart)[0].runs)
+    ]
 
 
 def test_what_many_have_tells_nothing(right):
     package = right["whole-very-terse"]
-    many = [prints_of(Package(f"s{n}", package.files)) for n in range(20)]
-    assert alike(many) == []
+    many = [make_prints(Package(f"s{n}", package.files)) for n in range(20)]
+    assert find_pairs(many) == []
 
 
 def test_the_same_pairs_whatever_the_hash_seed_is():
     text = "a = b + c * d - e / f\n" * 9
-    code = f"from grader.classroom.similarity import runs_of; print(sorted(runs_of({text!r})))"
+    code = f"from grader.classroom.similarity import hash_runs; print(sorted(hash_runs({text!r})))"
     told = {
         subprocess.run(
             [sys.executable, "-c", code],
@@ -114,7 +117,7 @@ def test_the_same_pairs_whatever_the_hash_seed_is():
 
 
 def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right, monkeypatch):
-    monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline())
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     package, classroom = right["whole-very-terse"], tmp_path / "class"
     wrong = "<script>alert(1)</script>"
     for name, each in (("ann", package), ("ben", dressed(package)), ("zoe", right[WHOLE[0]])):
@@ -122,7 +125,7 @@ def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right
         Package(name, files).unpack(classroom) if classroom.mkdir(exist_ok=True) is None else None
     run_class(classroom, ClassOptions(Options()), Console(quiet=True))
     results = tmp_path / "class-results"
-    (pair,) = read_alike(results)
+    (pair,) = read_pairs(results)
     assert pair.names == ("ann", "ben")
     page = (tmp_path / "class-results.class.html").read_text(encoding="utf-8")
     assert "ann and ben" in page and "class-results.alike.html#pair-1" in page
@@ -136,13 +139,15 @@ def test_pairs_are_on_the_class_page_side_by_side_and_in_a_table(tmp_path, right
     last.mkdir()
     Package("old", right[WHOLE[0]].files).unpack(last)
     words = ["alike", str(results), "--submissions", str(classroom), "--also", str(last)]
-    done = CliRunner().invoke(commands.app, words)
+    done = run_grader(*words)
     assert done.exit_code == 0, done.output
-    assert {each.names for each in read_alike(results)} == {("ann", "ben"), ("2025/old", "zoe")}
+    assert {each.names for each in read_pairs(results)} == {("ann", "ben"), ("2025/old", "zoe")}
 
 
 def test_no_pair_of_others_than_the_class(right):
     package = right["whole-very-terse"]
     names = ("a", "b", "c")
-    prints = [prints_of(Package(name, package.files)) for name in names]
-    assert {each.names for each in alike(prints, of={"a"})} == set(list(combinations(names, 2))[:2])
+    prints = [make_prints(Package(name, package.files)) for name in names]
+    assert {each.names for each in find_pairs(prints, of={"a"})} == set(
+        list(combinations(names, 2))[:2]
+    )

@@ -15,15 +15,14 @@ import msgspec
 import packed
 import pytest
 from classes import TITLE, Student
+from command_line import run_grader
 from points_pool import Inline, PointsPool
 from rich.console import Console
-from typer.testing import CliRunner
 
 from grader.bank.members import members
 from grader.classroom import grading
 from grader.classroom.batch import Run
 from grader.classroom.grading import ClassOptions, run_class
-from grader.cli import classroom as commands
 from grader.intake import archives, repack
 from grader.judge.children import start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -71,15 +70,15 @@ def name_in(system: str, student: Student) -> str:
 
 @pytest.fixture
 def in_one_process(monkeypatch) -> None:
-    monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline())
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
     here(monkeypatch)
 
 
 def here(monkeypatch) -> None:
     """Archives are read by this process: `test_pieces.py` has them read as they are in earnest."""
-    monkeypatch.setattr(repack, "limit", lambda: None)
+    monkeypatch.setattr(repack, "set_limits", lambda: None)
     make = lambda path, target: repack.main(str(path), str(target)) and []  # noqa: E731
-    monkeypatch.setattr(archives, "make_plain", lambda *paths: make(*paths) or [])
+    monkeypatch.setattr(archives, "repack_as_zip", lambda *paths: make(*paths) or [])
 
 
 def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
@@ -161,7 +160,7 @@ def the_gradebook_takes_it(graded: Class) -> None:
     )
     out = graded.folder.parent / "marks.csv"
     words = [str(graded.roster), "--results", str(graded.results), "--settings", str(settings)]
-    done = CliRunner().invoke(commands.app, ["marks", *words, "--out", str(out)])
+    done = run_grader("marks", *words, "--out", out)
     assert done.exit_code == 1, done.output
     told = list(READERS[graded.system](out.read_bytes()).values())
     for student, (mark, _) in zip(graded.students, told, strict=True):
@@ -177,7 +176,7 @@ def feedback_goes_back(graded: Class) -> None:
     if graded.system in ("canvas", "moodle", "brightspace"):
         out = graded.folder.parent / "back.zip"
         words += ["--for", graded.system, "--submissions", str(graded.folder), "--out", str(out)]
-        done = CliRunner().invoke(commands.app, words)
+        done = run_grader(*words)
         assert done.exit_code in (0, 1), done.output
         with zipfile.ZipFile(out) as archive:
             names = archive.namelist()
@@ -198,7 +197,7 @@ def feedback_goes_back(graded: Class) -> None:
     elif graded.system == "gradescope":
         out = graded.folder.parent / "mail"
         words += ["--for", "email", "--out", str(out)]
-        CliRunner().invoke(commands.app, words)
+        run_grader(*words)
         assert {f"{each.email}.html" for each in here} <= {path.name for path in out.iterdir()}
 
 
@@ -219,7 +218,7 @@ def test_stopped_twice_the_bytes_are_the_same(tmp_path, monkeypatch, system):
     for name, stops in (("once", 0), ("again", 2)):
         folder, roster, _ = exported(tmp_path / name, system)
         options = ClassOptions(Options(), roster=roster)
-        monkeypatch.setattr(grading, "opened_executor", lambda wanted: Inline(3))
+        monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline(3))
         for _ in range(stops):
             with pytest.raises(KeyboardInterrupt):
                 run_class(folder, options, QUIET)
@@ -240,7 +239,7 @@ def test_on_two_workers_the_bytes_are_the_same(tmp_path, monkeypatch):
 
 def bytes_of(monkeypatch, folder: Path, options: ClassOptions, executor) -> dict[str, bytes]:
     """What a run leaves behind, once more run to make sure that nothing is graded again."""
-    monkeypatch.setattr(grading, "opened_executor", executor)
+    monkeypatch.setattr(grading, "open_executor", executor)
     run_class(folder, options, QUIET)
     run = run_class(folder, options, QUIET)
     assert run.counts["graded"] == 0
@@ -378,7 +377,7 @@ def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
         words += ["--submissions", str(graded.folder), "--for", graded.system]
     else:
         words += ["--for", "nbgrader"]
-    CliRunner().invoke(commands.app, [*words, "--out", str(out)])
+    run_grader(*words, "--out", out)
     if out.is_dir():
         found = {path.parts[-3] for path in out.rglob("*.html")}
     else:

@@ -9,14 +9,13 @@ import sysconfig
 from pathlib import Path
 
 import pytest
-import typer
-from typer.testing import CliRunner
+from command_line import run_grader
 
 from grader.bank.members import members
-from grader.cli import classroom, dev
+from grader.cli import dev
 from grader.cli import main as cli
 from grader.cli import shared as commands
-from grader.intake.listing import class_in
+from grader.intake.listing import find_class
 from grader.judge.grade import KIT
 
 
@@ -25,14 +24,6 @@ def grader(*args: object, cwd: Path = KIT) -> subprocess.CompletedProcess[str]:
     environment.pop("MAKELEVEL", None)  # `make test` is not `make hint`
     command = [sys.executable, "-m", "grader", *map(str, args)]
     return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
-
-
-def whole_app() -> typer.Typer:
-    """The command line in this process, with all commands."""
-    app = typer.Typer()
-    for each in (cli.app, classroom.app, dev.app):
-        app.add_typer(each)
-    return app
 
 
 def unwrapped(words: str) -> str:
@@ -142,7 +133,7 @@ def test_there_are_three_hints_for_every_todo():
     ],
 )
 def test_an_option_that_would_be_ignored_is_refused(arguments: str, words: str):
-    done = CliRunner().invoke(whole_app(), ["grade", *arguments.split()])
+    done = run_grader("grade", *arguments.split())
     assert done.exit_code == 2 and words in unwrapped(done.stderr)
 
 
@@ -163,15 +154,15 @@ def test_a_folder_of_submissions_is_no_submission(tmp_path: Path, form: str):
         if form == "Canvas":
             (folder / "integrators.py").rename(tmp_path / "class" / f"{name}_1_2_integrators.py")
             folder.rmdir()
-    done = CliRunner().invoke(whole_app(), ["grade", str(tmp_path / "class")])
+    done = run_grader("grade", tmp_path / "class")
     assert done.exit_code == 2
-    assert "is no submission but holds some, ann" in unwrapped(done.stderr)
+    assert "holds 2 submissions, ann" in unwrapped(done.stderr)
     assert "with --class" in done.stderr
 
 
 def test_the_students_grader_says_that_it_grades_no_class(tmp_path: Path, monkeypatch):
     monkeypatch.setattr(cli, "find_spec", lambda name: None)
-    done = CliRunner().invoke(whole_app(), ["grade", "--class", str(tmp_path)])
+    done = run_grader("grade", "--class", tmp_path)
     assert done.exit_code == 2 and "--class needs the whole kit" in unwrapped(done.stderr)
 
 
@@ -179,8 +170,8 @@ def test_a_zip_of_submissions_is_told_of_class_too(tmp_path: Path):
     for name in ("ann", "ben"):
         (tmp_path / "class" / name).mkdir(parents=True)
         (tmp_path / "class" / name / "integrators.py").touch()
-    shutil.make_archive(str(tmp_path / "class"), "zip", tmp_path / "class")
-    done = CliRunner().invoke(whole_app(), ["grade", str(tmp_path / "class.zip")])
+    shutil.make_archive(tmp_path / "class", "zip", tmp_path / "class")
+    done = run_grader("grade", str(tmp_path / "class.zip"))
     assert done.exit_code == 2 and "grade each of them with --class" in unwrapped(done.stderr)
 
 
@@ -202,7 +193,7 @@ def test_one_submission_stays_one_wherever_its_files_lie(tmp_path: Path, files: 
     for name in files:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
-    assert class_in(tmp_path) == []
+    assert find_class(tmp_path) == []
 
 
 @pytest.mark.soak
@@ -211,7 +202,7 @@ def test_no_submission_of_the_bank_is_taken_for_a_class(tmp_path: Path):
         if member.kind != "wrong":  # those are the solution with one region changed
             folder = tmp_path / str(number)
             member.build(KIT, folder)
-            assert class_in(folder) == [], member.name
+            assert find_class(folder) == [], member.name
             shutil.rmtree(folder)
 
 
@@ -237,7 +228,7 @@ def test_a_command_of_the_kit_says_so_where_the_grader_is_installed_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
 ):
     monkeypatch.setattr(commands, "KIT", tmp_path)
-    done = CliRunner().invoke(whole_app(), [*command.split(), *ELSEWHERE[command].split()])
+    done = run_grader(*command.split(), *ELSEWHERE[command].split())
     assert done.exit_code == 2 and done.stdout == ""
     words = unwrapped(done.stderr)
     assert f"`grader {command}` works on the whole kit" in words and "holds no solution/" in words

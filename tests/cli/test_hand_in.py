@@ -4,17 +4,16 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run_grader
 
 from grader.bank.sync import students_files
 from grader.cli import hand_in as packing
-from grader.cli.hand_in import PACKED, hand_in, missing_programs
-from grader.cli.student import app
+from grader.cli.hand_in import PACKED, find_missing, pack_tree
+from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.packing import pack
 from grader.judge.course import FULL, read_course
 from grader.judge.grade import KIT
-from grader.judge.submission import CannotGrade
 
 
 @pytest.fixture
@@ -40,8 +39,8 @@ def tree(tmp_path: Path) -> Path:
 
 
 def test_the_zip_holds_the_work_and_nothing_else(tree):
-    path, names = hand_in(tree)
-    assert not missing_programs(names, FULL) and path == tree / PACKED
+    path, names = pack_tree(tree)
+    assert not find_missing(names, FULL) and path == tree / PACKED
     wanted = {"helper.py", "data/level.json", "notebooks/quiz.ipynb", "integrators.py"}
     assert wanted < set(names) and "mini_engine/solver.py" in names
     first = {name.partition("/")[0] for name in names}
@@ -57,19 +56,19 @@ def test_the_zip_holds_the_work_and_nothing_else(tree):
 
 
 def test_what_is_packed_is_what_is_taken_in(tree):
-    path, names = hand_in(tree)
+    path, names = pack_tree(tree)
     package = pack(Found("ann", (path,)))
     assert [name for name, _ in package.files] == sorted(names) and not package.notes
 
 
 def test_the_same_work_is_the_same_zip(tree):
-    first = hand_in(tree)[0].read_bytes()
-    assert hand_in(tree)[0].read_bytes() == first
+    first = pack_tree(tree)[0].read_bytes()
+    assert pack_tree(tree)[0].read_bytes() == first
 
 
 def test_a_program_that_is_missing_is_said(tree):
     (tree / "integrators.py").unlink()
-    done = CliRunner().invoke(app, ["hand-in", str(tree / "mini_engine")])
+    done = run_grader("hand-in", tree / "mini_engine")
     assert done.exit_code == 1 and "There is no integrators here" in done.output
     with zipfile.ZipFile(tree / PACKED) as archive:
         assert "pymunk_scene.py" in archive.namelist()
@@ -79,14 +78,14 @@ def test_a_course_of_one_program_misses_no_other(tree):
     (tree / "pymunk_scene.py").unlink()
     course = KIT / "tests" / "courses" / "integrators.toml"
     words = ["hand-in", str(tree), "--out", str(tree / "mine.zip"), "--course", str(course)]
-    done = CliRunner().invoke(app, words)
+    done = run_grader(*words)
     assert done.exit_code == 0 and "mine.zip" in "".join(done.output.split())
-    assert missing_programs(hand_in(tree)[1], FULL) == ["pymunk_scene"]
-    assert missing_programs(hand_in(tree, read_course(course))[1], read_course(course)) == []
+    assert find_missing(pack_tree(tree)[1], FULL) == ["pymunk_scene"]
+    assert find_missing(pack_tree(tree, read_course(course))[1], read_course(course)) == []
 
 
 def test_more_than_will_be_read_is_refused(tree, monkeypatch):
     monkeypatch.setattr(packing, "MAX_FILES", 3)
-    with pytest.raises(CannotGrade, match="more than will be read"):
-        hand_in(tree)
+    with pytest.raises(Stop, match="more than will be read"):
+        pack_tree(tree)
     assert not (tree / PACKED).exists()

@@ -10,9 +10,8 @@ import warnings
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run_grader
 
-from grader.cli.student import app
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
 from grader.judge.wording import command
@@ -43,7 +42,7 @@ def grader(
 def check(tree: Path, *todos: str, options: tuple[str, ...] = ()) -> str:
     """What `check` prints, without a process of its own."""
     words = ["check", str(tree), *options, *(f"--todo={todo}" for todo in todos)]
-    return CliRunner().invoke(app, words).output
+    return run_grader(*words).output
 
 
 def fill_in(tree: Path, file: str, **regions: str) -> None:
@@ -141,7 +140,7 @@ def test_commands_are_shown_as_they_are_typed_here(monkeypatch, typed: list[str]
 
 
 def test_a_hint_for_the_whole_is_to_read_its_checks():
-    assert "no hint" in CliRunner().invoke(app, ["hint", "--todo=whole"]).output
+    assert "no hint" in run_grader("hint", "--todo=whole").output
 
 
 # ---------------------------------------------------------------- what is next

@@ -14,7 +14,7 @@ import pytest
 from rich.console import Console
 
 import grader.cli.watch
-from grader.cli.watch import SavedAgain, Watch, folders_of, moments_to_look, python_sources
+from grader.cli.watch import SavedAgain, Watch, list_folders, read_sources, wait_for_saves
 from grader.judge.children import WarmWorker, start_worker
 from grader.judge.grade import KIT, Options, grade
 from grader.report.files import as_json
@@ -280,18 +280,18 @@ def test_a_virtual_environment_is_not_watched(hand_in):
         (tree / name).mkdir(parents=True, exist_ok=True)
         (tree / name / "some.py").touch()
     (tree / "env" / "pyvenv.cfg").touch()
-    watched = {folder.relative_to(tree).as_posix() for folder in folders_of(tree)}
+    watched = {folder.relative_to(tree).as_posix() for folder in list_folders(tree)}
     assert {".", "mini_engine"} <= watched
     assert not any(
         "env" in name or name in ("build", "mini_engine/__pycache__") for name in watched
     )
-    assert not any("some.py" in file for file in python_sources(tree))
+    assert not any("some.py" in file for file in read_sources(tree))
 
 
 def test_it_looks_from_time_to_time_and_ends_with_the_folder(hand_in, monkeypatch):
     monkeypatch.setattr(grader.cli.watch, "WITHOUT_EVENTS", 10)
     tree = hand_in()
-    looks = moments_to_look(tree)
+    looks = wait_for_saves(tree)
     assert len(list(islice(looks, 3))) == 3
     tree.rmdir()
     assert len(list(islice(looks, 3))) < 3

@@ -9,11 +9,11 @@ import tomllib
 
 import pytest
 
-from experiments import compiled, effects, race
-from experiments.answers import Effort
+from experiments import compiled, piles
 from experiments.compiled import Compiled, build, load, same_bits, sources, use_compiled
 from experiments.engines import ENGINES, Stable
 from experiments.measures import run
+from experiments.runs import Effort
 from experiments.scenes import on_floor
 
 NO_COMPILER = not (shutil.which("cc") or shutil.which("gcc"))
@@ -107,11 +107,10 @@ def test_a_compiled_build_is_used_where_there_is_one_and_it_is_said(
     made = ENGINES["stable"](on_floor())
     assert type(made.world).__module__ == f"{package.name}.world"
     run(made, 0.1)
-    row = race.pile_row(8, Effort(quick=True, scale=0.1))
-    assert min(row["compiled"]["ratio"]) > 0
-    scene = effects.settled(10)
-    cases = {"pile": effects.RepeatedStep(Stable(scene))}
-    assert min(effects.clock_compiled(cases, 1)["pile"]) > 0
+    rows = piles.study_pile(8, Effort(quick=True, scale=0.1))["runs"]
+    compiled_rows = [row for row in rows if row["engine"] == "compiled"]
+    assert len(compiled_rows) == len(piles.SUBSTEPS)
+    assert all(min(row["ratio"]) > 0 for row in compiled_rows)
 
 
 def test_a_build_that_fails_says_what_it_needs(tmp_path, monkeypatch):

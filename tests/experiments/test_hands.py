@@ -1,20 +1,18 @@
-"""The window under somebody's hands: mouse, buttons, engines side by side, strips and films."""
+"""The window under somebody's hands: mouse, buttons, engines side by side, and strips."""
 
-import json
 import math
-import re
 
 import pygame
 import pytest
 from pygame.event import Event
 
-from experiments import drawing, scenes, strips, window
-from experiments.comparison import Comparison
+from experiments import scenes
+from experiments.dials import drawing, strips, window
+from experiments.dials.comparison import Comparison
+from experiments.dials.hand import FASTEST, new_ball
+from experiments.dials.show import MOST_BALLS, Show
+from experiments.dials.window import FRAME
 from experiments.engines import ENGINES
-from experiments.hand import FASTEST, new_ball
-from experiments.measures import states
-from experiments.show import MOST_BALLS, Show
-from experiments.window import FRAME
 
 G = 980.0
 
@@ -227,22 +225,6 @@ def test_reset_puts_every_dial_back():
     assert show.engine.world.iterations == show.passes["lesson"]
 
 
-def test_each_declared_effect_says_what_it_takes_of_a_step(picture):
-    show = Show("lab", "stable")
-    for _ in range(30):
-        show.advance(FRAME)
-    shares = show.times.shares
-    assert set(shares) == set(show.engine.world.effects)
-    assert all(0 <= share < 1 for share in shares.values()) and sum(shares.values()) < 1.05
-    assert shares["Contacts"] > shares["Damping"]
-    assert not Show("lab", "pymunk").times.effects
-    watched, plain = Show("lab", "stable"), ENGINES["stable"](scenes.lab())
-    for _ in range(60):
-        watched.step()
-        plain.step(watched.dt)
-    assert states(watched.engine) == states(plain), "a clock changes nothing"
-
-
 # ---------------------------------------------------------------- buttons
 
 
@@ -300,31 +282,10 @@ def test_strips_show_what_was_measured_and_leave_room_for_the_scene(picture):
     assert (first[1], last[1]) == (40, 0)
 
 
-# ---------------------------------------------------------------- films and the command line
+# ---------------------------------------------------------------- the command line
 
 
-def test_a_film_of_two_engines_opens_in_the_player(tmp_path, capsys):
-    path = tmp_path / "film.html"
-    window.main(["--scene", "cradle", "--beside", "1", "--frames", "40", "--record", str(path)])
-    assert f"The film is in {path}" in capsys.readouterr().out
-    text = path.read_text(encoding="utf-8")
-    found = re.search(r'id="film">(.*?)</script>', text, re.DOTALL)
-    film = json.loads(found[1])
-    assert [each["said"] for each in film["scenes"]] == ["cradle in stable", "cradle in lesson"]
-    for scene in film["scenes"]:
-        assert len(scene["yours"]) == 20 and len(scene["looks"]) == 5
-    assert "NAMED[&#34;cradle&#34;]" in text or 'NAMED["cradle"]' in text
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--record", "film.mp4"], "give it a name that ends in .html"),
-        (["--record", "no/such/film.html"], "but there is no folder"),
-        (["--beside", "3"], "--beside is 3, but it must be 0, 1 or 2."),
-    ],
-)
-def test_what_cannot_be_done_is_said_at_once(options, words, capsys):
+def test_too_many_engines_beside_get_a_sentence(capsys):
     with pytest.raises(SystemExit):
-        window.main(options)
-    assert words in capsys.readouterr().err
+        window.main(["--beside", "3"])
+    assert "--beside is 3, but it must be 0, 1 or 2." in capsys.readouterr().err

@@ -26,7 +26,7 @@ SHARED = ("touch", "laws", "films")
 NAMES = sorted(path.stem for path in TOUCH.glob("*.js") if path.stem not in SHARED)
 PLAYED = ("predict", "tower")  # by films: see test_films.py
 MEASURED = (  # see test_measured.py
-    *("accuracy", "accuracy-budgets"),
+    "accuracy",
     *("effects-stacked", "hard-cases-limits"),
 )
 MOVED = [name for name in NAMES if name not in PLAYED + MEASURED]

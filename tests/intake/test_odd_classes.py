@@ -21,16 +21,18 @@ import gradebooks
 import packed
 import pytest
 
-from grader.classroom.book import not_imported
-from grader.classroom.course_check import Files, faults_of_course
-from grader.classroom.feedback import Returned, for_moodle
-from grader.classroom.marks import Marking, Part, Parts, marks
-from grader.intake import moodle
-from grader.intake.dates import moment
+from grader.classroom.book import list_broken
+from grader.classroom.course_check import Files, find_problems
+from grader.classroom.marks import Marking, Marks, Part, Parts, Scores, make_marks
+from grader.errors import Stop
+from grader.intake.dates import read_moment
 from grader.intake.found import CannotTake, Found, Intake
-from grader.intake.listing import opened_class
+from grader.intake.listing import open_class
+from grader.intake.lms import Page
+from grader.intake.moodle import Moodle
 from grader.intake.packing import pack
-from grader.intake.roster import CannotRead, ClassList, read_roster
+from grader.intake.roster import ClassList, Roster
+from grader.intake.systems import find_system, read_roster
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import MAX_FILES, CannotGrade, take_in
@@ -41,7 +43,7 @@ MARKING = Marking("Physics engine", {"engine": 1}, 20)
 
 
 def taken(folder: Path, people: ClassList | None = None) -> Intake:
-    with opened_class(folder, people) as intake:
+    with open_class(folder, people) as intake:
         return intake
 
 
@@ -65,6 +67,8 @@ def people_of(path: Path, text: str | bytes) -> ClassList:
 
 CHANGED = (
     *("integrators (1).py", "integrators-2.py", "integrators - Copie (2).py", "INTEGRATORS.PY"),
+    *("integrators(2).py", "integrators-12.py", "integrators - Copy.py", "integrators copy 2.py"),
+    *("integrators 2.py", "Copy of integrators.py", "integrators%20(1).py", "Integrators.py"),
     *("Kopie von integrators.py", "integrators \u2013 Kopie.py", "integrators - コピー.py"),
     *("integrators - 副本.py", "integrators — копия.py", "integrators - Cópia.py"),
     *("integrators final.py", "integrators (final).py", "my integrators.py", "ann-integrators.py"),
@@ -96,9 +100,8 @@ def test_two_drafts_of_what_nobody_asks_for_are_no_question(tmp_path: Path):
     }
     package = pack(one(tmp_path, drafts | {"more.zip": b"PK broken"}), ["pymunk_scene"])
     assert dict(package.files)["integrators.py"] == b"a = 1\n"
-    assert "of several programs integrators integrators.py is taken, none is asked for" in (
-        package.notes
-    )
+    words = "integrators.py is taken of several integrators; none of them is asked for"
+    assert words in package.notes
     with pytest.raises(CannotTake, match="more than one program integrators"):
         pack(Found("ann", (tmp_path / "ann",)), ["integrators"])
 
@@ -155,7 +158,7 @@ def test_what_is_no_program_under_its_name_is_for_a_person(tmp_path: Path, words
 
 
 def test_an_empty_file_is_for_a_person_or_said_beside_others(tmp_path: Path):
-    with pytest.raises(CannotTake, match="there is nothing in what was handed in"):
+    with pytest.raises(CannotTake, match="all programs are empty"):
         pack(one(tmp_path, {"integrators.py": b"", "mini_engine/__init__.py": b"\n"}))
     package = pack(one(tmp_path, {"integrators.py": b"", "pymunk_scene.py": SOURCE}))
     assert package.notes == ["integrators.py is empty"]
@@ -175,7 +178,7 @@ def test_the_labs_own_files_come_first_however_many_others_there_are(tmp_path: P
         for found in (one(tmp_path / "folder", files), zipped(tmp_path, files)):
             package = pack(found)
             assert lab.keys() <= {name for name, _ in package.files}
-            assert any("files: too much" in note for note in package.notes)
+            assert any("files: size limit reached" in note for note in package.notes)
     inner = many | {"zzz/work.zip": packed.as_zip(WORK)}
     assert dict(pack(zipped(tmp_path, inner)).files)["integrators.py"] == SOURCE.encode()
     submission = take_in(put(tmp_path / "plain", many | lab), tmp_path / "copy", load_rubric(), {})
@@ -258,7 +261,7 @@ def test_a_loose_file_of_who_is_listed_is_theirs(tmp_path: Path):
     folder = put(tmp_path / "class", {"ann@x.edu.docx": "words", "bo/integrators.py": SOURCE})
     intake = taken(put(folder, {"notes.docx": "mine"}), people)
     assert intake.troubles.keys() == {"ann@x.edu"} and intake.notes == [
-        "notes.docx is no submission: left out"
+        "notes.docx is no submission: skipped"
     ]
 
 
@@ -307,7 +310,7 @@ def test_of_attempts_at_unread_times_none_is_the_last(tmp_path: Path):
     put(tmp_path / "b", {f"{start}4 kvetna 2026 0930/integrators.py": "x = 1\n"})
     put(tmp_path / "b", {f"{start}15 kvetna 2026 0930/integrators.py": SOURCE})
     intake = taken(tmp_path / "b")
-    assert not intake.found and "when is not read" in intake.troubles["Jane Doe_1001-77"]
+    assert not intake.found and "at unknown times" in intake.troubles["Jane Doe_1001-77"]
 
 
 def test_a_groups_folder_is_its_members(tmp_path: Path):
@@ -339,14 +342,14 @@ MOMENTS = {
 
 @pytest.mark.parametrize("words", MOMENTS)
 def test_times_are_read_in_the_language_of_the_reader(words: str):
-    assert moment(words) == datetime(2026, 5, 4, *MOMENTS[words])
+    assert read_moment(words) == datetime(2026, 5, 4, *MOMENTS[words])
 
 
 def test_no_time_is_guessed():
     for words in ("", "-", "4/5/2026 23:59", "30 February 2026, 11:59 PM", "May 4, 2026"):
-        assert moment(words) is None
-    assert moment("4 May 2026, 13:59 PM") is None and moment("4 foo 2026, 13:59") is None
-    told = [moment(f"3 {month} 2026, 10:00") for month in ("juin", "juillet", "mars", "août")]
+        assert read_moment(words) is None
+    assert read_moment("4 May 2026, 13:59 PM") is None and read_moment("4 foo 2026, 13:59") is None
+    told = [read_moment(f"3 {month} 2026, 10:00") for month in ("juin", "juillet", "mars", "août")]
     assert [each.month for each in told if each] == [6, 7, 3, 8]
 
 
@@ -361,6 +364,10 @@ GERMAN = (
 )
 
 
+def marks_of(roster: Roster, parts: dict[str, Parts], **options: object) -> Marks:
+    return make_marks(roster, roster.choose_key(), Scores(parts, MARKING, **options))
+
+
 def scores(**points: int) -> dict[str, Parts]:
     return {name.replace("__", "@"): {"engine": Part(each, 20)} for name, each in points.items()}
 
@@ -373,7 +380,7 @@ def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters
     put(tmp_path / "class", {"Jörg Müller_401_assignsubmission_file_/integrators.py": SOURCE})
     (found,) = taken(tmp_path / "class", people).found
     assert (found.name, found.handed_in) == ("j@x.de", datetime(2026, 5, 4, 23, 59))
-    made = marks(roster, roster.key(), {"j@x.de": {"engine": Part(12, 20)}}, MARKING)
+    made = marks_of(roster, {"j@x.de": {"engine": Part(12, 20)}})
     content = made.text.encode(made.encoding)
     assert content.decode("utf-8-sig").splitlines()[0] == GERMAN.splitlines()[0]
     first, second = gradebooks.rows_of(content)
@@ -387,7 +394,7 @@ def test_a_worksheet_in_another_language_goes_back_in_it(tmp_path: Path, letters
 
 def test_windows_letters_are_asked_about(tmp_path: Path):
     classes.put(tmp_path / "list.csv", GERMAN.encode("cp1252"))
-    (fault,) = faults_of_course(Files(roster=tmp_path / "list.csv"))
+    (fault,) = find_problems(Files(roster=tmp_path / "list.csv"))
     assert "is not UTF-8" in fault and "Vollständiger" in fault
 
 
@@ -400,36 +407,36 @@ def test_semicolons_and_the_line_that_names_them(tmp_path: Path):
 @pytest.mark.parametrize("number", ["1.23E+05", "1,23457E+11"])
 def test_identifiers_that_a_spreadsheet_destroyed_are_refused(tmp_path: Path, number: str):
     classes.put(tmp_path / "list.csv", f'Email address,ID number\na@x.edu,"{number}"\n')
-    with pytest.raises(CannotRead, match="which a spreadsheet made of a number"):
+    with pytest.raises(Stop, match="which a spreadsheet made of a number"):
         read_roster(tmp_path / "list.csv")
 
 
 @pytest.mark.parametrize("start", [b"PK\x03\x04", b"\xd0\xcf\x11\xe0"])
 def test_a_workbook_is_called_so_whatever_its_name(tmp_path: Path, start: bytes):
     (tmp_path / "list.csv").write_bytes(start + b"\0" * 50)
-    with pytest.raises(CannotRead, match="is a spreadsheet's own file: export"):
+    with pytest.raises(Stop, match="is a spreadsheet's own file: export"):
         read_roster(tmp_path / "list.csv")
 
 
 def test_zeros_that_a_spreadsheet_took_are_no_other_student(tmp_path: Path):
     classes.put(tmp_path / "list.csv", "ID number,Last name,First name\n123,Lee,Ann\n7,Poe,Bo\n")
     roster = read_roster(tmp_path / "list.csv")
-    assert ClassList(roster).name_of(["ID number"], "00123") == "123"
-    made = marks(roster, "ID number", {"00123": {"engine": Part(12, 20)}}, MARKING)
+    assert ClassList(roster).find(["ID number"], "00123") == "123"
+    made = marks_of(roster, {"00123": {"engine": Part(12, 20)}})
     assert [line.split(",")[3] for line in made.text.splitlines()[1:]] == ["12.0", "0"]
     classes.put(tmp_path / "two.csv", "ID number,Last name,First name\n123,L,A\n0123,P,B\n")
     two = ClassList(read_roster(tmp_path / "two.csv"))
-    assert two.name_of(["ID number"], "0123") == "0123" and not two.name_of(["ID number"], "00123")
+    assert two.find(["ID number"], "0123") == "0123" and not two.find(["ID number"], "00123")
 
 
 def test_a_list_in_no_known_language_is_known_by_its_addresses(tmp_path: Path):
     classes.put(
         tmp_path / "list.csv", "Imię,Nazwisko,Adres e-mail\nAnna,Lis,a@x.pl\nJan,Kot,j@x.pl\n"
     )
-    assert read_roster(tmp_path / "list.csv").key() == "Adres e-mail"
+    assert read_roster(tmp_path / "list.csv").choose_key() == "Adres e-mail"
     classes.put(tmp_path / "none.csv", "Imię,Nazwisko\nAnna,Lis\nJan,Kot\n")
-    with pytest.raises(CannotRead, match="call the column that identifies students"):
-        read_roster(tmp_path / "none.csv").key()
+    with pytest.raises(Stop, match="call the column that identifies students"):
+        read_roster(tmp_path / "none.csv").choose_key()
 
 
 def test_canvas_with_names_in_two_columns(tmp_path: Path):
@@ -437,9 +444,9 @@ def test_canvas_with_names_in_two_columns(tmp_path: Path):
     rows = ",,,,,Manual Posting\n    Points Possible,,,,,20\nLee,Ann,1,ann,A,\n"
     classes.put(tmp_path / "list.csv", head + rows + "Student,Test,99,,A,\n")
     roster = read_roster(tmp_path / "list.csv")
-    assert (roster.kind, roster.possible) == ("canvas", True)
+    assert find_system(roster).name == "canvas"
     assert [row["SIS Login ID"] for row in roster.rows] == ["ann"]
-    made = marks(roster, "SIS Login ID", scores(ann=12), MARKING)
+    made = marks_of(roster, scores(ann=12))
     title, possible, ann = made.text.splitlines()
     assert (title, possible) == (head.strip(), "    Points Possible,,,,,20")
     assert ann == "Lee,Ann,1,ann,A,12.0"
@@ -455,28 +462,28 @@ def test_marks_that_moodle_would_leave_out_are_told(tmp_path: Path, most: str):
     classes.put(tmp_path / "list.csv", head + rows)
     roster = read_roster(tmp_path / "list.csv")
     given = {"ann@x.de": {"engine": Part(21, 20)}, "ben@x.de": {"engine": Part(20, 20)}}
-    (note,) = marks(roster, roster.key(), given, MARKING).notes
+    (note,) = marks_of(roster, given).notes
     assert note.startswith("ann@x.de: above 20, which Moodle's worksheet leaves out")
-    more = marks(roster, roster.key(), given, Marking("Physics engine", {"engine": 1}, 30)).notes
-    assert any("counts to 20 there" in each for each in more)
+    more = Scores(given, Marking("Physics engine", {"engine": 1}, 30))
+    notes = make_marks(roster, roster.choose_key(), more).notes
+    assert any("counts to 20 there" in each for each in notes)
 
 
 def test_nobody_has_handed_in_nothing_while_some_work_has_no_owner(tmp_path: Path):
     classes.put(tmp_path / "list.csv", "Username,Last Name,First Name\nann,L,A\nkl_6,S,K\n")
     roster = read_roster(tmp_path / "list.csv")
     stranger = scores(ann=12) | {"6": {"engine": Part(20, 20)}}
-    made = marks(roster, "Username", stranger, MARKING)
+    made = marks_of(roster, stranger)
     assert made.given == 1 and any("kl_6: no mark, as that may be" in note for note in made.notes)
     assert [line.split(",")[3] for line in made.text.splitlines()[1:]] == ["12.0", ""]
-    sure = marks(roster, "Username", stranger, MARKING, others_known=True)
+    sure = marks_of(roster, stranger, others_known=True)
     assert sure.given == 2 and "kl_6: nothing handed in" in sure.notes
 
 
 def test_moodle_reads_the_number_behind_a_name_with_an_underscore():
     source = Path("Hans_Peter Groß_402_assignsubmission_file_")
-    assert moodle.NAME.fullmatch(source.name)
-    returned = Returned(Found("h", (source,)), None, b"page")  # type: ignore[arg-type]
-    ((name, page),) = for_moodle(source, [returned])
+    page = Page("h", "feedback.html", b"page", "words")
+    ((name, page),) = Moodle().name_pages(source, [page])
     parts = name.split("_", 4)  # as Moodle's own importer takes a name apart
     assert (parts[1:4], parts[4], page) == (
         ["402", "assignsubmission", "file"],
@@ -490,7 +497,7 @@ def test_a_program_that_cannot_be_imported_is_said_in_the_table():
     check = CheckResult("a", "a", "unit", *words)
     todo = TodoResult("8a", "a", "error", 0, 4, None, [check, check])
     result = Result(1, "ann", 0, 4, 0, [], [todo])
-    assert not_imported(result) == ["import integrators fails: SyntaxError: y"]
+    assert list_broken(result) == ["import integrators fails: SyntaxError: y"]
 
 
 def test_two_hundred_students_and_nobody_is_lost(tmp_path: Path):
@@ -505,8 +512,8 @@ def test_two_hundred_students_and_nobody_is_lost(tmp_path: Path):
     people = people_of(tmp_path / "list.csv", "\n".join(rows))
     intake = taken(tmp_path / "class", people)
     names = [each.name for each in intake.found]
-    assert len(names) == 180 and len(people.absent(names)) == 20 and not intake.troubles
-    assert not people.unlisted(names)
+    assert len(names) == 180 and len(people.list_absent(names)) == 20 and not intake.troubles
+    assert not people.list_unlisted(names)
 
 
 # ---------------------------------------------------------------- a .rar as its makers pack it

@@ -12,31 +12,28 @@ from pathlib import Path
 
 import msgspec
 import pytest
-import typer
+from command_line import run_grader
 from conftest import KIT
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
-from typer.testing import CliRunner
 
 from grader.bank.members import every_member, members
 from grader.bank.verify import grade_member, shared_worker, verify
 from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run
-from grader.classroom.book import Book, Outcome, as_table
-from grader.classroom.fingerprint import key_of
+from grader.classroom.book import Book, Outcome, make_table
+from grader.classroom.fingerprint import make_key
 from grader.classroom.gradescope import write_autograder
 from grader.classroom.gradescope.autograder import Settings
 from grader.classroom.marks import load_marking
-from grader.cli import student
 from grader.cli.hand_in import PROGRAMS
-from grader.cli.main import app
+from grader.errors import Stop
 from grader.intake.found import Found, Intake
 from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, spread
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.judge.submission import CannotGrade
 from grader.judge.wording import told
 from grader.release.build import build, wrong_submissions
 from grader.release.handed_out import students_tree, write_tree
@@ -45,13 +42,10 @@ from grader.release.leaks import leaks_in_text, secrets_of
 from grader.release.nbgrader_course import make_course
 from grader.release.notebooks import notebooks_of
 from grader.release.pages import anchor
-from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.gradescope import write_gradescope
 from grader.source.regions import regions_in
 
 COURSES = {path.stem: read_course(path) for path in (KIT / "tests" / "courses").glob("*.toml")}
-EVERY = typer.Typer()
-for each in (app, student.app):
-    EVERY.add_typer(each)
 CHEAP = "integrators"
 EACH = [
     pytest.param(course, id=name, marks=[pytest.mark.soak] if name != CHEAP else [])
@@ -202,16 +196,14 @@ def test_a_course_that_is_not_there_or_no_text_is_refused(tmp_path: Path):
 def test_a_wrong_course_stops_a_command_before_it_does_anything(command: str, tmp_path: Path):
     (tmp_path / "mine.toml").write_text('todos = ["9"]', encoding="utf-8")
     words = command.replace("solution", str(KIT / "solution")).split()
-    done = CliRunner().invoke(EVERY, [*words, "--course", str(tmp_path / "mine.toml")])
+    done = run_grader(*words, "--course", tmp_path / "mine.toml")
     assert (done.exit_code, done.stdout) == (2, "")
     assert "there is no TODO '9'" in " ".join(done.stderr.split())
 
 
 def test_the_course_comes_from_the_environment_as_make_gives_it(tmp_path: Path):
     words = ["grade", str(KIT / "starter"), "--json", str(tmp_path / "r.json")]
-    done = CliRunner().invoke(
-        EVERY, words, env={"COURSE_FILE": str(KIT / "tests" / "courses" / f"{CHEAP}.toml")}
-    )
+    done = run_grader(*words, env={"COURSE_FILE": str(KIT / "tests" / "courses" / f"{CHEAP}.toml")})
     assert done.exit_code == 1
     result = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
     assert (result["points"], result["max_points"]) == (0, 40)
@@ -252,7 +244,7 @@ def test_the_points_of_the_class_follow_from_the_course():
     run = Run(Intake([found]), Book(Path("x")), "", load_adjustments(None, course), course)
     run.record("graded", found, outcome)
     assert (run.outcomes[0].final, run.outcomes[0].reasons) == (33, ["bonus: +3", "1 day late: 0"])
-    head = as_table(run.outcomes, course).splitlines()[0]
+    head = make_table(run.outcomes, course).splitlines()[0]
     assert head.endswith("trouble,notes,group,8a,8b,8c,B1")
 
 
@@ -280,12 +272,12 @@ def test_the_courses_due_date_can_be_extended(tmp_path: Path):
     found = Found("ann", (), handed_in=due + timedelta(days=3))
     path.write_text(decision.format(8), encoding="utf-8")
     course = Course(due=due, late=Late("10%"))
-    assert load_adjustments(path, course).final(found, 80).points == 80
-    assert load_adjustments(None, course).final(found, 80).points == 80 - 24
-    with pytest.raises(CannotGrade, match="has a due to extend"):
+    assert load_adjustments(path, course).decide(found, 80).points == 80
+    assert load_adjustments(None, course).decide(found, 80).points == 80 - 24
+    with pytest.raises(Stop, match="has a due to extend"):
         load_adjustments(path)
     path.write_text(decision.format(4), encoding="utf-8")
-    with pytest.raises(CannotGrade, match="is before the others'"):
+    with pytest.raises(Stop, match="is before the others'"):
         load_adjustments(path, course)
 
 
@@ -305,19 +297,19 @@ def test_a_bonus_by_hand_counts_as_the_course_counts_a_bonus(tmp_path: Path):
 def test_points_by_hand_are_the_mark_whatever_the_bonus_and_nobody_has_one_by_it(tmp_path: Path):
     path = tmp_path / "adjustments.toml"
     path.write_text("[[adjust]]\nstudent = 'ann'\nreason = 'seen'\npoints = 101\n")
-    with pytest.raises(CannotGrade, match="more than the 100"):
+    with pytest.raises(Stop, match="more than the 100"):
         load_adjustments(path)
     course = Course(bonus=3, todos=("8a", "8b", "B1"), points={"8a": 50, "8b": 49})
     run = Run(Intake([]), Book(Path("x")), "", load_adjustments(path, course), course)
     run.record("graded", Found("ann", ()), Outcome("ann", todos={"B1": 9}, max_points=99))
     run.record("trouble", Found("ben", ()), Outcome("ben", "broken"))
-    run.nothing_handed_in(["ann"])
-    assert [(each.mark, each.reasons) for each in run.comparable(run.outcomes)] == [
+    run.record_absent(["ann"])
+    assert [(each.mark, each.reasons) for each in run.scale_by_hand(run.outcomes)] == [
         (101, ["seen: set to 101"]),
         (None, []),
         (101, ["seen: set to 101"]),
     ]
-    assert [each.max_points for each in run.comparable(run.outcomes)] == [99, 0, 99]
+    assert [each.max_points for each in run.scale_by_hand(run.outcomes)] == [99, 0, 99]
 
 
 def test_gradebooks_scale_to_what_the_course_says(tmp_path: Path):
@@ -333,17 +325,17 @@ def test_gradebooks_scale_to_what_the_course_says(tmp_path: Path):
 
 def test_gradescope_has_the_courses_score():
     result = Result(1, "ann", 47, 94, 7, [], [])
-    told = json.loads(gradescope(result, COURSES["without-pymunk"]))
+    told = json.loads(write_gradescope(result, COURSES["without-pymunk"]))
     assert told["score"] == round((47 + 5) * 20 / 94, 2)
     assert told["output"].endswith("11.06 of 20")
-    assert json.loads(gradescope(result))["score"] == 47
+    assert json.loads(write_gradescope(result))["score"] == 47
 
 
 def test_what_a_course_asks_decides_what_is_graded_again_and_its_title_does_not():
     options = Options(course=COURSES[CHEAP])
-    assert key_of(options) != key_of(Options())
+    assert make_key(options) != make_key(Options())
     named = replace(options, course=Course("x", COURSES[CHEAP].todos, COURSES[CHEAP].points))
-    assert key_of(named) == key_of(options)
+    assert make_key(named) == make_key(options)
 
 
 def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
@@ -442,7 +434,7 @@ def test_hand_in_packs_the_work_and_nothing_that_was_given(
     (tmp_path / "mine" / "grader-1.whl").touch()
     monkeypatch.chdir(tmp_path / "mine" / "mini_engine")
     for name in ("a.zip", "b.zip"):
-        done = CliRunner().invoke(EVERY, ["hand-in", "--out", str(tmp_path / name)])
+        done = run_grader("hand-in", "--out", tmp_path / name)
         assert done.exit_code == 0, done.output
     assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
     with zipfile.ZipFile(tmp_path / "a.zip") as archive:
@@ -454,7 +446,7 @@ def test_hand_in_packs_the_work_and_nothing_that_was_given(
     result = graded(tmp_path / "unpacked", COURSES[CHEAP])
     assert (result.points, result.max_points) == (0, 40)
     course = str(KIT / "tests" / "courses" / f"{CHEAP}.toml")
-    done = CliRunner().invoke(EVERY, ["hand-in", "--out", "c.zip", "--course", course])
+    done = run_grader("hand-in", "--out", "c.zip", "--course", course)
     assert done.exit_code == 0, done.output
     with zipfile.ZipFile("c.zip") as archive:
         names = archive.namelist()

@@ -10,7 +10,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from grader.intake.listing import opened_class
+from grader.intake.listing import open_class
 from grader.judge import children
 from grader.judge.children import ChildEnded, WarmWorker, start_worker
 from grader.judge.grade import KIT
@@ -196,5 +196,5 @@ def test_a_list_inside_of_a_students_work_is_not_gradescopes(tmp_path: Path, ins
     (ann / "submission_metadata.yml").write_text(METADATA, encoding="utf-8")
     program = (KIT / "solution" / "integrators.py").read_bytes()
     (ann / inside / "integrators.py").write_bytes(program)
-    with opened_class(tmp_path / "class") as taken:
+    with open_class(tmp_path / "class") as taken:
         assert [each.name for each in taken.found] == ["ann"] and not taken.troubles

@@ -10,8 +10,9 @@ import msgspec
 import pytest
 
 from grader.classroom.marks import ENGINE
-from grader.classroom.nbgrader.gradebook import fill, read_results, reasons
-from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse
+from grader.classroom.nbgrader.gradebook import fill_gradebook, read_results, write_comment
+from grader.classroom.nbgrader.submissions import ASSIGNMENT
+from grader.errors import Stop
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 
 POINTS = {"4": 10, "5": 8, "8a": 2}
@@ -35,7 +36,7 @@ def result(*todos, name="anna"):
 
 
 def test_reasons_are_indented_so_that_nothing_in_them_is_markup():
-    text = reasons(todo("4", 7, got="<script>alert(1)</script>\n# title\x1b[31m"))
+    text = write_comment(todo("4", 7, got="<script>alert(1)</script>\n# title\x1b[31m"))
     assert "<script>" in text and "\x1b" not in text
     assert all(line.startswith("    ") for line in text.splitlines())
     assert "# title" not in [line.strip() for line in text.splitlines()]
@@ -44,7 +45,7 @@ def test_reasons_are_indented_so_that_nothing_in_them_is_markup():
 def test_reasons_name_the_place_and_leave_passed_checks_out():
     passed = msgspec.structs.replace(check(3), state="passed", title="Passed already")
     failed = check(0, got="199.6 px/s", where=Where("mini_engine/solver.py", 58))
-    text = reasons(TodoResult("4", "t", "not yet", 7, 10, None, [passed, failed]))
+    text = write_comment(TodoResult("4", "t", "not yet", 7, 10, None, [passed, failed]))
     assert "not yet: 7 / 10" in text and "mini_engine/solver.py:58" in text
     assert "199.6 px/s" in text and "Passed already" not in text
 
@@ -116,65 +117,71 @@ def points(course, student):
 
 def test_points_arrive_and_a_second_time_changes_nothing(course):
     handed = [("anna", result(todo("4", 7), todo("5", 8), todo("8a", 0)))]
-    first = list(fill(course, handed))
+    first = list(fill_gradebook(course, handed))
     assert (first[0].student, first[0].points, first[0].max_points) == ("anna", 15, 20)
     assert points(course, "anna") == {"todo-4": 7, "todo-5": 8, "todo-8a": 0}
     before = marks(course, "anna")
     assert not any(waits for _, waits, _ in before.values())
-    assert list(fill(course, handed)) == first[:1] and marks(course, "anna") == before
+    assert list(fill_gradebook(course, handed)) == first[:1] and marks(course, "anna") == before
 
 
 @pytest.mark.parametrize("wrong, right", [(11, 10), (1000, 10), (-3, 0)])
 def test_points_stay_between_0_and_what_the_cell_is_worth(course, wrong, right):
-    list(fill(course, [("anna", result(todo("4", wrong)))]))
+    list(fill_gradebook(course, [("anna", result(todo("4", wrong)))]))
     assert points(course, "anna")["todo-4"] == right
 
 
 def test_a_todo_that_is_missing_gets_0_and_is_named(course):
-    done = list(fill(course, [("anna", result(todo("4", 10)))]))
+    done = list(fill_gradebook(course, [("anna", result(todo("4", 10)))]))
     assert points(course, "anna") == {"todo-4": 10, "todo-5": 0, "todo-8a": 0}
     assert any("todo-5" in note for note in done[0].notes)
 
 
 def test_points_for_what_has_no_cell_are_not_written(course):
-    done = list(fill(course, [("anna", result(todo("4", 10), todo("6", 5), todo("B1", 4)))]))
+    done = list(
+        fill_gradebook(course, [("anna", result(todo("4", 10), todo("6", 5), todo("B1", 4)))])
+    )
     notes = " ".join(done[0].notes)
     assert done[0].points == 10
     assert "todo-6" in notes and "todo-B1" not in notes  # a bonus is no part of the sum
 
 
 def test_without_a_result_the_engine_has_0_points_until_there_is_one(course):
-    said = list(fill(course, [("anna", result(todo("4", 10)))]))
+    said = list(fill_gradebook(course, [("anna", result(todo("4", 10)))]))
     assert points(course, "ben") == {"todo-4": 0, "todo-5": 0, "todo-8a": 0}
     assert any(isinstance(each, str) and each.startswith("ben:") for each in said)
-    list(fill(course, [("ben", result(todo("4", 9)))]))
+    list(fill_gradebook(course, [("ben", result(todo("4", 9)))]))
     assert points(course, "ben")["todo-4"] == 9 and points(course, "anna")["todo-4"] == 10
 
 
 def test_a_mark_given_by_hand_stays_and_counts(course):
     import nbgrader.api as api
 
-    list(fill(course, [("anna", result(todo("4", 3)))]))
+    list(fill_gradebook(course, [("anna", result(todo("4", 3)))]))
     with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
         grade = book.find_grade("todo-4", ENGINE, ASSIGNMENT, "anna")
         grade.manual_score, grade.needs_manual_grade = 6, False
         book.db.commit()
-    done = list(fill(course, [("anna", result(todo("4", 3)))]))
+    done = list(fill_gradebook(course, [("anna", result(todo("4", 3)))]))
     assert marks(course, "anna")["todo-4"][:2] == (6, False)
     assert any("by hand" in note for note in done[0].notes)
-    list(fill(course, [("anna", result(todo("4", 9)))]))
+    list(fill_gradebook(course, [("anna", result(todo("4", 9)))]))
     assert marks(course, "anna")["todo-4"][:2] == (6, True), "a person should look again"
 
 
 def test_a_stranger_gets_nothing_and_stops_nobody(course):
-    said = list(fill(course, [("mallory", result(todo("4", 10))), ("anna", result(todo("4", 10)))]))
+    said = list(
+        fill_gradebook(
+            course, [("mallory", result(todo("4", 10))), ("anna", result(todo("4", 10)))]
+        )
+    )
     assert "mallory" in said[0] and said[1].points == 10
 
 
 def test_python_files_without_notebooks_count_too_without_a_librarys_warning(course):
     (course / "submitted" / "cleo" / ASSIGNMENT).mkdir(parents=True)
     with warnings.catch_warnings(action="error"):
-        list(fill(course, [("cleo", result(todo("4", 10)))]))
+        list(fill_gradebook(course, [("cleo", result(todo("4", 10)))]))
     assert points(course, "cleo")["todo-4"] == 10
     import nbgrader.api as api
 
@@ -184,16 +191,18 @@ def test_python_files_without_notebooks_count_too_without_a_librarys_warning(cou
 
 
 def test_a_broken_result_costs_nobody_else_anything(course):
-    said = list(fill(course, [("ben", "ben.json is no result"), ("anna", result(todo("4", 10)))]))
+    said = list(
+        fill_gradebook(course, [("ben", "ben.json is no result"), ("anna", result(todo("4", 10)))])
+    )
     assert said[0] == "ben.json is no result" and points(course, "anna")["todo-4"] == 10
 
 
 def test_without_a_gradebook_or_a_notebook_it_says_what_to_run(course, tmp_path_factory):
     import nbgrader.api as api
 
-    with pytest.raises(NoCourse, match="generate_assignment"):
-        list(fill(tmp_path_factory.mktemp("empty"), []))
+    with pytest.raises(Stop, match="generate_assignment"):
+        list(fill_gradebook(tmp_path_factory.mktemp("empty"), []))
     with api.Gradebook(f"sqlite:///{course}/gradebook.db") as book:
         book.remove_assignment(ASSIGNMENT)
-    with pytest.raises(NoCourse, match="knows no notebook engine"):
-        list(fill(course, []))
+    with pytest.raises(Stop, match="knows no notebook engine"):
+        list(fill_gradebook(course, []))

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from command_line import run_grader
 from handed_in import (
     NAMES,
     RELEASED,
@@ -25,12 +26,10 @@ from handed_in import (
     source,
     write,
 )
-from typer.testing import CliRunner
 
 from grader.bank.sync import students_files
 from grader.classroom.marks import ENGINE
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
-from grader.cli import classroom as commands
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.release import nbgrader_course as courses
 
@@ -127,9 +126,7 @@ def run(course, *arguments):
 
 def bridge(course, *results):
     how = results or ["--jobs", "1"]
-    return CliRunner().invoke(
-        commands.course_app, ["bridge", "--course", str(course), *map(str, how)]
-    )
+    return run_grader("nbgrader", "bridge", "--course", course, *how)
 
 
 @pytest.fixture(scope="module")
@@ -349,9 +346,9 @@ def test_marks_go_out_for_the_class_list(course, tmp_path):
     )
     out = tmp_path / "marks.csv"
     options = ["marks", str(listed), "--course", str(course), "--out", str(out)]
-    done = CliRunner().invoke(commands.app, options)
+    done = run_grader(*options)
     assert done.exit_code == 1 and "anna: no mark yet" in done.output
-    done = CliRunner().invoke(commands.app, [*options, "--so-far"])
+    done = run_grader(*options, "--so-far")
     assert done.exit_code == 0, done.output
     rows = list(csv.reader(out.open(encoding="utf-8", newline="")))
     marks = {row[0]: row[-1] for row in rows[1:]}
@@ -365,7 +362,7 @@ def test_the_gradebook_learns_the_names_of_the_class(course, tmp_path):
     listed = tmp_path / "class.csv"
     listed.write_text("First name,Last name,Email address\nÅsa,Öberg,Anna@x.example\n", "utf-8")
     command = ["roster", str(listed), "--course", str(tmp_path / "copy")]
-    assert CliRunner().invoke(commands.course_app, command).exit_code == 0
+    assert run_grader("nbgrader", *command).exit_code == 0
     with api.Gradebook(f"sqlite:///{tmp_path}/copy/gradebook.db") as book:
         anna = book.find_student("anna")
         assert (anna.first_name, anna.last_name) == ("Åsa", "Öberg")

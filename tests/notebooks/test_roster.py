@@ -10,14 +10,17 @@ from grader.classroom.book import Outcome
 from grader.classroom.marks import (
     Marking,
     Part,
+    Scores,
+    compute_mark,
     load_marking,
-    mark_of,
-    marks,
-    parts_from_results,
+    make_marks,
+    make_parts,
 )
-from grader.intake.roster import CannotRead, people, read_roster
+from grader.errors import Stop
+from grader.intake.roster import list_people
+from grader.intake.systems import read_roster
 from grader.release.nbgrader_course import INSTRUCTOR
-from grader.report.sinks.tables import harmless
+from grader.text import escape_formula
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section,Essay (1),Physics engine (4711),Final Score
@@ -49,7 +52,7 @@ def rows(made, delimiter=","):
 
 def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
     roster = listed(tmp_path, CANVAS)
-    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made) == [
         ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Physics engine (4711)"],
         ["    Points Possible", "", "", "", "", "100"],
@@ -62,7 +65,7 @@ def test_canvas_gets_its_columns_back_with_one_mark_each(tmp_path):
 def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
     text = "Student,ID,SIS Login ID,Section\nZoe,17,zoe,A\n"
     roster = listed(tmp_path, text)
-    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert rows(made)[0][-1] == "Physics engine" and rows(made)[1] == [
         "Zoe",
         "17",
@@ -74,7 +77,7 @@ def test_a_list_without_points_possible_or_the_column_works_too(tmp_path):
 
 def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
     roster = listed(tmp_path, CANVAS.replace(",", ";").replace("Müller;", "Müller,"), "utf-8-sig")
-    made = marks(roster, roster.key(), {"zoe": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, MARKING))
     assert made.text.startswith("\ufeffStudent;ID;")
     assert rows(made, ";")[2][0] == "Müller, Zoë" and rows(made, ";")[2][-1] == "86.0"
 
@@ -84,7 +87,7 @@ def test_a_byte_order_mark_and_semicolons_come_back_as_they_came(tmp_path):
 
 def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
     roster = listed(tmp_path, MOODLE)
-    made = marks(roster, roster.key(), {"zoe": ZOE, "ben": {}}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "ben": {}}, MARKING))
     assert rows(made) == [
         ["First name", "Last name", "ID number", "Email address", "Grade", "Feedback"],
         ["Zoë", "Müller", "s-17", "zoe@school.example", "86.0", "engine 80 / 100; quiz 8 / 8"],
@@ -94,22 +97,22 @@ def test_moodle_gets_identifiers_grade_and_feedback(tmp_path):
 
 def test_the_key_may_be_another_column(tmp_path):
     roster = listed(tmp_path, MOODLE)
-    made = marks(roster, roster.key("ID number"), {"s-17": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key("ID number"), Scores({"s-17": ZOE}, MARKING))
     assert rows(made)[1][4] == "86.0"
-    with pytest.raises(CannotRead, match="no column 'Login'"):
-        roster.key("Login")
+    with pytest.raises(Stop, match="no column 'Login'"):
+        roster.choose_key("Login")
 
 
 def test_names_match_whatever_the_case_and_the_form_of_accents(tmp_path):
     roster = listed(tmp_path, "Email address\nZo\u00eb@x.example\n")
-    made = marks(roster, roster.key(), {"zoe\u0308": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe\u0308": ZOE}, MARKING))
     assert rows(made)[1][0] == "Zo\u00eb@x.example" and rows(made)[1][1] == "86.0"
 
 
 def test_nbgrader_is_told_the_names(tmp_path):
-    found = list(people(listed(tmp_path, CANVAS), "SIS Login ID"))
+    found = list(list_people(listed(tmp_path, CANVAS), "SIS Login ID"))
     assert found[0] == {"id": "zoe", "first_name": "Zoë", "last_name": "Müller", "email": ""}
-    found = list(people(listed(tmp_path, MOODLE), "ID number"))
+    found = list(list_people(listed(tmp_path, MOODLE), "ID number"))
     assert found[0]["first_name"] == "Zoë" and found[0]["email"] == "zoe@school.example"
 
 
@@ -128,34 +131,34 @@ def test_nbgrader_is_told_the_names(tmp_path):
     ],
 )
 def test_shares_make_one_mark(parts, mark):
-    assert mark_of(parts, MARKING) == mark
+    assert compute_mark(parts, MARKING) == mark
 
 
 def test_the_total_and_the_decimals_are_the_instructors():
     marking = Marking("x", {"engine": 1}, total=20, decimals=0)
-    assert mark_of({"engine": Part(72, 100)}, marking) == "14"
-    assert mark_of({"engine": Part(72.5, 100)}, marking) == "15"
+    assert compute_mark({"engine": Part(72, 100)}, marking) == "14"
+    assert compute_mark({"engine": Part(72.5, 100)}, marking) == "15"
 
 
 def test_a_mark_that_waits_for_a_person_is_left_empty_and_named(tmp_path):
     marking = msgspec.structs.replace(MARKING, shares={"engine": 70, "quiz": 20, "journal": 10})
     roster = listed(tmp_path, CANVAS)
-    made = marks(roster, roster.key(), {"zoe": ZOE}, marking)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking))
     assert rows(made)[2][-1] == "" and made.given == 1
     assert made.notes[0] == "zoe: no mark yet, journal must be graded by hand"
-    made = marks(roster, roster.key(), {"zoe": ZOE}, marking, so_far=True)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE}, marking, so_far=True))
     assert rows(made)[2][-1] == "76.0"
 
 
 def test_who_is_not_in_the_list_is_named(tmp_path):
     roster = listed(tmp_path, CANVAS)
-    made = marks(roster, roster.key(), {"zoe": ZOE, "guest": ZOE}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({"zoe": ZOE, "guest": ZOE}, MARKING))
     assert "guest: handed in, but is not in the class list under 'SIS Login ID'" in made.notes
 
 
 def test_results_alone_make_marks_of_the_engine():
     done = Outcome("zoe", points=87, final=87, max_points=100)
-    assert parts_from_results([done]) == {"zoe": {"engine": Part(87, 100)}}
+    assert make_parts([done]) == {"zoe": {"engine": Part(87, 100)}}
 
 
 def test_the_shipped_settings_name_the_notebooks():
@@ -172,12 +175,12 @@ def test_the_shipped_settings_name_the_notebooks():
     "cell", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "  =1", "\uff1d1", "\u00a0=1", "\n=1"]
 )
 def test_a_formula_becomes_text(cell):
-    assert harmless(cell) == f"'{cell}"
+    assert escape_formula(cell) == f"'{cell}"
 
 
 @pytest.mark.parametrize("cell", ["Zoë", "O'Brien", "3-4", "a=b", "12.5", "", "    Points"])
 def test_what_is_no_formula_stays(cell):
-    assert harmless(cell) == cell
+    assert escape_formula(cell) == cell
 
 
 def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
@@ -186,7 +189,7 @@ def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
     csv.writer(buffer).writerows([["First name", "Last name", "Email address"]])
     csv.writer(buffer).writerows([each, each, f"u{i}@x"] for i, each in enumerate(bad))
     roster = listed(tmp_path, buffer.getvalue())
-    made = marks(roster, roster.key(), {}, MARKING)
+    made = make_marks(roster, roster.choose_key(), Scores({}, MARKING))
     cells = [cell for row in rows(made)[1:] for cell in row]
     assert len(cells) == 5 * len(bad)
     assert not any(cell.startswith(("=", "+", "-", "@", "\t")) for cell in cells)
@@ -205,8 +208,8 @@ def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
     ],
 )
 def test_a_list_that_makes_no_sense_is_refused(tmp_path, text, words):
-    with pytest.raises(CannotRead, match=words):
-        listed(tmp_path, text).key()
+    with pytest.raises(Stop, match=words):
+        listed(tmp_path, text).choose_key()
 
 
 def test_a_list_that_is_not_utf_8_is_read_and_somebody_is_asked_to_look(tmp_path):
@@ -229,5 +232,5 @@ def test_a_list_that_is_not_utf_8_is_read_and_somebody_is_asked_to_look(tmp_path
 )
 def test_settings_that_make_no_sense_are_refused(tmp_path, text):
     (tmp_path / "marks.toml").write_text(text, encoding="utf-8")
-    with pytest.raises(CannotRead, match=r"marks\.toml"):
+    with pytest.raises(Stop, match=r"marks\.toml"):
         load_marking(tmp_path / "marks.toml")

@@ -4,12 +4,12 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from command_line import run_grader
 from handed_in import NAMES, RELEASED, hand_in, read
-from typer.testing import CliRunner
 
 from grader.bank.sync import students_files
-from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse, collect
-from grader.cli import classroom as commands
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
+from grader.errors import Stop
 from grader.judge.course import Course
 from grader.judge.grade import KIT
 from grader.release import nbgrader_course as courses
@@ -34,7 +34,7 @@ def untouched(folder):
 
 
 def taken(classroom, course):
-    return {each.student: each for each in collect(classroom, course)}
+    return {each.student: each for each in collect_submissions(classroom, course)}
 
 
 # ---------------------------------------------------------------- the course
@@ -61,7 +61,7 @@ def test_no_region_of_the_reference_is_in_the_source(course):
 
 
 def test_a_second_time_needs_renew_and_keeps_the_settings(course):
-    with pytest.raises(NoCourse, match="--renew"):
+    with pytest.raises(Stop, match="--renew"):
         make_course(course)
     (course / "marks.toml").write_text("mine", encoding="utf-8")
     (course / "source" / ASSIGNMENT / "old.py").touch()
@@ -72,7 +72,7 @@ def test_a_second_time_needs_renew_and_keeps_the_settings(course):
 
 @pytest.mark.parametrize("inside", [".", "solution", "starter/notebooks", "grader"])
 def test_a_course_inside_the_kit_is_refused(inside):
-    with pytest.raises(NoCourse, match="inside the kit"):
+    with pytest.raises(Stop, match="inside the kit"):
         make_course(KIT / inside)
 
 
@@ -152,12 +152,12 @@ def test_only_a_submission_that_changed_is_graded_anew(course, classroom):
 
 
 def test_what_is_missing_is_said(tmp_path, classroom, course):
-    with pytest.raises(NoCourse, match="no course yet"):
-        list(collect(classroom, tmp_path / "elsewhere"))
-    with pytest.raises(NoCourse, match="holds no submission"):
-        list(collect(classroom, course))
-    with pytest.raises(NoCourse, match="there is no folder"):
-        list(collect(Path(tmp_path / "nowhere"), course))
+    with pytest.raises(Stop, match="no course yet"):
+        list(collect_submissions(classroom, tmp_path / "elsewhere"))
+    with pytest.raises(Stop, match="holds no submission"):
+        list(collect_submissions(classroom, course))
+    with pytest.raises(Stop, match="there is no folder"):
+        list(collect_submissions(Path(tmp_path / "nowhere"), course))
 
 
 # ---------------------------------------------------------------- the checks
@@ -180,9 +180,9 @@ def test_students_get_the_checks_of_a_release(tmp_path):
     assert (source / "integrators.py").read_bytes() == released
     assert (source / "quiz.ipynb").read_text() != "released"  # with the answers
     assert (source / "MANIFEST.txt").read_text() == "# content 0\n00  grader.whl\n"
-    with pytest.raises(NoCourse, match="no archive of a release"):
+    with pytest.raises(Stop, match="no archive of a release"):
         make_course(tmp_path / "course", renew=True, release=tmp_path / "none.zip")
-    with pytest.raises(NoCourse, match="not of this course, they differ in TODO 1, 2, 3"):
+    with pytest.raises(Stop, match="not of this course, they differ in TODO 1, 2, 3"):
         make_course(tmp_path / "course", renew=True, release=archive)
     assert (source / "integrators.py").read_bytes() == released  # what stands is not lost
 
@@ -190,8 +190,8 @@ def test_students_get_the_checks_of_a_release(tmp_path):
 def test_a_course_without_checks_is_only_made_where_it_is_asked_for(tmp_path, monkeypatch):
     monkeypatch.setattr(courses, "newest_release", lambda folder: None)
     words = ["course", str(tmp_path / "course")]
-    done = CliRunner().invoke(commands.course_app, words)
+    done = run_grader("nbgrader", *words)
     assert done.exit_code == 2 and "make release" in " ".join(done.output.split())
     assert not (tmp_path / "course").exists()
-    done = CliRunner().invoke(commands.course_app, [*words, "--without-checks"])
+    done = run_grader("nbgrader", *words, "--without-checks")
     assert done.exit_code == 0, done.output

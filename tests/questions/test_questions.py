@@ -15,15 +15,14 @@ from xml.etree import ElementTree
 
 import msgspec
 import pytest
+from command_line import run_grader
 from conftest import KIT, HandIn
 from markupsafe import escape
 from msgspec import structs
 from page_readers import barriers, chromium
-from typer.testing import CliRunner
 
 from grader.bank.members import Member, members
 from grader.bank.verify import shared_worker
-from grader.cli.questions import app
 from grader.judge.children import Worker
 from grader.judge.course import FULL, Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
@@ -602,7 +601,7 @@ def test_the_command_makes_sheets_that_can_be_answered_and_marked(
     (tmp_path / "class" / "ben" / "notes.txt").write_text("nothing")
     asked = ["--out", str(out), "--course", str(course)]
     called = [*asked, "--class", str(tmp_path / "class"), "--results", str(results), "--seed", "3"]
-    run = CliRunner().invoke(app, called)
+    run = run_grader("questions", *called)
     assert run.exit_code == 1, run.output  # ben has nothing to be asked about
     assert "ann: 2 questions, 5 points" in run.output and "ben: " in run.output
     sheet, key = ((out / name / "ann.html").read_text() for name in ("sheets", "keys"))
@@ -613,7 +612,7 @@ def test_the_command_makes_sheets_that_can_be_answered_and_marked(
     table = tmp_path / "answers.csv"
     table.write_text(f"student,question,answer,points\nann,1,{first.answer},\nann,2,x,1\n")
     tally = ["--tally", str(tmp_path / "tally.json")]
-    run = CliRunner().invoke(app, [*asked, "--mark", str(table), *tally])
+    run = run_grader("questions", *asked, "--mark", table, *tally)
     assert run.exit_code == 0, run.output
     assert (out / "totals.csv").read_text().splitlines()[1:] == ["ann,3,5,0"]
 
@@ -642,7 +641,7 @@ class NotClosed:
     ],
 )
 def test_options_that_would_count_for_nothing_are_refused(words: list[str], said: str):
-    run = CliRunner().invoke(app, words)
+    run = run_grader("questions", *words)
     assert run.exit_code == 2
     assert said in " ".join(run.output.split())
 

@@ -440,6 +440,21 @@ def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monke
 # ---------------------------------------------------------------- the student's first minute
 
 
+def test_no_file_of_a_release_holds_a_condition_of_our_pages(released: Released):
+    texts = [
+        (name, text)
+        for path in sorted(path for path in released.built.rglob("*") if path.is_file())
+        for name, text in texts_in(path.name, path.read_bytes())
+    ]
+    assert any(name.endswith("/README.md") for name, _ in texts)
+    assert not [name for name, text in texts if re.search("<!--[%=]", text)]
+
+
+@pytest.mark.parametrize("folder", [KIT, KIT / "starter", KIT / "solution"], ids=lambda p: p.name)
+def test_a_readme_reads_the_same_in_the_repository(folder: Path):
+    assert not re.search("<!--[%=]", (folder / "README.md").read_text(encoding="utf-8"))
+
+
 def test_the_readme_names_what_is_there(released: Released):
     text = (released.tree / "README.md").read_text(encoding="utf-8")
     files = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:py|html|txt))`", text))
@@ -452,7 +467,7 @@ def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
     files = students_files(KIT)
     for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
         files[f"notebooks/{path.name}"] = path
-    assert {"accuracy.py", "experiments/window.py", "stable_engine/world.py"} < set(files)
+    assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(files)
     made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
     there = [name for name, _ in releases.files_in(released.tree)]
     assert {name for name in there if not name.startswith("handouts/")} == set(files) | made

@@ -13,7 +13,7 @@ from typing import Any
 import ci_readers
 import pytest
 
-from grader.bank.members import patch
+from grader.bank.members import make_mistake
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric, visible
 from grader.release.students_copy import hidden_checks
@@ -144,7 +144,7 @@ def test_the_page_says_how_many_points_there_are_to_have():
 def test_a_mistake_costs_its_todo_and_is_told(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
     shutil.copyfile(KIT / "solution" / "integrators.py", checkout / "integrators.py")
-    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
+    make_mistake("8c-equal-weights", checkout)
     run = without_download(checkout)
     assert run.status == 0
     passed = {test["test-name"][:7] for test in run.marks["tests"] if test["passed"]}

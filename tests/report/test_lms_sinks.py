@@ -6,15 +6,13 @@ import json
 from pathlib import Path
 
 import pytest
+from command_line import run_grader
 from page_readers import HOSTILE
-from typer.testing import CliRunner
 
-from grader.classroom.book import Book, Outcome, outcome_of
-from grader.cli import classroom as commands
-from grader.cli import export as report
+from grader.classroom.book import Book, Outcome, make_outcome
 from grader.judge.result import CheckResult, Result, TodoResult, Where
 from grader.report.files import as_json, write_json
-from grader.report.sinks.tables import COLUMNS, csv_table, json_lines
+from grader.report.sinks.tables import COLUMNS, write_csv, write_json_lines
 from grader.text import clean
 
 
@@ -39,10 +37,10 @@ def read_csv(content: bytes) -> list[dict[str, str]]:
 
 def test_both_tables_say_the_same_a_line_per_check():
     made = [result(), result("ben")]
-    rows = [json.loads(line) for line in json_lines(made).splitlines()]
+    rows = [json.loads(line) for line in write_json_lines(made).splitlines()]
     assert [tuple(row) for row in rows] == [COLUMNS] * 6
     assert [{name: str(value) for name, value in row.items()} for row in rows] == read_csv(
-        csv_table(made)
+        write_csv(made)
     )
     assert rows[1] == {
         "submission": "ann",
@@ -60,7 +58,7 @@ def test_both_tables_say_the_same_a_line_per_check():
 
 
 def test_the_csv_is_as_excel_wants_it():
-    content = csv_table([result("Zoë")])
+    content = write_csv([result("Zoë")])
     assert content.startswith(b"\xef\xbb\xbf")
     assert content.count(b"\r\n") == content.count(b"\n") == 4
 
@@ -68,21 +66,21 @@ def test_the_csv_is_as_excel_wants_it():
 @pytest.mark.parametrize("words", ["=1+1", "+1", "-1", "@SUM(A1)", "\uff1d1", HOSTILE, "a\r\nb,c"])
 def test_no_word_breaks_a_table_or_is_a_formula(words: str):
     made = result(words, words)
-    rows = read_csv(csv_table([made]))
+    rows = read_csv(write_csv([made]))
     assert len(rows) == 3 and all(None not in row for row in rows)
     assert rows[1]["got"].removeprefix("'") == clean(words)
     assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row.values())
-    assert json.loads(json_lines([made]).splitlines()[1])["got"] == clean(words)
+    assert json.loads(write_json_lines([made]).splitlines()[1])["got"] == clean(words)
 
 
 def test_export_makes_tables_of_a_whole_folder(tmp_path: Path):
     for name in ("ann", "ben"):
         write_json(result(name), tmp_path / f"{name}.json")
     out = tmp_path / "all.csv"
-    done = CliRunner().invoke(report.app, ["csv", str(tmp_path), "--out", str(out)])
+    done = run_grader("export", "csv", tmp_path, "--out", out)
     assert done.exit_code == 0, done.output
     assert {row["submission"] for row in read_csv(out.read_bytes())} == {"ann", "ben"}
-    assert CliRunner().invoke(report.app, ["junit", str(tmp_path)]).exit_code == 2
+    assert run_grader("export", "junit", tmp_path).exit_code == 2
 
 
 # ---------------------------------------------------------------- marks for an LMS
@@ -107,11 +105,11 @@ def graded(tmp_path: Path) -> Path:
     """Zoe is late, Ben's could not be read, Eve handed in nothing."""
     with Book(tmp_path / "out") as book:
         content = as_json(result("zoe"))
-        zoe = outcome_of("zoe", content, 1.0, "")
+        zoe = make_outcome("zoe", content, 1.0, "")
         book.write(zoe, content)
         reasons, final = ["1 day late: -1"], zoe.points - 1
         late = Outcome("zoe", "", 3, 7, zoe.todos, zoe.left, final, reasons, True)
-        book.close_with([late, Outcome("ben", "=no zip")])
+        book.finish([late, Outcome("ben", "=no zip")])
     return tmp_path
 
 
@@ -119,7 +117,7 @@ def marks(graded: Path, roster: str, *options: str) -> tuple[list[dict[str, str]
     (graded / "class.csv").write_text(roster, encoding="utf-8")
     files = [str(graded / "class.csv"), "--results", str(graded / "out")]
     out = graded / "marks.csv"
-    done = CliRunner().invoke(commands.app, ["marks", *files, "--out", str(out), *options])
+    done = run_grader("marks", *files, "--out", out, *options)
     assert done.exit_code in (0, 1), done.output
     return read_csv(out.read_bytes()), done.output
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from grader.judge.grade import KIT
 from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Result, State, TodoResult, Where, state_of
-from grader.report.screen import LINES, Screen, current
+from grader.report.screen import LINES, Screen, choose_todo
 
 LONG = "as much friction at a slip of 300 px/s as at 3000, and twice as much with jn twice as much "
 HALF = "Half of it is missing: add the other half, too"
@@ -87,8 +87,8 @@ def test_a_loop_that_never_ends_is_said_once():
 
 def test_what_is_next_where_nothing_fails():
     result = Result(1, "mine", 0, 0, 0, [], []).with_todos([passed("1"), fresh("2"), fresh("3")])
-    assert current(result) is result.todos[1]
-    assert current(result.with_todos([passed("1")])) is None
+    assert choose_todo(result) is result.todos[1]
+    assert choose_todo(result.with_todos([passed("1")])) is None
 
 
 @pytest.mark.skipif(shutil.which("make") is None, reason="there is no make")

@@ -12,15 +12,16 @@ import ci_readers
 import msgspec
 import pytest
 
+from grader.errors import Stop
 from grader.judge.grade import KIT
 from grader.judge.result import CheckResult, Result, State, TodoResult, Where
 from grader.report.files import write_json
-from grader.report.sinks.classroom50 import NoRunner, classroom50
-from grader.report.sinks.github import SHOWN, annotations, commands_stopped, outputs
-from grader.report.sinks.gradescope import gradescope
-from grader.report.sinks.junit import junit
-from grader.report.sinks.markdown import markdown
-from grader.report.sinks.reporter import reporter
+from grader.report.sinks.classroom50 import write_classroom50
+from grader.report.sinks.github import SHOWN, stop_commands, write_annotations, write_outputs
+from grader.report.sinks.gradescope import write_gradescope
+from grader.report.sinks.junit import write_junit
+from grader.report.sinks.markdown import write_markdown
+from grader.report.sinks.reporter import write_reporter
 from grader.text import clean
 
 RUNNER = {
@@ -93,7 +94,7 @@ hostile = pytest.mark.parametrize("words", HOSTILE, ids=range(len(HOSTILE)))
 
 @hostile
 def test_annotations_are_the_graders_own(words: str):
-    log = annotations(result(words, todos=2))
+    log = write_annotations(result(words, todos=2))
     found = ci_readers.commands_in(log)
     assert [(name, set(held)) for name, held, _ in found] == [
         ("error", {"file", "line", "title"})
@@ -105,32 +106,36 @@ def test_annotations_are_the_graders_own(words: str):
 
 
 def test_an_annotation_says_where_the_line_is_in_the_repository():
-    (found,) = ci_readers.commands_in(annotations(result("world.py"), inside="week 3/engine"))
+    (found,) = ci_readers.commands_in(write_annotations(result("world.py"), inside="week 3/engine"))
     assert found[1]["file"] == "week 3/engine/world.py"
 
 
 def test_a_todo_is_annotated_once_and_only_if_a_check_failed():
-    (found,) = ci_readers.commands_in(annotations(result(states=("not yet", "error", "waiting"))))
+    (found,) = ci_readers.commands_in(
+        write_annotations(result(states=("not yet", "error", "waiting")))
+    )
     assert "failed as well: 1" in found[2]
-    assert annotations(result(states=("passed", "not started", "waiting"))) == ""
+    assert write_annotations(result(states=("passed", "not started", "waiting"))) == ""
 
 
 def test_more_errors_than_github_shows_go_on_as_warnings():
-    names = [name for name, _, _ in ci_readers.commands_in(annotations(result(todos=14)))]
+    names = [name for name, _, _ in ci_readers.commands_in(write_annotations(result(todos=14)))]
     assert names == ["error"] * SHOWN + ["warning"] * 4
 
 
 @hostile
 def test_outputs_are_three_whatever_the_words(words: str):
-    found = ci_readers.outputs_in(outputs(result(words)))
+    found = ci_readers.outputs_in(write_outputs(result(words)))
     assert set(found) == {"points", "max-points", "result"}
     assert (found["points"], found["max-points"]) == ("3", "9")
-    assert json.loads(base64.b64decode(found["result"])) == json.loads(reporter(result(words)))
+    assert json.loads(base64.b64decode(found["result"])) == json.loads(
+        write_reporter(result(words))
+    )
 
 
 @hostile
 def test_what_is_printed_for_people_is_no_command(words: str, capfd: Any):
-    with commands_stopped({"GITHUB_ACTIONS": "true"}):
+    with stop_commands({"GITHUB_ACTIONS": "true"}):
         print(words.encode("utf-8", "replace").decode())
     print("::notice::afterwards")
     assert ci_readers.commands_in(capfd.readouterr().out) == [("notice", {}, "afterwards")]
@@ -138,14 +143,14 @@ def test_what_is_printed_for_people_is_no_command(words: str, capfd: Any):
 
 def test_the_word_that_lets_commands_through_again_cannot_be_known(capfd: Any):
     for _ in range(2):
-        with commands_stopped({"GITHUB_ACTIONS": "true"}):
+        with stop_commands({"GITHUB_ACTIONS": "true"}):
             pass
     tokens = [line[2:-2] for line in capfd.readouterr().out.splitlines()[1::2]]
     assert len(set(tokens)) == 2 and all(len(token) >= 32 for token in tokens)
 
 
 def test_elsewhere_nothing_is_wrapped(capfd: Any):
-    with commands_stopped({}):
+    with stop_commands({}):
         print("words")
     assert capfd.readouterr().out == "words\n"
 
@@ -155,13 +160,13 @@ def test_elsewhere_nothing_is_wrapped(capfd: Any):
 
 @hostile
 def test_the_reporter_prints_no_command(words: str):
-    results = json.loads(reporter(result(words, EVERY)))
+    results = json.loads(write_reporter(result(words, EVERY)))
     log = ci_readers.reporter_log(results)
     assert ci_readers.commands_in(log) == [] and len(log.splitlines()) == len(EVERY)
 
 
 def test_the_reporter_adds_up_to_the_points():
-    encoded = ci_readers.outputs_in(outputs(result(states=EVERY, todos=2)))["result"]
+    encoded = ci_readers.outputs_in(write_outputs(result(states=EVERY, todos=2)))["result"]
     results = ci_readers.reported(encoded)
     assert sum(test["score"] for test in results["tests"]) == 6
     assert results["max_score"] == 30 and results["status"] == "fail"
@@ -174,7 +179,7 @@ def test_the_reporter_adds_up_to_the_points():
     [(("passed",), "pass"), (("passed", "error"), "error"), (("error", "waiting"), "fail")],
 )
 def test_the_reporter_is_told_how_it_went(states: tuple[State, ...], status: str):
-    assert json.loads(reporter(result(states=states)))["status"] == status
+    assert json.loads(write_reporter(result(states=states)))["status"] == status
 
 
 # ---------------------------------------------------------------- Markdown
@@ -183,7 +188,7 @@ def test_the_reporter_is_told_how_it_went(states: tuple[State, ...], status: str
 @hostile
 def test_words_change_no_markdown(words: str):
     plain, forged = (
-        ci_readers.markdown_tokens(markdown(result(each, EVERY))) for each in ("words", words)
+        ci_readers.markdown_tokens(write_markdown(result(each, EVERY))) for each in ("words", words)
     )
     assert [token.type for token in plain if token.type != "text_special"] == [
         token.type for token in forged if token.type not in ("text_special", "softbreak")
@@ -195,14 +200,14 @@ def test_words_change_no_markdown(words: str):
 
 
 def test_the_summary_has_every_todo_with_its_points():
-    text = markdown(result(states=EVERY, todos=3))
+    text = write_markdown(result(states=EVERY, todos=3))
     rows = [line for line in text.splitlines() if line.endswith("| not yet | 3 / 15 |")]
     assert len(rows) == 3 and "9 of 45 points" in text
     assert "Not confined here: network, other processes" in text
 
 
 def test_the_longest_summary_is_short_enough_for_github():
-    longest = markdown(result("\U0001f600" * 1000, ("error",) * 8, todos=14))
+    longest = write_markdown(result("\U0001f600" * 1000, ("error",) * 8, todos=14))
     assert len(longest.encode("utf-8")) < 1024 * 1024  # a job's summary
     assert len(longest) < 125_000  # a release's text
     told = sum(token.type == "fence" for token in ci_readers.markdown_tokens(longest))
@@ -214,7 +219,9 @@ def test_the_longest_summary_is_short_enough_for_github():
 
 @hostile
 def test_words_change_no_junit(words: str):
-    plain, forged = (ci_readers.junit_cases(junit(result(w, EVERY))) for w in ("words", words))
+    plain, forged = (
+        ci_readers.junit_cases(write_junit(result(w, EVERY))) for w in ("words", words)
+    )
     assert [[each.tag for each in case.iter()] for case in forged] == [
         [each.tag for each in case.iter()] for case in plain
     ]
@@ -224,7 +231,7 @@ def test_words_change_no_junit(words: str):
 
 
 def test_junit_names_what_passed_failed_and_did_not_run():
-    cases = ci_readers.junit_cases(junit(result(states=EVERY)))
+    cases = ci_readers.junit_cases(write_junit(result(states=EVERY)))
     assert [[each.tag for each in case] for case in cases] == [
         *([], ["failure"], ["skipped"], ["skipped"], ["error"])
     ]
@@ -233,22 +240,22 @@ def test_junit_names_what_passed_failed_and_did_not_run():
 
 @hostile
 def test_gradescope_gets_whole_points_and_plain_text(words: str):
-    tests = ci_readers.gradescope_tests(json.loads(gradescope(result(words, EVERY))))
+    tests = ci_readers.gradescope_tests(json.loads(write_gradescope(result(words, EVERY))))
     assert [test["status"] for test in tests] == ["passed", *["failed"] * 4]
     assert clean(words) in tests[1]["output"] and len(tests[1]["output"]) < 2500
 
 
 @hostile
 def test_classroom50_gets_whole_points(words: str):
-    marks = json.loads(classroom50(result(words, EVERY, todos=2), RUNNER))
+    marks = json.loads(write_classroom50(result(words, EVERY, todos=2), RUNNER))
     assert ci_readers.classroom50_marks(marks) == 6
     assert [test["passed"] for test in marks["tests"]] == [False, False]
     assert words.strip() == "" or clean(words) not in json.dumps(marks)
 
 
 def test_classroom50_needs_its_runner():
-    with pytest.raises(NoRunner, match="SUBMISSION_TAG, COMMIT_URL, RELEASE_URL not set"):
-        classroom50(result(), {"CLASSROOM": "physics", "ASSIGNMENT": "engine"})
+    with pytest.raises(Stop, match="SUBMISSION_TAG, COMMIT_URL, RELEASE_URL not set"):
+        write_classroom50(result(), {"CLASSROOM": "physics", "ASSIGNMENT": "engine"})
 
 
 # ---------------------------------------------------------------- the command

@@ -4,11 +4,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from typer.testing import CliRunner
+from command_line import run_grader
 
 from grader.bank.verify import shared_worker
-from grader.cli.restore import changed_in
-from grader.cli.student import app
+from grader.cli.restore import find_changes
 from grader.judge.blame import MOST_ASKED, Blame
 from grader.judge.failures import NotYet
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -30,7 +29,7 @@ def change(tree: Path, file: str, old: str, new: str) -> None:
 
 def restore(tree: Path, *names: str) -> str:
     words = [f"--restore={name}" for name in names]
-    return " ".join(CliRunner().invoke(app, ["check", str(tree), *words]).output.split())
+    return " ".join(run_grader("check", tree, *words).output.split())
 
 
 def only(file: str, old: str, new: str) -> Changed:
@@ -116,7 +115,7 @@ def test_what_stands_elsewhere_or_is_not_needed_is_not_missed():
 
 
 def test_the_solution_changes_nothing_that_was_given():
-    assert not changed_in(KIT / "solution") and not changed_in(KIT / "starter")
+    assert not find_changes(KIT / "solution") and not find_changes(KIT / "starter")
 
 
 def test_another_change_in_a_file_says_nothing_of_its_todos():
@@ -311,7 +310,7 @@ def test_a_function_that_is_gone_comes_back_and_regions_stay(hand_in):
     (tree / SOLVER).write_text(text[:start] + text[stop:], encoding="utf-8")
     restore(tree, "friction_limit")
     again = (tree / SOLVER).read_text(encoding="utf-8")
-    assert "def friction_limit(c):" in again and not changed_in(tree)
+    assert "def friction_limit(c):" in again and not find_changes(tree)
     assert [r.lines for r in regions_in(again)] == [r.lines for r in regions_in(text)]
 
 
@@ -320,6 +319,6 @@ def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
     change(tree, *DOUBLED)
     before = {path: path.read_bytes() for path in tree.rglob("*.py")}
     out = restore(tree, "nothing_of_the_kind")
-    done = CliRunner().invoke(app, ["check", str(tree), "--restore=nothing_of_the_kind"])
+    done = run_grader("check", tree, "--restore=nothing_of_the_kind")
     assert done.exit_code == 2 and "nothing to put back" not in out
     assert {path: path.read_bytes() for path in tree.rglob("*.py")} == before

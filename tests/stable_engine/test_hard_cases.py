@@ -10,7 +10,7 @@ from itertools import product
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from worlds_for_tests import build
+from worlds_for_tests import build, dumbbell
 
 from experiments import trials
 from experiments.battery import Bench, Case, holds, run_case
@@ -30,7 +30,6 @@ from experiments.scenes import (
     coincident,
     cradle,
     drop,
-    dumbbell,
     inside_ledge,
     near_miss,
     on_floor,

@@ -2,8 +2,6 @@
 
 import re
 
-from hypothesis import given
-
 from grader.checks.pacing import (
     MAX_STEPS,
     STEP_MS,
@@ -20,8 +18,8 @@ from grader.checks.strategies import (
     frame_lists,
     frame_rates,
     frames_to_advance,
-    once,
 )
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
@@ -134,8 +132,7 @@ def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
     }
 
 
-@once
-@given(rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
+@given(examples=1, shrinks=False, rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
 def any_frames_lose_nothing_but_what_the_cap_cuts(
     lab: Lab, rate: int, mixed: list[int], asked: list[tuple[float, float]]
 ) -> None:

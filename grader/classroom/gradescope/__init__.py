@@ -1,4 +1,4 @@
-"""Gradescope: the zip that makes it grade with this kit.
+"""Make the zip with which Gradescope grades.
 
 The zip holds the whole grader and the reference. It is the instructor's: students never see it.
 """
@@ -13,6 +13,7 @@ from pathlib import Path
 import msgspec
 
 from grader.classroom.gradescope.autograder import Settings
+from grader.errors import Stop
 from grader.judge.grade import KIT
 from grader.report.files import PLAIN, SCRIPT, put_in, write_whole
 from grader.source.regions import python_files
@@ -21,10 +22,6 @@ HERE = Path(__file__).parent
 SCRIPTS = ("setup.sh", "run_autograder")
 NEWEST_FIRST = ("3.13", "3.12", "3.11")  # the Pythons that the kit is tested on
 MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64")
-
-
-class NoWheels(Exception):
-    """The packages could not be had; the message says for which Python."""
 
 
 def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
@@ -37,13 +34,13 @@ def write_autograder(path: Path, settings: Settings, wheels: str = "") -> None:
         if wheels:
             download(wheels, work / "wheels")
         with zipfile.ZipFile(work / "autograder.zip", "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, content in sorted(contents(settings, work / "wheels", wheels)):
+            for name, content in sorted(list_files(settings, work / "wheels", wheels)):
                 put_in(archive, name, content, SCRIPT if name in SCRIPTS else PLAIN)
         write_whole((work / "autograder.zip").read_bytes(), path)
 
 
-def contents(settings: Settings, wheels: Path, version: str) -> Iterator[tuple[str, bytes]]:
-    """The files of the zip by their names; scripts lie at its root, as Gradescope wants it."""
+def list_files(settings: Settings, wheels: Path, version: str) -> Iterator[tuple[str, bytes]]:
+    """Return the files of the zip by their names; Gradescope wants scripts at its root."""
     for name in SCRIPTS:
         yield name, (HERE / name).read_bytes().replace(b"\r\n", b"\n")
     yield "pythons", f"{version or ' '.join(NEWEST_FIRST)}\n".encode()
@@ -60,10 +57,10 @@ def contents(settings: Settings, wheels: Path, version: str) -> Iterator[tuple[s
 
 
 def download(version: str, folder: Path) -> None:
-    """Everything in requirements.txt as packages for Gradescope's machines."""
+    """Download everything in requirements.txt as packages for Gradescope's machines."""
     pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check", "download"]
     machines = [f"--platform={machine}" for machine in MACHINES]
     wanted = ["--only-binary=:all:", f"--python-version={version}", "--require-hashes"]
     files = ["-r", str(KIT / "requirements.txt"), "-d", str(folder)]
     if subprocess.run([*pip, *machines, *wanted, *files]).returncode:
-        raise NoWheels(f"not every package could be had for Python {version}: see above")
+        raise Stop(f"not every package could be had for Python {version}: see above")

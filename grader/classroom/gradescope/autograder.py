@@ -1,4 +1,4 @@
-"""Grades one submission where Gradescope has laid it, and writes the results it looks for.
+"""Grade one submission where Gradescope has laid it, and write the results it looks for.
 
 Whatever happens, the results are valid. Where nothing could be graded they have no score, not one
 of 0, and say why. What is printed is for the instructor alone.
@@ -12,21 +12,21 @@ import msgspec
 from msgspec import Struct
 from rich.console import Console
 
-from grader.intake.found import CannotTake, Found
+from grader.errors import Stop
+from grader.intake.found import Found
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
-from grader.judge.submission import CannotGrade
 from grader.judge.wording import told
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
-from grader.report.sinks.gradescope import gradescope
+from grader.report.sinks.gradescope import write_gradescope
 from grader.report.terminal import show, show_isolation
 from grader.text import clean
 
 NO_MARK = "This is no mark, and not 0 points."
-AGAIN = "Mend that and hand in again, or ask your instructor to look at it."
+AGAIN = "Correct that and hand in again, or ask your instructor to look at it."
 BY_HAND = (
     "No score was sent to Gradescope. Look at the submission, and give its points there by hand; "
     "what Gradescope itself shows for it until then is nobody's mark."
@@ -34,7 +34,7 @@ BY_HAND = (
 
 
 class Settings(Struct, frozen=True):
-    """How the instructor wants it, kept in the zip as settings.json."""
+    """The instructor's choices, kept in the zip as settings.json."""
 
     isolation: Isolation = "auto"
     seed: int | None = None
@@ -45,21 +45,21 @@ def main(top: Path) -> int:
     """Grade `top`/submission into `top`/results; exit status 1 is a fault of the grader."""
     place, status = top / "results" / "results.json", 0
     try:
-        write_whole(graded(top / "submission"), place)
+        write_whole(grade_submission(top / "submission"), place)
         return status
-    except (CannotGrade, CannotTake) as error:
+    except Stop as error:
         print(f"cannot grade: {clean(str(error))}")
-        results = ungraded(f"This could not be graded: {error}.", AGAIN)
+        results = explain(f"This could not be graded: {error}.", AGAIN)
     except Exception:
         traceback.print_exc(file=sys.stdout)
-        results, status = ungraded("The grader itself failed.", "Please tell your instructor."), 1
+        results, status = explain("The grader itself failed.", "Please tell your instructor."), 1
     print(BY_HAND)
     write_whole(results, place)
     return status
 
 
-def graded(submission: Path) -> bytes:
-    """Take it in as that of a class is, folders around it and all."""
+def grade_submission(submission: Path) -> bytes:
+    """Take a submission in as one of a class, with folders around it, and grade it."""
     settings = msgspec.json.decode((KIT / "settings.json").read_bytes(), type=Settings)
     reference, course = shipped_reference(), settings.course
     options = Options(reference, settings.isolation, seed=settings.seed, course=course)
@@ -71,19 +71,19 @@ def graded(submission: Path) -> bytes:
         console.print(clean(note))
     show(result, console)
     show_isolation(result, console)
-    return gradescope(told(result, course), course)
+    return write_gradescope(told(result, course), course)
 
 
-def ungraded(why: str, next_step: str) -> bytes:
-    """The reason and no score: Gradescope has tests that tell something and are worth nothing."""
+def explain(why: str, next_step: str) -> bytes:
+    """Return results with the reason and no score, in a test that is worth nothing."""
     reason = f"{clean(why)} {NO_MARK} {next_step}"
-    told_in = {"name": "Not graded", "status": "failed", "output": reason, "output_format": "text"}
+    test = {"name": "Not graded", "status": "failed", "output": reason, "output_format": "text"}
     return msgspec.json.encode(
         {
             "output": reason,
             "output_format": "text",
             "visibility": "visible",
             "stdout_visibility": "hidden",
-            "tests": [told_in | {"visibility": "visible"}],
+            "tests": [test | {"visibility": "visible"}],
         }
     )

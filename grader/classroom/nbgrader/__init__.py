@@ -1,4 +1,4 @@
-"""nbgrader: a course folder, submissions taken into it, and the grader's marks in its gradebook.
+"""Take submissions into nbgrader's course folder, and write marks into its gradebook.
 
 nbgrader runs notebooks; it does not confine them. The engine is graded outside, by the judge, and
 only its points are written into the gradebook, in the cells of the notebook `engine`.

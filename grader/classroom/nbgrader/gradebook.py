@@ -1,4 +1,4 @@
-"""The gradebook: the engine's marks go in, what everybody has in every notebook comes out."""
+"""Write the engine's marks into the gradebook, and read what everybody has in every notebook."""
 
 import warnings
 from collections.abc import Iterable, Iterator
@@ -11,18 +11,19 @@ from typing import Any
 import msgspec
 
 from grader.classroom.marks import ENGINE, Marking, Part, Parts
-from grader.classroom.nbgrader.submissions import ASSIGNMENT, NoCourse
-from grader.intake.names import folded, names_of
-from grader.intake.roster import CannotRead, Roster, people
-from grader.judge import wording as words
-from grader.judge.result import CheckResult, Result, TodoResult
+from grader.classroom.nbgrader.submissions import ASSIGNMENT
+from grader.errors import Stop
+from grader.intake.names import fold, split_login
+from grader.intake.roster import Roster, list_people
+from grader.judge.result import Result, TodoResult
+from grader.judge.wording import reasons
 
 # ---------------------------------------------------------------- marks into the gradebook
 
 
 @dataclass(frozen=True)
 class Filled:
-    """What the gradebook holds for one student's engine now."""
+    """The points of a student's engine in the gradebook, and notes on them."""
 
     student: str
     points: float
@@ -31,10 +32,7 @@ class Filled:
 
 
 def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
-    """The results in files, or in folders of files, each named after its student.
-
-    What is no result comes as a sentence that says so.
-    """
+    """Return the results in files or folders, by their students; a sentence for what is none."""
     for path in paths:
         for file in sorted(path.glob("*.json")) if path.is_dir() else [path]:
             try:
@@ -43,47 +41,51 @@ def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
                 yield file.stem, f"{file} is no result of the grader ({error})"
 
 
-def fill(course: Path, results: Iterable[tuple[str, Result | str]]) -> Iterator[Filled | str]:
+def fill_gradebook(
+    course: Path, results: Iterable[tuple[str, Result | str]]
+) -> Iterator[Filled | str]:
     """Write results into the gradebook, a student at a time; troubles come as sentences.
 
     Points are clamped to what the cell is worth and missing ones are 0, so nothing but a passed
     check earns any. Doing it again changes nothing. A mark given by hand stays and counts.
     """
-    api = nbgrader_api()
-    with opened(course, api) as book:
-        cells = engine_cells(book, api)
-        known = {student.id for student in book.students}
-        known |= {path.parent.name for path in (course / "submitted").glob(f"*/{ASSIGNMENT}")}
+    api = load_nbgrader()
+    with open_gradebook(course, api) as book:
+        cells = find_engine_cells(book, api)
+        students = {student.id for student in book.students}
+        students |= {path.parent.name for path in (course / "submitted").glob(f"*/{ASSIGNMENT}")}
         done = set()
         for student, result in results:
             if isinstance(result, str):
                 yield result
-            elif student not in known:
+            elif student not in students:
                 yield (
-                    f"{student}: nobody of this name handed in or is in the gradebook. "
-                    "A result's file must be named after its student."
+                    f"{student}: nobody of this name handed in or is in the gradebook: "
+                    "name a result's file after its student"
                 )
             else:
                 done.add(student)
-                yield fill_one(book, api, cells, student, result)
-        for submission in book.assignment_submissions(ASSIGNMENT):
-            if submission.student.id not in done and ungraded(book, cells, submission.student.id):
-                for cell in cells:
-                    write_mark(book, cell, submission.student.id, None)
-                    book.find_grade(
-                        cell.name, ENGINE, ASSIGNMENT, submission.student.id
-                    ).needs_manual_grade = True
-                book.db.commit()
-                yield f"{submission.student.id}: no result, so the engine waits for a person"
+                if not has_submission(book, api, student):
+                    add_empty_submission(book, student)
+                yield write_marks(book, cells, student, result)
+        for student in sorted(
+            {s.student.id for s in book.assignment_submissions(ASSIGNMENT)} - done
+        ):
+            if await_result(book, cells, student):
+                yield f"{student}: no result, so the engine waits for a person"
 
 
-def fill_one(book: Any, api: ModuleType, cells: list[Any], student: str, result: Result) -> Filled:
-    """Write one student's points and the reasons for missing ones."""
+def has_submission(book: Any, api: ModuleType, student: str) -> bool:
     book.update_or_create_student(student)
     try:
         book.find_submission(ASSIGNMENT, student)
     except api.MissingEntry:
-        nothing_but_the_engine(book, student)
+        return False
+    return True
+
+
+def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Filled:
+    """Write one student's points and the reasons for missing ones."""
     todos = {f"todo-{todo.id}": todo for todo in result.todos}
     notes = []
     for cell in cells:
@@ -100,8 +102,8 @@ def fill_one(book: Any, api: ModuleType, cells: list[Any], student: str, result:
     return Filled(student, notebook.score, notebook.max_score, tuple(notes))
 
 
-def nothing_but_the_engine(book: Any, student: str) -> None:
-    """A submission without notebooks, which nbgrader passes over: nothing waits to be graded."""
+def add_empty_submission(book: Any, student: str) -> None:
+    """Add a submission without notebooks, which nbgrader skips: nothing waits to be graded."""
     for notebook in book.add_submission(ASSIGNMENT, student).notebooks:
         for grade in notebook.grades:
             grade.auto_score, grade.needs_manual_grade = 0, False
@@ -109,7 +111,7 @@ def nothing_but_the_engine(book: Any, student: str) -> None:
 
 
 def write_mark(book: Any, cell: Any, student: str, todo: TodoResult | None) -> bool:
-    """Write the points of one TODO; returns whether a mark given by hand overrides them."""
+    """Write the points of one TODO; return whether a mark given by hand overrides them."""
     grade = book.find_grade(cell.name, ENGINE, ASSIGNMENT, student)
     points = float(min(max(todo.points if todo else 0, 0), cell.max_score))
     by_hand = grade.manual_score is not None
@@ -118,45 +120,48 @@ def write_mark(book: Any, cell: Any, student: str, todo: TodoResult | None) -> b
     elif not by_hand:
         grade.needs_manual_grade = False
     comment = book.find_comment(cell.name, ENGINE, ASSIGNMENT, student)
-    comment.auto_comment = reasons(todo) if todo else "    not graded yet"
+    comment.auto_comment = write_comment(todo) if todo else "    not graded yet"
     book.db.commit()
     return by_hand
 
 
-def ungraded(book: Any, cells: list[Any], student: str) -> bool:
+def await_result(book: Any, cells: list[Any], student: str) -> bool:
+    """Make an ungraded engine wait for a person; return whether it was ungraded."""
     grades = [book.find_grade(cell.name, ENGINE, ASSIGNMENT, student) for cell in cells]
-    return any(grade.auto_score is None for grade in grades)
+    if all(grade.auto_score is not None for grade in grades):
+        return False
+    for cell, grade in zip(cells, grades, strict=True):
+        write_mark(book, cell, student, None)
+        grade.needs_manual_grade = True
+    book.db.commit()
+    return True
 
 
-def reasons(todo: TodoResult) -> str:
-    """The comment that feedback shows: indented, so that nothing in it is taken for markup."""
+def write_comment(todo: TodoResult) -> str:
+    """Return the comment that feedback shows: indented, so that nothing in it is markup."""
     lines = [f"{todo.state}: {todo.points} / {todo.max_points}"]
     for check in todo.checks:
         if check.state != "passed":
-            lines += reason(check)
+            lines.append(f"{check.title} ({check.points} / {check.max_points})")
+            lines += [f"  {line}" for line in reasons(check)]
     return "\n".join(f"    {line}" for line in lines)
-
-
-def reason(check: CheckResult) -> list[str]:
-    told = [f"  {line}" for line in words.reasons(check)]
-    return [f"{check.title} ({check.points} / {check.max_points})", *told]
 
 
 # ---------------------------------------------------------------- marks out of the gradebook
 
 
-def parts_from_gradebook(course: Path, marking: Marking) -> dict[str, Parts]:
-    """What everybody has in every notebook, late penalties taken off."""
-    api = nbgrader_api()
+def read_parts(course: Path, marking: Marking) -> dict[str, Parts]:
+    """Return what everybody has in every notebook, late penalties taken off."""
+    api = load_nbgrader()
     found: dict[str, Parts] = {}
-    with opened(course, api) as book:
+    with open_gradebook(course, api) as book:
         try:
             notebooks = {notebook.name for notebook in book.find_assignment(ASSIGNMENT).notebooks}
         except api.MissingEntry as error:
-            raise NoCourse(f"the gradebook knows no assignment {ASSIGNMENT}") from error
+            raise Stop(f"the gradebook knows no assignment {ASSIGNMENT}") from error
         unknown = sorted(set(marking.shares) - notebooks)
         if unknown:
-            raise CannotRead(f"shares: there is no notebook {', '.join(unknown)} in the gradebook")
+            raise Stop(f"shares: there is no notebook {', '.join(unknown)} in the gradebook")
         for submission in book.assignment_submissions(ASSIGNMENT):
             found[submission.student.id] = {
                 notebook.name: Part(
@@ -169,27 +174,27 @@ def parts_from_gradebook(course: Path, marking: Marking) -> dict[str, Parts]:
     return found
 
 
-def tell_names(course: Path, roster: Roster, key: str) -> None:
+def write_names(course: Path, roster: Roster, key: str) -> None:
     """Give the students in the gradebook the names of a class list; those not in it are added."""
-    with opened(course, nbgrader_api()) as book:
-        known = {folded(student.id): student.id for student in book.students}
-        for person in people(roster, key):
+    with open_gradebook(course, load_nbgrader()) as book:
+        ids = {fold(student.id): student.id for student in book.students}
+        for person in list_people(roster, key):
             name = person.pop("id")
-            name = next((known[each] for each in names_of(name) if each in known), name)
+            name = next((ids[each] for each in split_login(name) if each in ids), name)
             book.update_or_create_student(name, **person)
 
 
 # ---------------------------------------------------------------- the gradebook itself
 
 
-def engine_cells(book: Any, api: ModuleType) -> list[Any]:
-    """The cells that take the grader's marks, in the order of the notebook."""
+def find_engine_cells(book: Any, api: ModuleType) -> list[Any]:
+    """Return the cells that take the grader's marks, in the order of the notebook."""
     try:
         cells = book.find_notebook(ENGINE, ASSIGNMENT).task_cells
     except api.MissingEntry:
         cells = []
     if not cells:
-        raise NoCourse(
+        raise Stop(
             f"the gradebook knows no notebook {ENGINE}: in the course folder, run "
             f"nbgrader generate_assignment {ASSIGNMENT}"
         )
@@ -197,14 +202,14 @@ def engine_cells(book: Any, api: ModuleType) -> list[Any]:
 
 
 @contextmanager
-def opened(course: Path, api: ModuleType) -> Iterator[Any]:
-    """The course's gradebook; nbgrader would make an empty one where there is none.
+def open_gradebook(course: Path, api: ModuleType) -> Iterator[Any]:
+    """Open the course's gradebook; nbgrader would make an empty one where there is none.
 
-    Its libraries warn of what nbgrader does inside them: nothing that a person could mend here.
+    Its libraries warn of what nbgrader does inside them, and nobody here can change that.
     """
     path = course.resolve() / "gradebook.db"
     if not path.exists():
-        raise NoCourse(
+        raise Stop(
             f"there is no gradebook at {path}: in the course folder, run "
             f"nbgrader generate_assignment {ASSIGNMENT}"
         )
@@ -215,11 +220,11 @@ def opened(course: Path, api: ModuleType) -> Iterator[Any]:
         yield book
 
 
-def nbgrader_api() -> ModuleType:
+def load_nbgrader() -> ModuleType:
     try:
         import nbgrader.api
     except ImportError as error:
-        raise NoCourse(
+        raise Stop(
             "nbgrader is not installed here: python -m pip install nbgrader matplotlib"
         ) from error
     api: ModuleType = nbgrader.api

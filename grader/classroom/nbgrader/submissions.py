@@ -1,4 +1,4 @@
-"""Submissions in a course folder of nbgrader: taken in, and their engines graded."""
+"""Take submissions into a course folder of nbgrader, and grade their engines."""
 
 import filecmp
 import re
@@ -10,22 +10,20 @@ from pathlib import Path
 
 from rich.console import Console
 
-from grader.classroom.batch import grade_class
+from grader.classroom.batch import Run, grade_class
+from grader.classroom.book import Book
 from grader.classroom.executor import Pool
-from grader.classroom.fingerprint import key_of
-from grader.intake.found import CannotTake, Found, Intake
-from grader.intake.listing import opened_class
-from grader.intake.packing import laid_out
+from grader.classroom.fingerprint import make_key
+from grader.errors import Stop
+from grader.intake.found import Found, Intake
+from grader.intake.listing import open_class
+from grader.intake.packing import lay_out
 from grader.judge.grade import KIT, Options
-from grader.judge.submission import CannotGrade, plain_files, unreadable
+from grader.judge.submission import plain_files, unreadable
 
 ASSIGNMENT = "physics-engine"
 NOTEBOOKS = "notebooks"  # the folder of both trees
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
-
-
-class NoCourse(Exception):
-    """The course folder is not ready for this; the message says why and what to do."""
 
 
 # ---------------------------------------------------------------- taking submissions in
@@ -33,43 +31,40 @@ class NoCourse(Exception):
 
 @dataclass(frozen=True)
 class Taken:
-    """What became of one student's folder."""
+    """A student's folder, and what became of it."""
 
     student: str
     words: str
     taken: bool = True
 
 
-def collect(folder: Path, course: Path) -> Iterator[Taken]:
+def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
     """Copy each student's folder to where nbgrader looks for it.
 
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
     starter, or beside the engine. A submission that changed will be autograded anew.
     """
-    need_source(course)
-    try:
-        with opened_class(folder) as intake:
-            for found in intake.found:
-                try:
-                    with laid_out(found) as (path, _):
-                        yield take(found.name, path, course)
-                except (CannotTake, CannotGrade) as error:
-                    yield Taken(found.name, str(error), False)
-            for name, words in intake.troubles.items():
-                yield Taken(name, words, False)
-    except CannotGrade as error:
-        raise NoCourse(str(error)) from error
+    require_course(course)
+    with open_class(folder) as intake:
+        for found in intake.found:
+            try:
+                with lay_out(found) as (path, _):
+                    yield take_submission(found.name, path, course)
+            except Stop as error:
+                yield Taken(found.name, str(error), False)
+        for name, words in intake.troubles.items():
+            yield Taken(name, words, False)
 
 
-def take(student: str, path: Path, course: Path) -> Taken:
+def take_submission(student: str, path: Path, course: Path) -> Taken:
     """Lay one student's files where nbgrader looks for them, if they are not there already."""
     if not NAME.fullmatch(student):
         return Taken(student, "nbgrader cannot work with this name: rename it", False)
     target = course / "submitted" / student / ASSIGNMENT
     with tempfile.TemporaryDirectory() as temporary:
         copy = Path(temporary) / ASSIGNMENT
-        notebooks = lay_out(path, copy)
-        if target.exists() and same(copy, target):
+        notebooks = copy_files(path, copy)
+        if target.exists() and is_same_tree(copy, target):
             return Taken(student, "unchanged")
         shutil.rmtree(target, ignore_errors=True)
         shutil.rmtree(course / "autograded" / student / ASSIGNMENT, ignore_errors=True)
@@ -77,8 +72,8 @@ def take(student: str, path: Path, course: Path) -> Taken:
     return Taken(student, f"{notebooks} notebooks" if notebooks else "no notebook")
 
 
-def lay_out(path: Path, target: Path) -> int:
-    """Copy a submission as nbgrader wants it: notebooks on top. Returns how many there are."""
+def copy_files(path: Path, target: Path) -> int:
+    """Copy a submission as nbgrader wants it, notebooks on top; return how many there are."""
     target.mkdir()
     wanted = {path.name for path in (KIT / "solution" / NOTEBOOKS).glob("*.ipynb")}
     for source in plain_files(path):
@@ -89,20 +84,20 @@ def lay_out(path: Path, target: Path) -> int:
         try:
             shutil.copyfile(source, target / inside)
         except PermissionError as error:
-            raise CannotGrade(unreadable(error, path)) from error
+            raise Stop(unreadable(error, path)) from error
     return sum((target / name).exists() for name in wanted)
 
 
-def same(one: Path, other: Path) -> bool:
+def is_same_tree(one: Path, other: Path) -> bool:
     names = [{p.relative_to(top) for p in top.rglob("*") if p.is_file()} for top in (one, other)]
     if names[0] != names[1]:
         return False
     return all(filecmp.cmp(one / name, other / name, shallow=False) for name in names[0])
 
 
-def need_source(course: Path) -> None:
+def require_course(course: Path) -> None:
     if not (course / "source" / ASSIGNMENT).is_dir():
-        raise NoCourse(
+        raise Stop(
             f"{course} is no course yet: make it with python -m grader nbgrader course {course}"
         )
 
@@ -111,15 +106,15 @@ def need_source(course: Path) -> None:
 
 
 def grade_submitted(course: Path, options: Options, jobs: int, console: Console) -> list[str]:
-    """Grade every engine in `submitted`; a result file each in `results`. Returns the troubles."""
+    """Grade every engine in `submitted` into a file in `results`; return the troubles."""
     found = sorted((course / "submitted").glob(f"*/{ASSIGNMENT}"))
     if not found:
-        raise NoCourse(f"there is nothing in {course / 'submitted'}: collect submissions first")
+        raise Stop(f"there is nothing in {course / 'submitted'}: collect submissions first")
     intake = Intake([Found(path.parent.name, (path,)) for path in found])
     results = course / "results"
     for path in results.glob("*.json"):
         if path.stem not in {each.name for each in intake.found}:
             path.unlink()  # none may outlive its submission
     with Pool(options, jobs) as pool:
-        run = grade_class(intake, results, key_of(options), pool, console)
+        run = grade_class(Run(intake, Book(results), make_key(options)), pool, console)
     return [f"{each.name}: {each.trouble}" for each in run.outcomes if each.trouble]

@@ -1,4 +1,4 @@
-"""The result of one submission as a page that needs nothing else: no network, no second file."""
+"""Write the result of one submission as a page that needs no network and no other file."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,10 +16,10 @@ MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are li
 
 @dataclass(frozen=True)
 class Standing:
-    """What counts for a student in the end, and why, in named lines."""
+    """The points that count for a student in the end, and why, in named lines."""
 
     name: str
-    mark: int | None  # None: a person must look first
+    mark: int | None  # None: it needs manual review
     max_points: int
     bonus: int = 0
     lines: list[tuple[str, str]] = field(default_factory=list)
@@ -31,26 +31,22 @@ def write_report(
     folder: Path | None = None,
     standing: Standing | None = None,
 ) -> None:
-    """Write the page; replays are looked for in `folder`, or else beside the page."""
-    replays = found_replays(result, folder or path.parent)
-    write_whole(report(result, replays, standing).encode("utf-8"), path)
+    """Write the page with the replays that are in `folder`, or else beside the page."""
+    replays = find_replays(result, folder or path.parent)
+    write_whole(render(result, replays, standing).encode("utf-8"), path)
 
 
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
-    page = filled(TEMPLATES / "standing.html", style(), standing=standing, clean=one_line)
+    page = filled(TEMPLATES / "standing.html", read_style(), standing=standing, clean=one_line)
     write_whole(page.encode("utf-8"), path)
 
 
-def report(
-    result: Result,
-    replays: Mapping[str, str],
-    standing: Standing | None = None,
-) -> str:
-    """The page; `replays` are the pages to embed, by their paths in the result."""
+def render(result: Result, replays: Mapping[str, str], standing: Standing | None = None) -> str:
+    """Return the page; `replays` are the pages to embed, by their paths in the result."""
     return filled(
         TEMPLATES / "report.html",
-        style(),
+        read_style(),
         around=hashes(),
         result=result,
         replays=replays,
@@ -61,12 +57,12 @@ def report(
     )
 
 
-def style() -> str:
+def read_style() -> str:
     return (TEMPLATES / "report.css").read_text(encoding="utf-8")
 
 
-def found_replays(result: Result, folder: Path) -> dict[str, str]:
-    """The replays that are there, as far as they fit into one page."""
+def find_replays(result: Result, folder: Path) -> dict[str, str]:
+    """Return the replays that are there, as far as they fit into one page."""
     found: dict[str, str] = {}
     room = MAX_EMBEDDED
     for name in (check.replay for todo in result.todos for check in todo.checks):

@@ -1,1 +1,1 @@
-"""The forms that other systems read: a function each, from one result, every word escaped."""
+"""Write the forms that other systems read: a function each, from one result, every word escaped."""

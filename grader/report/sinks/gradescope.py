@@ -1,4 +1,4 @@
-"""Gradescope's results.json."""
+"""Write Gradescope's results.json."""
 
 import msgspec
 
@@ -8,8 +8,8 @@ from grader.judge.wording import named, points_in_words, reasons
 from grader.text import clean
 
 
-def gradescope(result: Result, course: Course = FULL) -> bytes:
-    """A test per check, all of them visible: one hidden test would hide the student's total.
+def write_gradescope(result: Result, course: Course = FULL) -> bytes:
+    """Return a test per check, all visible: one hidden test would hide the student's total.
 
     The score is without bonus, unless the course adds it; what was earned there is said beside it.
     """
@@ -19,7 +19,7 @@ def gradescope(result: Result, course: Course = FULL) -> bytes:
         score = round(score * course.out_of / result.max_points, 2)
         output += f": {score:g} of {course.out_of:g}"
     tests = [
-        test(todo, check, number)
+        make_test(todo, check, number)
         for todo in result.shown
         for number, check in enumerate(todo.checks, 1)
     ]
@@ -44,9 +44,9 @@ def gradescope(result: Result, course: Course = FULL) -> bytes:
     )
 
 
-def test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
+def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
     return {
-        **points(todo, check),
+        **make_points(todo, check),
         "status": "passed" if check.state == "passed" else "failed",
         "number": f"{todo.id}.{number}",
         "output": "\n".join(reasons(check)) if check.state != "passed" else "",
@@ -56,8 +56,8 @@ def test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]
     }
 
 
-def points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
-    """The name, and the points where they count: a bonus says them in words, so that sums hold."""
+def make_points(todo: TodoResult, check: CheckResult) -> dict[str, object]:
+    """Return the name and the points; a bonus has them in its name, so that sums hold."""
     name = named(todo, check.title)
     if todo.bonus:
         return {"name": f"{name} (bonus: {check.points} of {check.max_points})"}

@@ -1,4 +1,4 @@
-"""JUnit XML, which GitLab, Jenkins and others show as a list of tests."""
+"""Write JUnit XML, which GitLab, Jenkins and others show as a list of tests."""
 
 from xml.etree import ElementTree as ET
 
@@ -14,8 +14,8 @@ TAGS: dict[State, str] = {
 }
 
 
-def junit(result: Result) -> bytes:
-    """A suite per TODO and a case per check, in the form of the schema junit-10."""
+def write_junit(result: Result) -> bytes:
+    """Return a suite per TODO and a case per check, in the form of the schema junit-10."""
     root = ET.Element("testsuites", name=clean(result.submission))
     add_counts(root, result.shown)
     for todo in result.shown:
@@ -40,10 +40,10 @@ def count(todos: list[TodoResult], tag: str) -> int:
 
 
 def add_case(suite: ET.Element, check: CheckResult) -> None:
-    """A case is named alike in every run, so that runs can be compared; GitLab shows classnames."""
+    """Add a check under the same name in every run, to compare runs; GitLab shows classnames."""
     case = ET.SubElement(suite, "testcase", classname=suite.attrib["name"])
     case.set("name", f"{check.title} ({plural(check.max_points, 'point')})")
     if tag := TAGS.get(check.state):
-        told = ET.SubElement(case, tag, message=clean(check.got) or check.state)
+        element = ET.SubElement(case, tag, message=clean(check.got) or check.state)
         if tag != "skipped":
-            told.text = "\n".join(reasons(check))
+            element.text = "\n".join(reasons(check))

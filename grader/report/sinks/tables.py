@@ -1,15 +1,12 @@
-"""Plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
+"""Write plain tables: CSV for spreadsheets and JSON Lines for programs, a line per check."""
 
-import csv
-import io
-import unicodedata
 from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from grader.judge.result import Result
 from grader.judge.wording import place_of
-from grader.text import clean
+from grader.text import clean, format_csv
 
 COLUMNS = (
     "submission",
@@ -24,22 +21,21 @@ COLUMNS = (
     "got",
     "where",
 )
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
-def csv_table(results: Iterable[Result]) -> bytes:
-    """A line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
-    table = [COLUMNS, *(row.values() for row in rows(results))]
-    return as_csv(table).encode("utf-8-sig")
+def write_csv(results: Iterable[Result]) -> bytes:
+    """Return a line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
+    table = [COLUMNS, *(row.values() for row in make_rows(results))]
+    return format_csv(table).encode("utf-8-sig")
 
 
-def json_lines(results: Iterable[Result]) -> bytes:
-    """An object per check; no value is changed for a spreadsheet's sake."""
-    return b"".join(msgspec.json.encode(row) + b"\n" for row in rows(results))
+def write_json_lines(results: Iterable[Result]) -> bytes:
+    """Return an object per check, with no value changed for spreadsheets."""
+    return b"".join(msgspec.json.encode(row) + b"\n" for row in make_rows(results))
 
 
-def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
-    """Bonus TODOs have lines as well: their names begin with a B."""
+def make_rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
+    """Return a row per check, also of bonus TODOs, whose ids begin with a B."""
     for result in results:
         for todo in result.todos:
             for check in todo.checks:
@@ -57,18 +53,3 @@ def rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
                     clean(place_of(check)),
                 )
                 yield dict(zip(COLUMNS, values, strict=True))
-
-
-def as_csv(table: Iterable[Iterable[str | float]]) -> str:
-    """The rows of a table for a spreadsheet, with CRLF behind each; no text is a formula."""
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\r\n")
-    for row in table:
-        writer.writerow([harmless(each) if isinstance(each, str) else each for each in row])
-    return out.getvalue()
-
-
-def harmless(cell: str) -> str:
-    """A cell that no spreadsheet takes for a formula: an apostrophe goes before it."""
-    plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
-    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell

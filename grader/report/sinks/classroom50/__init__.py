@@ -1,4 +1,4 @@
-"""Classroom 50: the marks in its form, and the bundle of files by which it grades."""
+"""Write marks for Classroom 50, and the bundle of files by which it grades."""
 
 import shutil
 from collections.abc import Mapping
@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 
+from grader.errors import Stop
 from grader.judge.result import Result, TodoResult
 from grader.judge.wording import named
 from grader.text import clean
@@ -22,18 +23,14 @@ NEEDED = {
 STAMPED = {"assignment_type": "ASSIGNMENT_TYPE", "owner": "OWNER"}  # by the runner in any case
 
 
-class NoRunner(Exception):
-    """The variables of Classroom 50's runner are not there; the message names them."""
+def write_classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
+    """Return its result.json: a test per TODO, whole points that add up.
 
-
-def classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
-    """Its result.json: a test per TODO, whole points that add up.
-
-    Whose marks these are is said by the runner's environment. Raises NoRunner outside of it.
+    The runner's environment says whose marks these are.
     """
     missing = [name for name in NEEDED.values() if not environment.get(name)]
     if missing:
-        raise NoRunner(
+        raise Stop(
             f"{', '.join(missing)} not set: this form is for the runner of Classroom 50, which "
             "sets them"
         )
@@ -45,13 +42,13 @@ def classroom50(result: Result, environment: Mapping[str, str]) -> bytes:
         "datetime": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
         "score": result.points,
         "max-score": result.max_points,
-        "tests": [test(todo) for todo in result.shown],
+        "tests": [make_test(todo) for todo in result.shown],
     }
     return msgspec.json.format(msgspec.json.encode(marks)) + b"\n"
 
 
-def test(todo: TodoResult) -> dict[str, str | bool | int]:
-    """One TODO; a bonus is said in words, so that the points add up."""
+def make_test(todo: TodoResult) -> dict[str, str | bool | int]:
+    """Return one TODO; a bonus is in its name, so that the points add up."""
     name = named(todo, clean(todo.title))
     if todo.bonus:
         name += f" (bonus: {todo.points} of {todo.max_points})"

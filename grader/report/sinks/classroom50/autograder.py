@@ -1,4 +1,4 @@
-"""Grades one submission for Classroom 50, whose runner starts this in the student's checkout.
+"""Grade one submission for Classroom 50, whose runner starts this in the student's checkout.
 
 The grader is installed from the files beside this one into a folder of its own, and nothing is
 imported from the checkout. The exit status is 0 when grading came to its end, whatever the marks.
@@ -30,7 +30,7 @@ def main() -> int:
 
 
 def install(folder: Path) -> Path | None:
-    """The Python that has the grader; None where it could not be installed."""
+    """Install the grader and return its Python; None where that failed."""
     venv.create(folder, with_pip=True)
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = [str(python), "-I", "-m", "pip", "--quiet", "--disable-pip-version-check", "install"]
@@ -52,7 +52,7 @@ def grade(python: Path, checkout: Path, report: Path) -> int:
     shutil.copyfile(report / "report.html", checkout / "report.html")
     shutil.copyfile(report / "summary.md", checkout / "release-body.md")
     marks = report / "result.json"
-    tell_status(json.loads(marks.read_bytes()))
+    write_status(json.loads(marks.read_bytes()))
     return subprocess.run(
         [*grader, "export", "classroom50", marks, "--out", checkout / "result.json"]
     ).returncode
@@ -66,8 +66,8 @@ def make_room(place: Path) -> None:
         place.unlink(missing_ok=True)
 
 
-def tell_status(result: dict[str, int]) -> None:
-    """What stands beside the student's commit."""
+def write_status(result: dict[str, int]) -> None:
+    """Write what Classroom 50 shows beside the student's commit."""
     points, most = result["points"], result["max_points"]
     status = "success" if points == most else "failure"
     if file := os.environ.get("GITHUB_OUTPUT"):

@@ -1,0 +1,124 @@
+"""A learning system: how to read what it exports, and what it takes back."""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from grader.intake.found import Found, Intake, Upload
+from grader.intake.roster import PLAIN_COLUMNS, ClassList, Roster, Row
+
+PAGE = "feedback.html"
+TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # of Blackboard and Brightspace
+
+
+class Marked(NamedTuple):
+    """A row of the class list, its mark, and what makes the mark."""
+
+    row: Row
+    mark: str
+    summary: str
+
+
+@dataclass(frozen=True)
+class MarkColumn:
+    """The marks of one assignment, as a gradebook is to get them."""
+
+    title: str
+    total: float
+    key: str  # the column of the class list that identifies students
+    rows: list[Marked]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A student's page of feedback on its way back."""
+
+    name: str  # of the student
+    file: str  # its name, where the system leaves that free
+    content: bytes
+    text: str  # the same in plain words
+    participant: str = ""  # Moodle's name of a group's member, where another handed in
+
+
+class Lms:
+    """A learning system; this one is any other, whose gradebook asks which column is which."""
+
+    name = "plain"
+    title_sign = ""  # what follows an assignment's title in a column of the gradebook
+    only_commas = False  # it takes back UTF-8 with commas alone
+    names_alone = True  # its export identifies students by nothing but their names
+    side_files: frozenset[str] = frozenset()  # what its export holds besides submissions
+
+    # -------------------------------------------------------- what it exports
+
+    def read_upload(self, path: Path, people: ClassList) -> Upload | None:
+        """Return whose upload this is; None for a name that this system does not write."""
+        return None
+
+    def read_own_name(self, path: Path) -> str | None:
+        """Return a file's name as the student gave it; None where this system wrote no name."""
+        return None
+
+    def is_export(self, folder: Path) -> bool:
+        """Tell whether a folder lists its submissions in a file of this system."""
+        return False
+
+    def is_whole_export(self, folder: Path) -> bool:
+        """Tell whether a folder among others is an export, not a submission with such a file."""
+        return False
+
+    def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
+        """Return the submissions that the list of an export names."""
+        return iter(())
+
+    # -------------------------------------------------------- its gradebook
+
+    def writes_gradebook(self, columns: set[str]) -> bool:
+        """Tell whether a gradebook with these columns is this system's."""
+        return False
+
+    def is_student(self, row: Row) -> bool:
+        """Tell whether a row of the gradebook is a student's."""
+        return True
+
+    def translate(self, titles: list[str]) -> list[str]:
+        """Return the titles of columns as this system has them in English."""
+        return titles
+
+    def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
+        """Return the file of marks that the system takes, as rows of cells."""
+        own = [name for name in roster.columns if name in PLAIN_COLUMNS or name == marks.key]
+        table = [[*(roster.titles.get(name, name) for name in own), "Grade", "Feedback"]]
+        return [*table, *([*pick(row, own), mark, words] for row, mark, words in marks.rows)]
+
+    def find_total(self, roster: Roster, title: str) -> str:
+        """Return what full marks are in the gradebook; empty where it does not say."""
+        columns = (name for name in roster.columns if name.startswith(title))
+        return next((match[1] for name in columns if (match := TOTAL.search(name))), "")
+
+    def warn_above(self, names: str, total: float) -> str:
+        """Return what to tell of students whose marks are above the total."""
+        return f"{names}: above {total:g}: does your gradebook allow that?"
+
+    # -------------------------------------------------------- feedback
+
+    def name_page(self, participant: str, file: str) -> str:
+        """Return the name of a page for a student without a file; empty where it takes none."""
+        return ""
+
+    def name_pages(
+        self, source: Path, pages: list[Page]
+    ) -> Iterable[tuple[str, bytes | dict[str, bytes]]]:
+        """Return files of feedback for what was handed in as `source`; a dict becomes a zip."""
+        return ()
+
+
+def pick(row: Row, columns: Iterable[str]) -> list[str]:
+    return [row[name] for name in columns]
+
+
+def find_title(roster: Roster, start: str, otherwise: str) -> str:
+    """Return the gradebook's own name of the assignment's column, which has an id behind it."""
+    return next((name for name in roster.columns if name.startswith(start)), otherwise)
