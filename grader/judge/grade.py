@@ -324,7 +324,7 @@ class Grading:
         ran = {id for todo_id, id in loop.functions if todo_id == todo.id}
         mistake = None
         if any(check.failed and check.id in ran for check in checks):
-            mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
+            mistake = misconceptions.name_mistake(todo.id, self.observations.get(todo.id, []))
         earlier = self.find_earlier(todo, loop, unfinished)
         checks = [wait_for(earlier[c.id], c) if c.id in earlier else c for c in checks]
         modules = {each.id: each.module or todo.module for each in todo.checks}
