@@ -51,7 +51,7 @@ class Finding:
 
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
-    """The findings, of which each mistake in the same part is told once, wherever it shows."""
+    """Merge findings of one mistake in one part, wherever it shows."""
     found: dict[tuple[Mistake, str], Finding] = {}
     for each in findings:
         before = found.get((each.mistake, each.part), each)
@@ -76,7 +76,7 @@ class Diagnosis:
         ]
 
     def describe(self, observations: Sequence[Observation]) -> str:
-        """What the answers of one check mean; empty where nothing can be told.
+        """Return what the answers of one check mean; empty where nothing can be told.
 
         The first wrong one is spoken of, by the known mistakes that show in it. What these leave
         unexplained of it is narrowed down.
@@ -105,7 +105,7 @@ class Diagnosis:
     # ------------------------------------------------------------ known mistakes
 
     def find_mistakes(self, about: str) -> list[Finding]:
-        """The mistakes told by the questions of one kind, the one that shows in most first."""
+        """Find the mistakes that the questions of one kind show, the most frequent first."""
         numbers = [n for n, each in enumerate(self.questions) if each.about == about]
         wrong = [n for n in numbers if self.questions[n].wrong]
         if not wrong:
@@ -128,7 +128,7 @@ class Diagnosis:
         return best
 
     def is_telling(self, finding: Finding) -> bool:
-        """Whether more speaks for it than answers that are missing in some of the questions.
+        """Return whether more speaks for it than answers that are missing in some of the questions.
 
         Nothing at all is what many mistakes leave of an answer, and this one would show elsewhere.
         """
@@ -137,7 +137,7 @@ class Diagnosis:
         )
 
     def count_explained(self, findings: list[Finding]) -> int:
-        """How many wrong parts of answers these mistakes explain."""
+        """Return how many wrong parts of answers these mistakes explain."""
         return len(
             {
                 (n, part)
@@ -148,7 +148,7 @@ class Diagnosis:
         )
 
     def group(self, numbers: list[int], kinds: tuple[str, ...]) -> list[tuple[str, list[int]]]:
-        """The questions by what they are like in these ways."""
+        """Return the questions by what they are like in these ways."""
         found: dict[str, list[int]] = {}
         for number in numbers:
             traits = self.questions[number].traits
@@ -189,7 +189,7 @@ class Diagnosis:
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]
     ) -> frozenset[str]:
-        """The parts that a mistake changes; none where one of them is not as in the answers.
+        """Return the parts that a mistake changes; none where one of them is not as in the answers.
 
         What is `covered` another mistake has changed already.
         """
@@ -210,12 +210,12 @@ class Diagnosis:
         return as_seen if as_seen == changed or mistake.about in separate_questions else frozenset()
 
     def find_changes(self, mistake: Mistake, numbers: list[int]) -> frozenset[str]:
-        """The parts that a mistake changes in any of these questions."""
+        """Return the parts that a mistake changes in any of these questions."""
         predicted = [self.predict(mistake, number) for number in numbers]
         return frozenset[str]().union(*(each.wrong for each in predicted if each is not None))
 
     def predict(self, mistake: Mistake, number: int) -> Question | None:
-        """A question with the answer that a mistake gives to it, if there is one."""
+        """Return a question with the answer that a mistake gives to it, if there is one."""
         if (mistake, number) not in self.predictions:
             each, found = self.questions[number], None
             if each.about == mistake.about:
@@ -228,7 +228,7 @@ class Diagnosis:
     def choose(
         self, fit: list[tuple[Mistake, frozenset[str]]], numbers: list[int]
     ) -> tuple[Mistake, frozenset[str]] | None:
-        """The mistake that changes most; of several that change the same, the one that fits all.
+        """Choose the mistake that changes most; of several alike, the one that fits all.
 
         Where still several do, none of what they change is told of by another one.
         """
@@ -247,7 +247,7 @@ class Diagnosis:
         return None
 
     def is_denied(self, mistake: Mistake, changed: frozenset[str]) -> bool:
-        """Whether a mistake would show in other questions as well, and does not."""
+        """Return whether a mistake would show in other questions as well, and does not."""
         for number, each in enumerate(self.questions):
             predicted = self.predict(mistake, number)
             if predicted is not None and any(
@@ -257,6 +257,6 @@ class Diagnosis:
         return False
 
     def shows_elsewhere(self, mistake: Mistake, numbers: list[int]) -> bool:
-        """Whether a mistake would show outside of these questions too."""
+        """Return whether a mistake would show outside of these questions too."""
         outside = set(range(len(self.questions))).difference(numbers)
         return any(p is not None and p.wrong for p in (self.predict(mistake, n) for n in outside))

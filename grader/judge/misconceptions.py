@@ -1,4 +1,4 @@
-"""Naming the mistake: a model of each known one, held against every answer the submission gave.
+"""Name the mistake: hold a model of each known one against every answer of the submission.
 
 A mistake is named only if its model gives *every* observed answer it speaks about, and the right
 model does not. Nothing is guessed from how the code looks.
@@ -79,7 +79,7 @@ def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> 
 
 
 def always(answer: Any) -> Model:
-    """The model that gives the same answer whatever is asked."""
+    """Return the model that gives the same answer whatever is asked."""
     return lambda *inputs: answer
 
 
@@ -108,7 +108,7 @@ def register_recorded(table: Recorded, todo: str) -> None:
 
 
 def answer_from(answers: Answers) -> Model:
-    """The model that gives these answers, and is undecided where there is none."""
+    """Return the model that gives these answers, and is undecided where there is none."""
 
     def model(*inputs: Any) -> Any:
         try:
@@ -120,7 +120,7 @@ def answer_from(answers: Answers) -> Model:
 
 
 def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | None:
-    """The known mistake that explains every answer, or None.
+    """Return the known mistake that explains every answer, or None.
 
     A student's copy sees less, so it names one only if no other explains as much.
     """
@@ -132,12 +132,12 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
 
 
 def simplest(ids: Collection[str]) -> list[str]:
-    """The ids without those of two mistakes, `one+other`, one of which is there by itself."""
+    """Drop the ids of two mistakes, `one+other`, one of which is there by itself."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 
 def predict(model: Model, inputs: tuple[Any, ...]) -> Any:
-    """What a model gives. Raises Undecided too where it divides by 0 or leaves all numbers."""
+    """Return what a model gives; raise Undecided too where it divides by 0 or overflows."""
     try:
         return model(*inputs)
     except ArithmeticError:
@@ -165,7 +165,7 @@ def explains(each: Mistake, observations: Iterable[Observation]) -> bool:
 
 
 def are_close(first: Any, second: Any, tolerance: float = 1e-6) -> bool:
-    """Equal up to rounding, whatever the shape."""
+    """Return whether two answers are equal up to rounding, whatever the shape."""
     if isinstance(first, int | float) and isinstance(second, int | float):
         return math.isclose(first, second, rel_tol=tolerance, abs_tol=tolerance)
     if isinstance(first, tuple | list) and isinstance(second, tuple | list):

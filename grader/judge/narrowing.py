@@ -43,7 +43,7 @@ class Question:
 
     @cached_property
     def misfit(self) -> str:
-        """What is wrong where the answer is no such thing as the right one; else empty."""
+        """Return what is wrong where the answer is no such thing as the right one; else empty."""
         if isinstance(self.answer, str):
             return f"the answer is {self.answer}"
         if self.answer is None and self.right is not None:
@@ -55,7 +55,7 @@ class Question:
 
     @cached_property
     def parts(self) -> dict[str, Any]:
-        """The parts of the answer by their names."""
+        """Return the parts of the answer by their names."""
         return split(self.about, self.answer)
 
     @cached_property
@@ -64,7 +64,7 @@ class Question:
 
     @cached_property
     def wrong(self) -> frozenset[str]:
-        """The names of the parts that are wrong."""
+        """Return the names of the parts that are wrong."""
         if are_close(self.answer, self.right):
             return frozenset()
         names = [] if self.misfit else part_names.get(self.about, {})
@@ -127,7 +127,7 @@ class Narrowed:
 
     @property
     def is_local(self) -> bool:
-        """Whether it tells questions with a wrong answer from others."""
+        """Return whether it tells questions with a wrong answer from others."""
         return any(f" {each.where}".count(" where ") for each in self.wrong)
 
     @property
