@@ -395,11 +395,11 @@ class Lab(Decoder):
         if self.opening is not None:
             return without_opening(self._played(with_opening(request, self.opening)))
         reply = self._played(request)
-        if any(reply.steps) or reply.ended != "returned":
+        if starts_at_once(reply) or reply.ended != "returned":
             return reply
         for opening in OPENINGS:
             other = without_opening(self._played(with_opening(request, opening)))
-            if any(other.steps):
+            if starts_at_once(other):
                 self.opening = opening
                 return other
         return reply
@@ -445,11 +445,18 @@ class Lab(Decoder):
 
 
 OPENING = [17] * 4  # ms: frames in which a program shows its title
+IDLE = 100.0  # ms
 OPENINGS = (  # what a person tries
     Event(2, "key", key="return"),
     Event(2, "click", (450, 300)),
     Event(2, "key", key="space"),
 )
+
+
+def starts_at_once(played: Played) -> bool:
+    """Return whether the first step runs before a person would see that nothing moves."""
+    first = next((number for number, steps in enumerate(played.steps) if steps), None)
+    return first is not None and (first < len(OPENING) or played.clock[first] <= IDLE)
 
 
 def with_opening(request: Play, opening: Event) -> Play:
