@@ -215,7 +215,7 @@ class Diagnosis:
         return list(found.items())
 
     def named(self, where: str, numbers: list[int]) -> list[Finding]:
-        """The mistakes that explain some parts of all these answers, until none is left."""
+        """Return the mistakes that together give every number of all these answers, or none."""
         found: list[Finding] = []
         covered: frozenset[str] = frozenset()
         wrong = [n for n in numbers if self.seen[n].wrong]
@@ -239,7 +239,8 @@ class Diagnosis:
             more = self.changes(mistake, numbers) - changed
             part = either(name for name in parts[mistake.about] if name in changed) if more else ""
             found.append(Finding(mistake, clause, part, changed, shows))
-        return found
+        is_all = all(self.seen[n].wrong <= covered for n in wrong)
+        return found if is_all else []
 
     def fits(self, mistake: Mistake, numbers: list[int], covered: frozenset[str]) -> frozenset[str]:
         """The parts that a mistake changes; none where one of them is not as in the answers.

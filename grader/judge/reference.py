@@ -52,26 +52,35 @@ class Reference:
         return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
 
     def for_the_others(
-        self, todo: Todo, module: str, rubric: Rubric, submission: Submission
+        self,
+        todo: Todo,
+        module: str,
+        rubric: Rubric,
+        submission: Submission,
+        failed: frozenset[str] = frozenset(),
     ) -> list[Piece]:
-        """The pieces of the other TODOs in `module`, where the submission's own differ from them.
+        """Return the pieces of the other TODOs in `module`, where the submission's own differ.
 
-        The whole is the submission as it is, but for its bonus tasks: a mistake there costs nothing
-        elsewhere. A bonus task that was not begun does nothing, and stays. What `rubric` leaves out
-        is handed out done, so a stub that stands there all the same is none of the student's.
+        A TODO has right versions of all others. The whole has them of those that have `failed`, of
+        its bonus tasks, and of what `rubric` leaves out: that was handed out done, so a stub in its
+        place is none of the student's. A bonus task that was not begun does nothing, and stays.
         """
         asked = {each.id for each in rubric.todos}
         own = todo.function.partition(":")[2]
-        others = [other for other in self.todos if other.id != todo.id and other.module == module]
+
+        def stands_in(other: Todo) -> bool:
+            begun = submission.begun[other.id]
+            if other.bonus or todo.function:
+                return begun or not other.bonus
+            return other.id in failed if begun else other.id not in asked
+
         return [
             without(own, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
-            for other in others
-            if other.id in self.pieces
-            and (
-                submission.begun[other.id]
-                if other.bonus
-                else bool(todo.function) or not (other.id in asked or submission.begun[other.id])
-            )
+            for other in self.todos
+            if other.id != todo.id
+            and other.module == module
+            and other.id in self.pieces
+            and stands_in(other)
             and self.shapes[other.id] != submission.functions.get(other.id)
         ]
 

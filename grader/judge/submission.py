@@ -18,13 +18,14 @@ from grader.judge.file_names import accept_printed_names
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
+from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
+from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
-    RegionError,
     python_files,
+    read_regions,
     read_source,
-    regions_in,
     shape_of,
 )
 
@@ -55,6 +56,9 @@ class Submission:
     left_out: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)  # files too long to look into, in words
     uses_numpy: bool = False
+    flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
+    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
+    starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
 
     def holds(self, file: str) -> bool:
         """Whether there is such a file in it: what a child says may name any."""
@@ -198,7 +202,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         for path in python_files(submission.folder)
     }
     submission.uses_numpy = any("numpy" in text for text in texts.values())
-    program = Program(texts)
+    program = mend_programs(submission, texts)
     for todo in rubric.todos:
         if not todo.function:
             continue
@@ -208,11 +212,77 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    for module in dict.fromkeys(todo.module for todo in rubric.todos):
+        main = program.definition(module, "main")
+        if main is not None:
+            file = program.paths[main.module].as_posix()
+            submission.starts[module] = Where(file, main.function.lineno if main.function else 1)
+        elif module in program.paths:
+            submission.starts[module] = Where(program.paths[module].as_posix(), 1)
+    for module, flaw in submission.outside.items():
+        own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
+        if not any(id in submission.functions for id in own):  # nothing but what is no Python
+            submission.flaws |= dict.fromkeys(own, flaw)
+    for id, flaw in submission.flaws.items():
+        submission.begun[id], submission.where[id] = True, Where(flaw.file, flaw.line)
     giants = {each for each in submission.folder.rglob("*.py") if each.is_file()} - {
         submission.folder / inside for inside in texts
     }
     paths = [*sorted(giants), *(submission.folder / inside for inside in program.unread)]
     submission.unread = [in_words(path, submission.folder) for path in paths]
+
+
+def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
+    """Put something else in the place of what Python refuses in the files that its programs load.
+
+    Changes `texts` and the copy, and notes whose code was replaced.
+    """
+    mender, mended_once = Mender(handed_out()), set[Path]()
+    modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    started = [*modules, *(f"{module}.__main__" for module in modules)]
+    while True:
+        program = Program(texts)
+        loaded = dict.fromkeys(part for module in started for part in program.loaded(module))
+        refused = {
+            path: flaw
+            for name in loaded
+            if (path := program.paths[name]) not in {*mended_once, *program.unread}
+            and (flaw := flaw_of(submission.folder / path, program.modules[name].refused))
+        }
+        for path, flaw in refused.items():
+            mend_file(submission, mender, path, texts, flaw)
+        if not refused:
+            return program
+        mended_once |= refused.keys()
+
+
+def mend_file(
+    submission: Submission, mender: Mender, path: Path, texts: dict[Path, str], flaw: Flaw
+) -> None:
+    module, flaw = module_of(path), flaw.in_file(path.as_posix())
+    mended = mender.mend(flaw, texts[path])
+    if mended is None:
+        submission.outside.setdefault(module, flaw)
+        return
+    texts[path] = mended.text
+    (submission.folder / path).write_text(mended.text, encoding="utf-8", newline="\n")
+    for todo, each in mended.flaws.items():
+        if todo == OUTSIDE:
+            submission.outside.setdefault(module, each)
+        else:
+            submission.flaws.setdefault(todo, each)
+
+
+def flaw_of(path: Path, refused: bool) -> Flaw | None:
+    """Return what Python refuses in a file, whose text may parse while its bytes are no text."""
+    return find_bad_bytes(path.read_bytes()) or (find_flaw(read_source(path)) if refused else None)
+
+
+@cache
+def handed_out() -> HandedOut:
+    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
+    functions = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
+    return HandedOut(load_given(), stubs, functions)
 
 
 def in_words(path: Path, folder: Path) -> str:
@@ -235,7 +305,7 @@ def look_at(
 
     A region counts inside the function alone: a copy of it further up is not what runs.
     """
-    region = region_of(text, todo.id)
+    region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
     if function is not None:
         source = source_of(text, function)
         submission.functions[todo.id] = shape_of(source)
@@ -258,14 +328,6 @@ def first_code_line(region: Region) -> int:
 
 def is_comment(line: str) -> bool:
     return line.strip().startswith("#") or not line.strip()
-
-
-def region_of(text: str, todo: str) -> Region | None:
-    """The region of a TODO; None where the markers of the file do not pair up."""
-    try:
-        return next((region for region in regions_in(text) if region.id == todo), None)
-    except RegionError:
-        return None
 
 
 def module_of(inside: PurePath) -> str:

@@ -14,9 +14,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
+from grader.source.flaws import misplaced
 from grader.source.regions import parsed
 
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
+MAX_CALLED = 200  # names that are followed from a function
 MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
 
 
@@ -82,6 +84,7 @@ class Module:
     """What the names of a module are bound to, and which others its import loads."""
 
     empty: bool = True  # nothing in it, or no Python
+    refused: bool = False  # whether it may be no Python, or has statements where none may be
     names: dict[str, list[tuple[int, Binding]]] = field(default_factory=lambda: defaultdict(list))
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
@@ -142,6 +145,35 @@ class Program:
                 waiting += self._module(name).imports
         return sorted(seen)
 
+    def names_used(self, module: str, path: str) -> set[str]:
+        """Return the names in a function and in those that it calls, as far as the text tells."""
+        found: set[str] = set()
+        seen: set[tuple[str, str]] = set()
+        waiting = [(module, path)]
+        while waiting and len(seen) < MAX_CALLED:
+            asked = waiting.pop()
+            seen.add(asked)
+            defined = self.definition(*asked)
+            if defined is None or defined.function is None:
+                continue
+            found.add(asked[1].rpartition(".")[2])
+            owner = asked[1].rpartition(".")[0]
+            for node in ast.walk(
+                ast.Module(statements(self.source(defined.module, defined.function)), [])
+            ):
+                match node:
+                    case ast.Name(id=name):
+                        called = defined.module, name
+                    case ast.Attribute(attr=name):
+                        called = defined.module, f"{owner}.{name}" if owner else name
+                    case _:
+                        continue
+                found.add(name)
+                if called not in seen:
+                    seen.add(called)
+                    waiting.append(called)
+        return found
+
     # ------------------------------------------------------------ reading a module
 
     def _module(self, name: str) -> Module:
@@ -157,7 +189,7 @@ class Program:
             return Module()
         self.read += len(text)
         tree = statements(text)
-        module = Module(empty=not tree)
+        module = Module(not tree, not tree or any(misplaced(ast.Module(tree, []))))
         module.imports = dict.fromkeys(self._imports(name, tree))
         for number, node in enumerate(top_level(tree)):
             match node:

@@ -13,7 +13,15 @@ from difflib import SequenceMatcher
 from functools import cache
 
 from grader.source.definitions import dotted_name, statements
-from grader.source.regions import MAX_SHAPE, Region, RegionError, regions_in, replaced, shape_of
+from grader.source.regions import (
+    MAX_SHAPE,
+    Region,
+    RegionError,
+    read_regions,
+    regions_in,
+    replaced,
+    shape_of,
+)
 
 MAX_LINE = 80  # characters of a line that are told
 Definition = ast.FunctionDef | ast.ClassDef
@@ -87,7 +95,7 @@ def as_given(text: str, given: str) -> str:
 def outside(text: str) -> list[str]:
     """The lines of a file outside its regions; all of them where the markers do not pair up."""
     lines = text.splitlines()
-    for region in reversed(regions_of(text)):
+    for region in reversed(read_regions(text)[0]):
         del lines[region.start + 1 : region.stop]
     return lines
 
@@ -100,9 +108,7 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
-        with suppress(RegionError):
-            whole = tuple(as_given(text, given).splitlines())
-            yield from difference(file, file, lines, Piece(0, len(lines)), whole)
+        yield from change_of_file(file, text, given)
         return
     own, ours = with_markers(pieces(body), text), given_pieces(given)
     elsewhere = imported_names(body)
@@ -124,6 +130,14 @@ def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
         yield Changed(
             name, file, hides.start + 1, cut(lines[hides.start]), "", hides.start, hides.stop
         )
+
+
+def change_of_file(file: str, text: str, given: str) -> Iterator[Changed]:
+    """Yield all that differs outside the regions as one change, what was added included."""
+    lines = text.splitlines()
+    with suppress(RegionError):
+        whole = tuple(as_given(text, given).splitlines())
+        yield from difference(file, file, lines, Piece(0, len(lines)), whole)
 
 
 def gone(
@@ -149,8 +163,8 @@ def difference(
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:
     """A given function with the regions of theirs; None where theirs lacks a marker of it."""
-    own = {region.id: region.lines for region in regions_of("\n".join(theirs))}
-    asked = {region.id for region in regions_of("\n".join(given))}
+    own = {region.id: region.lines for region in read_regions("\n".join(theirs))[0]}
+    asked = {region.id for region in read_regions("\n".join(given))[0]}
     if not asked <= own.keys():
         return None
     return tuple(replaced("\n".join(given) + "\n", own).splitlines()) if asked else given
@@ -207,7 +221,7 @@ def given_pieces(text: str) -> dict[str, Piece]:
 
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
     """The pieces with the last region in each, which may stand behind its last statement."""
-    lines, regions = text.splitlines(), regions_of(text)
+    lines, regions = text.splitlines(), read_regions(text)[0]
     return {name: with_last_region(piece, regions, lines) for name, piece in found.items()}
 
 
@@ -313,10 +327,3 @@ def end_of(body: list[ast.stmt], owner: str, count: int) -> int:
     """The index behind the last line of a class, or of the file."""
     ends = [n.end_lineno or 0 for n in body if isinstance(n, ast.ClassDef) and n.name == owner]
     return ends[-1] if ends else count
-
-
-def regions_of(text: str) -> list[Region]:
-    try:
-        return regions_in(text)
-    except RegionError:
-        return []

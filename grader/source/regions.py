@@ -14,8 +14,13 @@ MAX_SOURCE = 128 * 1024  # bytes of a file
 MAX_SHAPE = 32 * 1024  # characters of a region or function of which more is kept than the text
 # Fifty names with dots between them: in an import, Python's parser keeps each beginning of these.
 CHAIN = re.compile(r"(?:\.[\s\\]*+\w++[\s\\]*+){50}")
-START = re.compile(r"^(?P<indent>[ \t]*)# TODO (?P<id>[0-9]+[a-d]?|B[0-9]): (?P<task>\S.*)$")
-END = re.compile(r"^[ \t]*# END TODO (?P<id>[0-9]+[a-d]?|B[0-9])\s{0,80}$")
+TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, here and nowhere else
+START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
+END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
+# What is meant for a marker: an id with a colon, or at the end.
+MEANT = re.compile(
+    r"[ \t]*# ?(?:TODO ?\w*[0-9]\w*:|END ?TODO ?\w*[0-9]\w*\s{0,80}$)", re.IGNORECASE
+)
 
 
 class RegionError(ValueError):
@@ -61,37 +66,46 @@ def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
         return None
 
 
-def regions_in(text: str) -> list[Region]:
-    """The regions of a file in order; raises RegionError for unpaired, nested or double markers."""
-    found: list[Region] = []
+def regions_in(text: str, file: str = "") -> list[Region]:
+    """Return the regions of a file in order.
+
+    Raises RegionError, which names the file and the line, for markers that do not pair up, that
+    are nested, or that are not written as markers are.
+    """
+    found, wrong = read_regions(text)
+    if wrong:
+        line, why = wrong[0]
+        raise RegionError(f"{file}:{line}: {why}" if file else f"line {line}: {why}")
+    return found
+
+
+def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
+    """Return the regions of a file that pair up, and by line what is wrong with other markers."""
+    found: dict[str, Region] = {}
+    wrong: list[tuple[int, str]] = []
     lines = text.splitlines() if "TODO" in text else []
-    open_at: int | None = None
+    opened: tuple[int, str, str] | None = None  # the index, id and task of the last start
     for number, line in enumerate(lines):
         start, end = START.match(line), END.match(line)
         if start:
-            if open_at is not None:
-                raise RegionError(f"line {number + 1}: a TODO begins inside another one: {line}")
-            open_at = number
+            if opened is not None:
+                wrong.append((number + 1, f"a TODO begins inside another one: {line.strip()}"))
+            opened = number, start["id"], start["task"].rstrip()
         elif end:
-            opened = START.match(lines[open_at]) if open_at is not None else None
-            if open_at is None or opened is None or opened["id"] != end["id"]:
-                raise RegionError(f"line {number + 1}: nothing was opened for: {line.strip()}")
-            found.append(
-                Region(
-                    end["id"],
-                    opened["task"].rstrip(),
-                    open_at,
-                    number,
-                    tuple(lines[open_at + 1 : number]),
-                )
-            )
-            open_at = None
-    if open_at is not None:
-        raise RegionError(f"line {open_at + 1}: never ended: {lines[open_at].strip()}")
-    ids = [region.id for region in found]
-    if len(ids) != len(set(ids)):
-        raise RegionError(f"a TODO id stands twice: {ids}")
-    return found
+            if opened is None or opened[1] != end["id"]:
+                wrong.append((number + 1, f"nothing was opened for: {line.strip()}"))
+            elif end["id"] in found:
+                wrong.append((number + 1, f"TODO {end['id']} is there twice"))
+            else:
+                between = tuple(lines[opened[0] + 1 : number])
+                found[end["id"]] = Region(end["id"], opened[2], opened[0], number, between)
+            opened = None
+        elif MEANT.match(line):
+            form = "write `# TODO 4: what to do`, and `# END TODO 4` below it"
+            wrong.append((number + 1, f"`{line.strip()}` is no marker: {form}"))
+    if opened is not None:
+        wrong.append((opened[0] + 1, f"never ended: {lines[opened[0]].strip()}"))
+    return list(found.values()), wrong
 
 
 def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:

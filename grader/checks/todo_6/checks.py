@@ -2,8 +2,6 @@
 
 import re
 
-from hypothesis import given
-
 from grader.checks.pacing import (
     LONGEST_UNCUT,
     MAX_STEPS,
@@ -22,8 +20,8 @@ from grader.checks.strategies import (
     frame_lists,
     frame_rates,
     frames_to_advance,
-    once,
 )
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
 STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
@@ -156,8 +154,7 @@ def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
     }
 
 
-@once
-@given(rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
+@given(examples=1, shrinks=False, rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
 def any_frames_lose_nothing_but_what_the_cap_cuts(
     lab: Lab, rate: int, mixed: list[int], asked: list[tuple[float, float]]
 ) -> None:
