@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 from msgspec.structs import replace as replace_in
 from rich.console import Console
@@ -198,8 +199,8 @@ def test_a_wrong_name_for_a_mistake_is_a_complaint():
     assert complaint_of(other, result, 1.0) == "its mistake is named spin-is-not-damped"
 
 
-def rung(path: Path, points: int) -> Verdict:
-    member = Member("ladder", f"5-{path.stem}", "package", Entry(), path)
+def rung(sheet: Path, name: str, points: int) -> Verdict:
+    member = Member("ladder", f"5-{name}", "package", Entry(code="pass"), sheet)
     todo = TodoResult("5", "Damping", "not yet", points, 8, None, [])
     return Verdict(member, replace_in(RIGHT, points=points, todos=[todo]), 1.0, "")
 
@@ -214,11 +215,9 @@ def rung(path: Path, points: int) -> Verdict:
     ],
 )
 def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complaint: str):
-    paths = [tmp_path / "5" / f"{name}.py" for name in ("0-a", "1-b", "2-c", "3-d")]
-    paths[0].parent.mkdir()
-    for path in paths:
-        path.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
-    report = Report([rung(*each) for each in zip(paths, points, strict=True)])
+    names, sheet = ("0-a", "1-b", "2-c", "3-d"), tmp_path / "5.toml"
+    sheet.write_text("".join(f'[{name}]\ncode = "pass"\n' for name in names), encoding="utf-8")
+    report = Report([rung(sheet, *each) for each in zip(names, points, strict=True)])
     (ladder,) = report.ladders
     assert ladder.complaint == complaint
     assert report.sound == (not complaint)
@@ -349,9 +348,9 @@ def test_members_that_leave_files_name_them_after_themselves():
         "|".join(map(re.escape, (*traces.OPEN_TO_ALL, "expanduser", "home()")))
     )
     for member in members(KIT):
-        if member.source is None:
-            continue
-        files = [member.source] if member.source.is_file() else member.source.rglob("*.py")
-        for path in files:
-            text = path.read_text(encoding="utf-8", errors="replace")
-            assert not open_to_all.search(text) or member.name in text, path
+        texts = [msgspec.json.encode(member.entry).decode()]
+        if member.source is not None and member.source.suffix != ".toml":
+            files = [member.source] if member.source.is_file() else member.source.rglob("*.py")
+            texts += [path.read_text(encoding="utf-8", errors="replace") for path in files]
+        for text in texts:
+            assert not open_to_all.search(text) or member.name in text, member.name

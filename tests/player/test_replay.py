@@ -16,7 +16,7 @@ from conftest import Once, only_some
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 import grader.player.replay as replays
-from grader.bank.members import Member, members, patch
+from grader.bank.members import Member, members, put_regions
 from grader.bank.verify import shared_worker
 from grader.checks.todo_2 import checks as todo_2
 from grader.checks.todo_3 import checks as todo_3
@@ -74,8 +74,7 @@ def mistaken(once: Once) -> Path:
         chosen = [m for m in members(KIT) if m.name in MISTAKES and m.form == "package"]
         chosen[0].build(KIT, folder)
         for member in chosen[1:]:
-            assert member.source is not None
-            patch(member.source, folder)
+            put_regions(member.regions, folder)
         todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
         options = Options(shipped_reference(), only=todos)
         result = grade_with_replays(folder, options, top / "pages", shared_worker())
