@@ -264,7 +264,8 @@ def convert(document: Any, kind: type[Read], around: str = "") -> Read:
         return msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
         place = re.search(r"`\$\.?([\w.]*)(?:\[.*)?`$", str(error))
-        names = [*filter(None, [around, *(place[1].split(".") if place else [])])]
+        inside = place[1].split(".") if place else []
+        names = [name for name in (around, *inside) if name]
         if unknown := re.search(r"unknown field `(.*?)`", str(error)):
             owner = {"late": Late, "questions": Asked}.get(names[-1] if names else "", Course)
             known = ", ".join(
