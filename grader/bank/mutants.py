@@ -260,7 +260,8 @@ def name_holds(submission: Path, todo: str, name: str) -> bool:
 def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> bool:
     """Return whether a model gives every answer that it is about, and all others are right."""
     misconceptions.load_known(todo)
-    models = [each for each in misconceptions.known if (each.todo, each.id) == (todo, name)]
+    known = misconceptions.known_mistakes
+    models = [each for each in known if (each.todo, each.id) == (todo, name)]
     return any(
         misconceptions.explains(model, answers)
         and all(is_right(each) for each in answers if each.about != model.about)
@@ -270,10 +271,10 @@ def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> b
 
 def is_right(answer: Observation) -> bool:
     try:
-        right = misconceptions.right[answer.about](*answer.inputs)
+        right = misconceptions.right_models[answer.about](*answer.inputs)
     except Undecided:
         return True
-    return misconceptions.alike(right, answer.answer)
+    return misconceptions.are_close(right, answer.answer)
 
 
 # ---------------------------------------------------------------- all of them

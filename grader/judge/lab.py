@@ -44,6 +44,7 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
+Opening = tuple[int, Event | None]  # frames to wait, and what ends the title
 Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
 NOTHING: Frame = {}
 OURS = 1_000_000  # numbers of objects from here on are given by us, lower ones by the child
@@ -83,7 +84,7 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for what is made at our word
         self.remembers: list[str] = []  # the names in which something was kept; see Remembered
         self.played = False  # whether the child has run a program
-        self.opening: Event | None = None  # what ends the title of the program, if it has one
+        self.opening: Opening | None = None  # of a program that begins with something else
 
     @property
     def ended(self) -> bool:
@@ -379,8 +380,8 @@ class Lab(Decoder):
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
-        A second run has a process of its own: a program may count on being started once. Where no
-        step runs the program may show a title first, so it is opened as a person would try to.
+        A second run has a process of its own: a program may count on being started once. One that
+        shows a title or loads something begins where that ends.
         """
         request = Play(
             module or self.module,
@@ -393,16 +394,26 @@ class Lab(Decoder):
             step_ms,
         )
         if self.opening is not None:
-            return without_opening(self._played(with_opening(request, self.opening)))
+            return self._opened(request, self.opening)
         reply = self._played(request)
-        if any(reply.steps) or reply.ended != "returned":
+        if reply.ended != "returned" or starts_at_once(reply):
             return reply
-        for opening in OPENINGS:
-            other = without_opening(self._played(with_opening(request, opening)))
-            if any(other.steps):
+        return next(self._openings(request, reply), reply)
+
+    def _openings(self, request: Play, reply: Played) -> Iterator[Played]:
+        """Try to open a program that is late: by waiting, and as a person would try to."""
+        for event in (None, *TRIES):
+            tried = self._played(with_lead(request, LEAD, event)) if event else reply
+            first = first_step(tried)
+            if first is not None and starts_at_once(
+                played := self._opened(request, (opening := (first - 1, event)))
+            ):
                 self.opening = opening
-                return other
-        return reply
+                yield played
+
+    def _opened(self, request: Play, opening: Opening) -> Played:
+        """Run the program, and leave out the frames before its first one."""
+        return without_lead(self._played(with_lead(request, *opening)), opening[0])
 
     def _played(self, request: Play) -> Played:
         """Run the program once."""
@@ -444,43 +455,47 @@ class Lab(Decoder):
             raise
 
 
-OPENING = [17] * 4  # ms: frames in which a program shows its title
-OPENINGS = (  # what a person tries
+LEAD = 20  # frames, for a program that shows a title or loads something
+IDLE = 100.0  # ms
+TRIES = (  # what a person tries where a program shows a title
     Event(2, "key", key="return"),
     Event(2, "click", (450, 300)),
     Event(2, "key", key="space"),
 )
 
 
-def with_opening(request: Play, opening: Event) -> Play:
-    """Return the request with a few frames before all others, in which an event ends the title."""
-    later = [
-        msgspec.structs.replace(each, frame=each.frame + len(OPENING)) for each in request.events
-    ]
+def first_step(played: Played) -> int | None:
+    """Return the first frame in which a step ran, or None."""
+    return next((number for number, steps in enumerate(played.steps) if steps), None)
+
+
+def starts_at_once(played: Played) -> bool:
+    """Return whether the first step runs before a person would see that nothing moves."""
+    first = first_step(played)
+    return first is not None and (first == 0 or played.clock[first - 1] <= IDLE)
+
+
+def with_lead(request: Play, lead: int, event: Event | None) -> Play:
+    """Return the request with so many frames before all others, and an event in them."""
+    later = [msgspec.structs.replace(each, frame=each.frame + lead) for each in request.events]
     return msgspec.structs.replace(
         request,
-        frames=[*OPENING, *request.frames],
-        events=[opening, *later],
-        photos=[frame + len(OPENING) for frame in request.photos],
+        frames=[17] * lead + request.frames,
+        events=[event, *later] if event else later,
+        photos=[frame + lead for frame in request.photos],
     )
 
 
-def without_opening(played: Played) -> Played:
-    """Return what a program did after its opening; steps that ran in it belong to the first frame.
-
-    The clock goes on from the beginning of the first frame.
-    """
-    count = len(OPENING)
-    if len(played.steps) <= count:
+def without_lead(played: Played, lead: int) -> Played:
+    """Return what a program did after so many frames, as if it had begun then."""
+    if len(played.steps) <= lead:
         return played
-    first = sum(played.steps[: count + 1])
-    began = played.clock[count - 1]
     return msgspec.structs.replace(
         played,
-        steps=[first, *played.steps[count + 1 :]],
-        clock=[each - began for each in played.clock[count:]],
-        pictures=played.pictures[count:],
-        photos=[msgspec.structs.replace(p, frame=p.frame - count) for p in played.photos],
+        steps=[sum(played.steps[: lead + 1]), *played.steps[lead + 1 :]],
+        clock=[each - played.clock[lead] for each in played.clock[lead:]],
+        pictures=played.pictures[lead:],
+        photos=[msgspec.structs.replace(p, frame=p.frame - lead) for p in played.photos],
     )
 
 

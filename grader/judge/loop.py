@@ -55,7 +55,7 @@ class CheckLoop:
     wrong: str = ""  # which check fails the right code, and how
 
     def run(self) -> None:
-        """Every check in the order of the rubric."""
+        """Run every check in the order of the rubric."""
         for todo in filter(self.wanted, self.rubric.todos):
             checks = load_checks(todo)
             for check in todo.checks:
@@ -75,7 +75,7 @@ class CheckLoop:
             self.progress(result)
 
     def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
-        """The result of a check that need not run."""
+        """Return the result of a check that need not run."""
         if flaw := self._flaw_of(todo, check):
             return self._refused(todo, check, title, flaw)
         begun = self.submission.begun
@@ -98,7 +98,7 @@ class CheckLoop:
         return None
 
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
-        """With the reference in the other TODOs' places; failing that, the program as it is.
+        """Run a check with the reference in the other TODOs' places, then the program as it is.
 
         What is told of a failure comes from the program as it is. Where the reference was sent, a
         submission could have read it, and any word or number of its answers could spell it out;
@@ -133,7 +133,7 @@ class CheckLoop:
         return self._result(todo, check, title, "passed")
 
     def _survey(self, todo: Todo, check: Check, function: Any, told: Lab) -> list[Observation]:
-        """What the program as it is answers to all that a failed check asks, and not just so far.
+        """Ask the program as it is all that a failed check asks, and not just so far.
 
         By that, what is wrong can be told from what is right. Not worth its time for a property,
         which asks much, nor where a program was played.
@@ -170,7 +170,7 @@ class CheckLoop:
     def _attempt(
         self, todo: Todo, check: Check, function: Any, isolated: bool
     ) -> tuple[Lab, Example]:
-        """A lab in which the check ran, and what ran there last.
+        """Return a lab in which the check ran, and what ran there last.
 
         A property draws the same for all, so it asks at once what another submission has passed.
         Only where that fails need hypothesis look for the simplest example.
@@ -192,7 +192,7 @@ class CheckLoop:
         return lab, examples[-1]
 
     def _alone(self, lab: Lab, alone: Lab) -> Lab:
-        """The lab to tell of, given what its last example came to in a child asked nothing else.
+        """Return the lab to tell of: its last example was asked alone, in another child.
 
         Where that differs, the answer hangs on what was asked before, and no number of it means
         anything.
@@ -211,7 +211,7 @@ class CheckLoop:
         return lab
 
     def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
-        """The lab of a check that failed and is asked once more, of children that others open.
+        """Ask a check that failed once more, of children that others open.
 
         All marks are decided by then. Its observations are those of the program as it is.
         """
@@ -234,7 +234,7 @@ class CheckLoop:
         surveys: bool = False,
         watched: bool = False,
     ) -> Lab:
-        """A lab in which the check ran, of the reference itself if it is to be the `right` code.
+        """Return a lab in which the check ran, of the reference itself if `right`.
 
         One that `surveys` goes on where the check fails, and costs the submission none of the time
         that decides about marks. One that is `watched` says what the submission remembers.
@@ -367,7 +367,7 @@ class CheckLoop:
         )
 
     def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
-        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        """Return whether a line is as handed out: an error there comes from elsewhere."""
         text = load_given().get(frame.file)
         if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
             return False

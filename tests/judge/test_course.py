@@ -34,7 +34,7 @@ from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, sp
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.judge.wording import told
+from grader.judge.wording import withhold_reasons
 from grader.release.build import build, wrong_submissions
 from grader.release.handed_out import students_tree, write_tree
 from grader.release.handouts import handouts_of
@@ -348,8 +348,8 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
     ]
     one = TodoResult("1", "x", "not yet", 0, 16, None, checks)
     result = Result(1, "ann", 0, 16, 0, [], [one])
-    assert told(result, course, day) == result == told(result, FULL)
-    before = told(result, course, day - timedelta(seconds=1)).todos[0]
+    assert withhold_reasons(result, course, day) == result == withhold_reasons(result, FULL)
+    before = withhold_reasons(result, course, day - timedelta(seconds=1)).todos[0]
     hidden = {each.id for each in todo.checks if each.hidden}
     assert hidden
     for check, full in zip(before.checks, checks, strict=True):

@@ -484,9 +484,9 @@ def want_a_free_box(lab: Lab, level: int) -> None:
 
 def hit_by_a_ball(lab: Lab, space: Thing, pos: Pair, speed: float) -> None:
     """Put a ball of the lesson's into a space, at so many px/s to the right."""
-    ball = lab.thing(lab.call("pymunk:Body", 4.0, 800.0), "a Body")
+    ball = lab.thing(lab.call("pymunk:Body", 2.25, 253.125), "a Body")
     lab.put(ball, position=pos, velocity=(speed, 0))
-    disc = lab.thing(lab.call("pymunk:Circle", ball, 20.0), "a Circle")
+    disc = lab.thing(lab.call("pymunk:Circle", ball, 15.0), "a Circle")
     lab.put(disc, friction=0.6, elasticity=0.4)
     lab.tell(space, "add", ball, disc)
 

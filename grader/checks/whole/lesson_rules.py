@@ -126,7 +126,7 @@ def want_a_total_that_is_clamped(lab: Lab) -> None:
 def want_friction_after_pressure(lab: Lab) -> None:
     """Friction of the last pass is limited by what presses in the last pass."""
     lab.ran("a disc pushed under a slanting rod along a rough static one at 100 px/s, one step")
-    world, _, _ = leaning_disc(lab, lab.about(100.0), 0.03)
+    world, _, _ = leaning_disc(lab, lab.about(100.0), 0.001)
     touching = lab.simulate(world, [], 1, contacts=True).contacts[0]
     lab.want(len(touching) == 1, "one contact", f"{len(touching)}")
     row = touching[0]
