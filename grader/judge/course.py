@@ -264,7 +264,7 @@ def convert(document: Any, kind: type[Read]) -> Read:
         return msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
         place = re.search(r"`\$\.?([\w.]*)(?:\[.*)?`$", str(error))
-        names = [*filter(None, place[1].split("."))] if place else []
+        names = [name for name in place[1].split(".") if name] if place else []
         if unknown := re.search(r"unknown field `(.*?)`", str(error)):
             owner = {"late": Late, "questions": Asked}.get(names[-1] if names else "", Course)
             known = ", ".join(
