@@ -22,14 +22,13 @@ from rich.table import Table
 
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, make_slips
-from grader.bank.verify import each_of, shared_worker
+from grader.bank.verify import collect, run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
-from grader.report.progress import Counter
 from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
@@ -173,6 +172,10 @@ class Outcome:
     is_misnamed: bool = False
 
     @property
+    def name(self) -> str:
+        return str(self.mutant)
+
+    @property
     def verdict(self) -> str:
         if self.mutant.todo in self.lost:
             return "killed"
@@ -283,13 +286,8 @@ def run_mutants(
     mutants: Sequence[Mutant], jobs: int, console: Console, alone: bool = False
 ) -> list[Outcome]:
     """Grade the mutants; print each complaint, and a table."""
-    outcomes: list[Outcome] = []
-    with Counter("grading mutants", len(mutants), console) as counter:
-        for outcome in each_of(partial(grade_mutant, alone=alone), mutants, jobs):
-            outcomes.append(outcome)
-            counter.reached(len(outcomes))
-            if outcome.complaint:
-                console.print(f"{outcome.mutant}: {outcome.complaint}")
+    graded = run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs)
+    outcomes = collect("grading mutants", graded, len(mutants), console)
     table = Table("TODO", "all", "killed", "survived", "equivalent", "named")
     for todo in dict.fromkeys(each.todo for each in mutants):
         table.add_row(

@@ -1,4 +1,4 @@
-"""What a release has for practice at home: some of each case of *predict a number*, answered."""
+"""Make what a release has for practice: some answered cases of *predict a number*."""
 
 import msgspec
 
@@ -14,17 +14,17 @@ EACH = 12  # cases of a maker
 SEED = "practice at home"  # no sheet is drawn from it: its seeds are numbers
 
 
-def practice_of(course: Course) -> bytes:
-    """The file for a course's release: the same for the same kit."""
+def make_practice(course: Course) -> bytes:
+    """Return the file for a course's release: always the same for the same kit."""
     options = Options(shipped_reference(), trusted=True, course=course)
     with open_program(KIT / "solution", options) as program:
-        cases = tuple(cases_of(each, program) for each in take_turns(MAKERS, program))
+        cases = tuple(draw_cases(each, program) for each in take_turns(MAKERS, program))
         practice = Practice(course.questions, program.given, cases)
     return msgspec.json.encode(practice, order="sorted")
 
 
-def cases_of(maker: Asks, program: Program) -> Cases:
-    """Some questions of one maker, no two alike; each holds by the closed form and by a run."""
+def draw_cases(maker: Asks, program: Program) -> Cases:
+    """Draw some questions of one maker, no two the same; each holds in closed form and by a run."""
     found: dict[str, Question] = {}
     for number in range(EACH):
         try:

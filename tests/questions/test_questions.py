@@ -49,7 +49,7 @@ from grader.questions.question import (
 )
 from grader.questions.sheet import ask_some, take_turns
 from grader.questions.tally import add_class, write_bank
-from grader.release.practice import practice_of
+from grader.release.practice import make_practice
 from grader.report.files import write_json, write_whole
 from grader.source.regions import python_files, read_source, regions_in
 
@@ -562,7 +562,7 @@ def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
 
 @pytest.fixture(scope="module")
 def practice() -> Practice:
-    return msgspec.json.decode(practice_of(FULL), type=Practice)
+    return msgspec.json.decode(make_practice(FULL), type=Practice)
 
 
 def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
