@@ -39,6 +39,7 @@ ENVIRONMENT = {
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
 MAX_PRINTED = 65 * 1024  # of one answer
 MAX_LINES = 200  # that a program printed
+MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
 MAX_FRAMES = 12  # functions that an error went through
 
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
@@ -290,6 +291,8 @@ class Play(Struct, frozen=True, tag="play"):
     physics: bool = True  # False: steps are counted and not run
     trail_every: int = 0  # record every moving body after each so many steps; 0 = never
     pictures: bool = False  # False: next to nothing is drawn
+    photos: list[int] = []  # the frames at whose end the window is photographed
+    step_ms: float = 0.0  # how long each step takes on the scripted clock
 
 
 Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own
@@ -366,6 +369,15 @@ class Simulated(Struct, frozen=True, tag="simulated"):
     opcodes: int = 0  # that ran, where they were to be counted
 
 
+class Photo(Struct, frozen=True, array_like=True):
+    """What the window showed when a frame ended; nothing where no frame was shown."""
+
+    frame: int
+    width: int  # px
+    height: int  # px
+    colours: Annotated[bytes, Meta(max_length=MAX_PHOTO)]  # RGB row by row, compressed by zlib
+
+
 class Played(Struct, frozen=True, tag="played"):
     """The record of a program, frame by frame; the last entry covers what came after."""
 
@@ -378,6 +390,7 @@ class Played(Struct, frozen=True, tag="played"):
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
     pictures: list[int] = []  # a checksum of what the window showed when each frame ended
+    photos: Annotated[list[Photo], Meta(max_length=MAX_PHOTOS)] = []
     paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
 

@@ -22,13 +22,14 @@ from rich.table import Table
 
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, make_slips
-from grader.bank.verify import collect, run_in_processes, shared_worker
+from grader.bank.verify import run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Undecided
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import Rubric, load_rubric
+from grader.report.progress import Counter
 from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
@@ -172,10 +173,6 @@ class Outcome:
     is_misnamed: bool = False
 
     @property
-    def name(self) -> str:
-        return str(self.mutant)
-
-    @property
     def verdict(self) -> str:
         if self.mutant.todo in self.lost:
             return "killed"
@@ -263,7 +260,8 @@ def name_holds(submission: Path, todo: str, name: str) -> bool:
 def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> bool:
     """Return whether a model gives every answer that it is about, and all others are right."""
     misconceptions.load_known(todo)
-    models = [each for each in misconceptions.known if (each.todo, each.id) == (todo, name)]
+    known = misconceptions.known_mistakes
+    models = [each for each in known if (each.todo, each.id) == (todo, name)]
     return any(
         misconceptions.explains(model, answers)
         and all(is_right(each) for each in answers if each.about != model.about)
@@ -273,10 +271,10 @@ def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> b
 
 def is_right(answer: Observation) -> bool:
     try:
-        right = misconceptions.right[answer.about](*answer.inputs)
+        right = misconceptions.right_models[answer.about](*answer.inputs)
     except Undecided:
         return True
-    return misconceptions.alike(right, answer.answer)
+    return misconceptions.are_close(right, answer.answer)
 
 
 # ---------------------------------------------------------------- all of them
@@ -286,8 +284,13 @@ def run_mutants(
     mutants: Sequence[Mutant], jobs: int, console: Console, alone: bool = False
 ) -> list[Outcome]:
     """Grade the mutants; print each complaint, and a table."""
-    graded = run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs)
-    outcomes = collect("grading mutants", graded, len(mutants), console)
+    outcomes: list[Outcome] = []
+    with Counter("grading mutants", len(mutants), console) as counter:
+        for outcome in run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs):
+            outcomes.append(outcome)
+            counter.reached(len(outcomes))
+            if outcome.complaint:
+                console.print(f"{outcome.mutant}: {outcome.complaint}")
     table = Table("TODO", "all", "killed", "survived", "equivalent", "named")
     for todo in dict.fromkeys(each.todo for each in mutants):
         table.add_row(

@@ -108,10 +108,10 @@ def merge_regions(source: Path, target: Path) -> bytes:
     if source.suffix != ".py":
         return source.read_bytes()
     text = source.read_text(encoding="utf-8")
-    regions = regions_in(text)
+    regions = regions_in(text, str(source))
     if not regions:
         return source.read_bytes()
-    stubs = {r.id: r.lines for r in regions_in(target.read_text(encoding="utf-8"))}
+    stubs = {r.id: r.lines for r in regions_in(target.read_text(encoding="utf-8"), str(target))}
     for region in regions:
         if region.id not in stubs:
             raise OutOfStep(f"{target} has no stub for TODO {region.id}: write one there first")

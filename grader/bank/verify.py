@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from multiprocessing import active_children, get_context
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from rich.console import Console
 from rich.table import Table
@@ -35,18 +35,7 @@ from grader.report.progress import Counter
 
 One = TypeVar("One")
 Found = TypeVar("Found")
-
-
-class HasComplaint(Protocol):
-    """Something that was judged, and what is wrong with it; empty if nothing is."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def complaint(self) -> str: ...
-
-
-Judged = TypeVar("Judged", bound=HasComplaint)
+Judged = TypeVar("Judged", "Verdict", "HalfwayVerdict")
 
 RESULTS = KIT / "build" / "verify"
 MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong

@@ -196,9 +196,6 @@ def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
     return pushed(rod, -force * rod.dt)
 
 
-DEPTH = 0.265625  # px, the overlap of every contact that is rubbed
-
-
 class Discs(NamedTuple):
     """Two discs that touch; the normal leads from A to B, and a mass of 0 is a static body's."""
 
@@ -207,36 +204,11 @@ class Discs(NamedTuple):
     normal: Pair = (0.0, 1.0)
     radius: Pair = (10.0, 10.0)  # px
     drift: Pair = (0.0, 0.0)  # px/s, of both together, where both can move
-    spin: Pair = (0.0, 0.0)  # rad/s, of each that can move
-    turning: bool = False  # whether an impulse turns them; else their inertia is infinite
 
     @property
     def k(self) -> float:
-        """How much an impulse along the normal changes the speed along it, 1/kg."""
+        """How much an impulse changes the speed along it, 1/kg, where nothing turns."""
         return inverse(self.mass[0]) + inverse(self.mass[1])
-
-    @property
-    def arms(self) -> Pair:
-        """How far the point of contact is from each centre, px."""
-        return self.radius[0], self.radius[1] - DEPTH
-
-    @property
-    def inverse_inertias(self) -> Pair:
-        """In 1/(kg px²)."""
-        a, b = (inverse(0.5 * m * r**2) for m, r in zip(self.mass, self.radius, strict=True))
-        return (a, b) if self.turning else (0.0, 0.0)
-
-
-class Rubbing(NamedTuple):
-    """A contact just before a pass: how hard it is pressed, and how B moves as seen from A."""
-
-    jn: float  # kg px/s
-    slip: float  # px/s
-    closing: float = 0.0  # px/s
-
-    def pressed(self, k: float) -> float:
-        """The normal impulse that limits the friction: jn after the pass, with target 0."""
-        return max(self.jn + self.closing / k, 0.0)
 
 
 @recorded.oracle()
@@ -245,13 +217,9 @@ def clamped(value: float, limit: float) -> float:
 
 
 @recorded.oracle()
-def friction_totals(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
-    """The friction impulse on B in total after each pass, along the slip; k in 1/kg."""
-    totals = [0.0]
-    for each in passes:
-        limit = math.sqrt(mu[0] * mu[1]) * each.pressed(k)
-        totals.append(clamped(totals[-1] - each.slip / k, limit))
-    return tuple(totals[1:])
+def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
+    """The friction impulse on B in a step, along the slip, kg px/s; k in 1/kg, speeds in px/s."""
+    return clamped(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
 # ---------------------------------------------------------------- integrators

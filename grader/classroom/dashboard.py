@@ -25,7 +25,7 @@ from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
 from grader.judge.result import Result, State, TodoResult
-from grader.judge.wording import told
+from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.player.page import clean_line, fill_template
 from grader.player.replay import grade_with_replays
@@ -223,7 +223,7 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
         if entry.result is None:
             write_standing(standing, report)
         else:
-            write_report(told(entry.result, course), report, standing=standing)
+            write_report(withhold_reasons(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(render_class(folder, entries).encode("utf-8"), path)
     return path

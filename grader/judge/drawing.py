@@ -1,62 +1,74 @@
-"""How properties draw their examples: the judge's settings, seeds and recorded examples.
+"""Draw the examples of properties: by explicit seeds, the same on every machine.
 
-Marks depend on it, and hypothesis has no public names for some of it. Its private names are used
-here and nowhere else; `tests/judge/test_drawing.py` fails where an upgrade changes one of them, or
-what is drawn.
+Only the public interface of hypothesis is used. The text of a check has no part in what is drawn.
+Neither has what else is loaded: hypothesis mixes in integers that it finds in modules, but none
+below 100, so strategies are made of smaller ones (see `between`).
 """
 
+import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial, wraps
+from pathlib import Path
 from typing import Any
 
 import hypothesis
-from hypothesis.internal.conjecture import providers
+from hypothesis import HealthCheck, Phase
+from hypothesis import strategies as st
+from hypothesis.configuration import set_hypothesis_home_dir
 
-EXAMPLES = 25  # per property
+EXAMPLES = 25  # per property that asks for no other number
+BASE = 100  # hypothesis takes no integer from a loaded module that is smaller
 
 Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
+Property = Callable[..., None]
 
-JUDGE_SETTINGS = hypothesis.settings(
-    derandomize=True,
-    deadline=None,
-    database=None,
-    max_examples=EXAMPLES,
-    report_multiple_bugs=False,
-    print_blob=False,
-    phases=(hypothesis.Phase.explicit, hypothesis.Phase.generate, hypothesis.Phase.shrink),
-    suppress_health_check=list(hypothesis.HealthCheck),
-)
-hypothesis.settings.register_profile("judge", JUDGE_SETTINGS)
+# What hypothesis keeps of the modules it reads: 0.4 s of reading in each process, if it kept none.
+CACHE = Path(__file__).parents[2] / "build" / "hypothesis"
+set_hypothesis_home_dir(CACHE)
 
-# Without this, examples would depend on which of our modules happen to be loaded, and on what
-# hypothesis has drawn in this process before.
-NO_CONSTANTS = type(providers._local_constants)()
-providers._get_local_constants = lambda: NO_CONSTANTS
-providers.CONSTANTS_CACHE.cache.clear()
+
+def given(
+    examples: int = EXAMPLES, shrinks: bool = True, **strategies: st.SearchStrategy[Any]
+) -> Callable[[Property], Property]:
+    """Make a check a property: hypothesis' own `given`, under the judge's settings."""
+    phases = [Phase.explicit, Phase.generate, Phase.shrink]
+    settings = hypothesis.settings(
+        deadline=None,
+        database=None,
+        max_examples=examples,
+        report_multiple_bugs=False,
+        print_blob=False,
+        phases=phases if shrinks else phases[:2],
+        suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
+    )
+    return lambda function: settings(hypothesis.given(**strategies)(function))
+
+
+def between(low: int, high: int) -> st.SearchStrategy[int]:
+    """Draw an integer from low to high, as two digits below 100; the simplest is nearest to 0."""
+    size, simplest = high - low + 1, max(low, min(0, high))
+    return st.builds(
+        lambda large, small: low + (simplest - low + BASE * large + small) % size,
+        st.integers(0, (size - 1) // BASE),
+        st.integers(0, BASE - 1),
+    )
 
 
 @contextmanager
-def judge_settings() -> Iterator[None]:
-    """The judge's settings for every property that has none of its own."""
-    usual = hypothesis.settings.get_current_profile_name()
-    hypothesis.settings.load_profile("judge")
-    try:
-        yield
-    finally:
-        hypothesis.settings.load_profile(usual)
+def kept_examples(function: Any, seed: int | None) -> Iterator[list[Example]]:
+    """Collect the examples of a property as it draws them; any other check has none.
 
-
-@contextmanager
-def kept_examples(function: Any) -> Iterator[list[Example]]:
-    """The examples of a property, as they come; of any other check there are none."""
+    It draws by its name and by the instructor's seed.
+    """
     examples: list[Example] = []
     if not hasattr(function, "hypothesis"):
         yield examples
         return
+    hypothesis.seed(number_of(f"{function.__name__} {seed}"))(function)
     inner = function.hypothesis.inner_test
 
-    @wraps(inner)  # hypothesis draws by the source and signature, which stay the same
+    @wraps(inner)
     def example(*args: Any, **drawn: Any) -> None:
         examples.append(partial(inner, *args, **{k: drawn[k] for k in drawn if k != "lab"}))
         inner(*args, **drawn)
@@ -68,16 +80,6 @@ def kept_examples(function: Any) -> Iterator[list[Example]]:
         function.hypothesis.inner_test = inner
 
 
-@contextmanager
-def seeded(function: Any, seed: int | None) -> Iterator[None]:
-    """Let a property draw as the judge does, by this seed, this once.
-
-    The function outlives the grade, and may have been loaded under other settings before it.
-    """
-    hypothesis.seed(seed)(function)
-    if not hasattr(function, "_hypothesis_internal_settings_applied"):  # by a decorator of its own
-        function._hypothesis_internal_use_settings = JUDGE_SETTINGS
-    try:
-        yield
-    finally:
-        hypothesis.seed(None)(function)
+def number_of(text: str) -> int:
+    """Return the same number for a text in every process."""
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")

@@ -1,5 +1,6 @@
 """Run the checks that the rubric names against one submission, one after the other."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -11,7 +12,7 @@ from hypothesis.errors import Flaky
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.children import Child
-from grader.judge.drawing import Example, judge_settings, kept_examples, seeded
+from grader.judge.drawing import Example, kept_examples
 from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
@@ -20,7 +21,10 @@ from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission, load_given
 from grader.protocol import CodeLine
+from grader.source.flaws import Flaw
 
+DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one question
+INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
 SURVEY = 2  # s of processor time, for that
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
@@ -47,17 +51,17 @@ class CheckLoop:
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
     open_right: Callable[[int], Child] | None = None  # a child of the reference itself
+    elsewhere: dict[tuple[str, str], str] = field(default_factory=dict)  # TODOs it fails in first
     wrong: str = ""  # which check fails the right code, and how
 
     def run(self) -> None:
-        """Every check in the order of the rubric."""
-        with judge_settings():
-            for todo in filter(self.wanted, self.rubric.todos):
-                checks = load_checks(todo)
-                for check in todo.checks:
-                    if not hasattr(checks, check.id):
-                        raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
-                    self.judge(todo, check, getattr(checks, check.id))
+        """Run every check in the order of the rubric."""
+        for todo in filter(self.wanted, self.rubric.todos):
+            checks = load_checks(todo)
+            for check in todo.checks:
+                if not hasattr(checks, check.id):
+                    raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
+                self.judge(todo, check, getattr(checks, check.id))
         if self.wrong:
             raise CannotGrade(self.wrong)
 
@@ -65,13 +69,15 @@ class CheckLoop:
         title = (function.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
         result = self._blocked(todo, check, title) or self._run(todo, check, title, function)
         self.results[todo.id, check.id] = result
-        if result.failed:
+        if result.failed and self._flaw_of(todo, check) is None:
             self.functions[todo.id, check.id] = todo, check, function
         if self.progress is not None:
             self.progress(result)
 
     def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
-        """The result of a check that need not run."""
+        """Return the result of a check that need not run."""
+        if flaw := self._flaw_of(todo, check):
+            return self._refused(todo, check, title, flaw)
         begun = self.submission.begun
         waiting = [each for each in check.needs if not begun.get(each, True)]
         todos = [each.id for each in self.rubric.counted if each.function]
@@ -92,7 +98,7 @@ class CheckLoop:
         return None
 
     def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
-        """With the reference in the other TODOs' places; failing that, the program as it is.
+        """Run a check with the reference in the other TODOs' places, then the program as it is.
 
         What is told of a failure comes from the program as it is. Where the reference was sent, a
         submission could have read it, and any word or number of its answers could spell it out;
@@ -105,6 +111,8 @@ class CheckLoop:
             told, again = self._attempt(todo, check, function, isolated=False)
         if told.failure is None:
             lab = told
+        elif lab.failure is not None and fails_elsewhere(lab.failure, told.failure):
+            self.elsewhere[todo.id, check.id] = self._todo_of(told.failure)
         if told.failure is not None and told.connection.pieces:
             seen: list[Observation] = []
         else:
@@ -125,7 +133,7 @@ class CheckLoop:
         return self._result(todo, check, title, "passed")
 
     def _survey(self, todo: Todo, check: Check, function: Any, told: Lab) -> list[Observation]:
-        """What the program as it is answers to all that a failed check asks, and not just so far.
+        """Ask the program as it is all that a failed check asks, and not just so far.
 
         By that, what is wrong can be told from what is right. Not worth its time for a property,
         which asks much, nor where a program was played.
@@ -148,7 +156,7 @@ class CheckLoop:
         cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
         if self.open_right is None or self.wrong or cut or not likely:
             return
-        with kept_examples(function), seeded(function, self.seed):
+        with kept_examples(function, self.seed):
             right = self._asked(todo, check, function, isolated=False, right=True)
         failure = right.failure
         if failure is None or (right.ended and not right.unforeseen):
@@ -162,7 +170,7 @@ class CheckLoop:
     def _attempt(
         self, todo: Todo, check: Check, function: Any, isolated: bool
     ) -> tuple[Lab, Example]:
-        """A lab in which the check ran, and what ran there last.
+        """Return a lab in which the check ran, and what ran there last.
 
         A property draws the same for all, so it asks at once what another submission has passed.
         Only where that fails need hypothesis look for the simplest example.
@@ -173,7 +181,7 @@ class CheckLoop:
             lab = self._asked(todo, check, example, isolated)
             if lab.failure is None or lab.ended:
                 return lab, example
-        with kept_examples(function) as examples, seeded(function, self.seed):
+        with kept_examples(function, self.seed) as examples:
             lab = self._asked(todo, check, function, isolated)
         if not examples:
             return lab, function
@@ -184,7 +192,7 @@ class CheckLoop:
         return lab, examples[-1]
 
     def _alone(self, lab: Lab, alone: Lab) -> Lab:
-        """The lab to tell of, given what its last example came to in a child asked nothing else.
+        """Return the lab to tell of: its last example was asked alone, in another child.
 
         Where that differs, the answer hangs on what was asked before, and no number of it means
         anything.
@@ -203,12 +211,12 @@ class CheckLoop:
         return lab
 
     def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
-        """The lab of a check that failed and is asked once more, of children that others open.
+        """Ask a check that failed once more, of children that others open.
 
         All marks are decided by then. Its observations are those of the program as it is.
         """
         todo, check, function = self.functions[key]
-        with judge_settings(), kept_examples(function), seeded(function, self.seed):
+        with kept_examples(function, self.seed):
             lab = self._asked(todo, check, function, isolated=True, opener=open_child)
             if lab.connection.pieces:
                 alone = self._asked(todo, check, function, isolated=False, opener=open_child)
@@ -226,13 +234,15 @@ class CheckLoop:
         surveys: bool = False,
         watched: bool = False,
     ) -> Lab:
-        """A lab in which the check ran, of the reference itself if it is to be the `right` code.
+        """Return a lab in which the check ran, of the reference itself if `right`.
 
         One that `surveys` goes on where the check fails, and costs the submission none of the time
         that decides about marks. One that is `watched` says what the submission remembers.
         """
         module = check.module or todo.module
-        others = self.reference.for_the_others(todo, module, self.rubric, self.submission)
+        others = self.reference.for_the_others(
+            todo, module, self.rubric, self.submission, self._replaceable()
+        )
         pieces = others if isolated else []
         secret = secret_of(self.seed, todo, check)
         lab = Lab(
@@ -281,6 +291,48 @@ class CheckLoop:
         child.rest_seconds = self.budget.rest_for(todo.id)
         return child
 
+    def _todo_of(self, failure: NotYet | Broke) -> str:
+        """Return the TODO in whose function an error was raised; empty where that is unknown."""
+        raised = failure.raised if isinstance(failure, Broke) else None
+        names = [frame.function for frame in reversed(raised.frames)] if raised else []
+        by_name = {
+            todo.function.rpartition(":")[2].rpartition(".")[2]: todo.id
+            for todo in self.rubric.todos
+        }
+        return next((by_name[name] for name in names if name in by_name), "")
+
+    def _replaceable(self) -> frozenset[str]:
+        """Return the TODOs of which the whole runs with right versions: those that have failed.
+
+        Not where all that was begun has failed: such a program shows nothing by itself.
+        """
+        failed = {id for (id, _), result in self.results.items() if result.state != "passed"}
+        begun = [todo.id for todo in self.rubric.counted if self.submission.begun.get(todo.id)]
+        return frozenset(failed if any(id not in failed for id in begun) else ())
+
+    # ------------------------------------------------------------ code that is no Python
+
+    def _flaw_of(self, todo: Todo, check: Check) -> Flaw | None:
+        """Return why the code that a check is about cannot run at all."""
+        if todo.function:
+            return self.submission.flaws.get(todo.id)
+        return self.submission.outside.get(check.module or todo.module)
+
+    def _refused(self, todo: Todo, check: Check, title: str, flaw: Flaw) -> CheckResult:
+        where, ran = Where(flaw.file, flaw.line), f"import {flaw.file}"
+        what = f"This part of TODO {todo.id} is" if todo.function else "This code is"
+        return self._result(
+            todo,
+            check,
+            title,
+            "error",
+            ran=ran,
+            expected="code that Python accepts",
+            got=flaw.words,
+            meaning=f"{what} no Python, so none of it runs. {flaw.advice} {INSTEAD}",
+            where=where,
+        )
+
     # ------------------------------------------------------------ results
 
     def _failure(
@@ -315,7 +367,7 @@ class CheckLoop:
         )
 
     def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
-        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        """Return whether a line is as handed out: an error there comes from elsewhere."""
         text = load_given().get(frame.file)
         if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
             return False
@@ -327,6 +379,11 @@ class CheckLoop:
         points = check.points if state == "passed" else 0
         result = CheckResult(check.id, title, check.kind, state, points, check.points, **words)
         return in_bounds(result)
+
+
+def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
+    """Return whether a check that fails for its own TODO fails in another question before it."""
+    return DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran)
 
 
 def load_checks(todo: Todo) -> ModuleType:

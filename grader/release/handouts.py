@@ -14,11 +14,12 @@ from jinja2 import Environment, StrictUndefined
 
 from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
+from grader.source.regions import TODO_ID
 from grader.text import listed, moment, number
 
 EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
-SECTION = re.compile(r"^(##+) (?:TODO )?([0-9]+[a-d]?|B[0-9]): ")
-ROW = re.compile(r"^\| \[?([0-9]+[a-d]?|B[0-9])(?:\]\([^)]*\))? \|")
+SECTION = re.compile(rf"^(##+) (?:TODO )?({TODO_ID}): ")
+ROW = re.compile(rf"^\| \[?({TODO_ID})(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
 PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
 

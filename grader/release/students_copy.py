@@ -190,15 +190,20 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
             each.todo, each.id, each.meaning, each.about, ask_model(each.model, each.about, seen)
         )
         for todo in asked  # the same order in every process, whatever was loaded before
-        for each in misconceptions.known
+        for each in misconceptions.known_mistakes
         if each.todo == todo
     ]
     right, traits = (
         {about: ask_model(model, about, seen) for about, model in models.items()}
-        for models in (misconceptions.right, misconceptions.traits)
+        for models in (misconceptions.right_models, misconceptions.trait_models)
     )
     return Recorded(
-        notes, right, traits, misconceptions.parts, sorted(misconceptions.separate), mistakes
+        notes,
+        right,
+        traits,
+        misconceptions.part_names,
+        sorted(misconceptions.separate_questions),
+        mistakes,
     )
 
 
@@ -250,7 +255,7 @@ def ask_model(model: misconceptions.Model, about: str, seen: list[Observation]) 
     for each in seen:
         if each.about == about:
             try:
-                found[key(each.inputs)] = misconceptions.said(model, each.inputs)
+                found[key(each.inputs)] = misconceptions.predict(model, each.inputs)
             except misconceptions.Undecided:
                 continue
     return found

@@ -10,17 +10,21 @@ import sys
 import zlib
 from collections.abc import Callable
 from contextlib import nullcontext
+from functools import partial
 from types import FunctionType
 from typing import Any, Literal
 
 import pygame
 import pymunk
+from pymunk.constraints import PinJoint
 
 from grader.protocol import (
     MAX_LINES,
+    MAX_PHOTO,
     MAX_TEXT,
     RUNAWAY,
     ContactRow,
+    Photo,
     Play,
     Played,
     Returned,
@@ -60,6 +64,7 @@ class StepCounter:
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
+        self.on_step: Callable[[], None] = lambda: None  # called when a step has run
         self.inside = False  # a derived class may call the step that it overrides
         self.in_advance = False
         for function in steps_of(owner):
@@ -101,6 +106,7 @@ class StepCounter:
             result = run()
         finally:
             self.inside = False
+        self.on_step()
         if self.trail_every and self.total % self.trail_every == 0:
             self.trail.append(moving_state(world))
         if self.in_frame >= RUNAWAY:
@@ -154,6 +160,7 @@ def play(
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
+    counter.on_step = partial(clock.pass_time, request.step_ms)
     advance = advance_of(subject, request.module)
     if advance is not None:
         counter.watch_advance(advance)
@@ -162,15 +169,15 @@ def play(
 
     def frame_over() -> None:
         steps.append(counter.in_frame)
-        times.append(clock.elapsed)
+        times.append(clock.elapsed - request.step_ms * counter.in_frame)  # before its steps
         counter.in_frame = 0
-        window.record_checksum()
+        window.record(len(steps) - 1, clock.flips)
         recorder.record(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
-    window = Window(request.pictures)
+    window = Window(request.pictures, request.photos)
     recorder.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
@@ -195,6 +202,7 @@ def play(
         rods=rod_lengths(counter.last),
         trail=counter.trail,
         pictures=window.pictures,
+        photos=window.photos,
         paced=advance is not None and counter.elsewhere == 0 < counter.total,
     )
 
@@ -205,27 +213,39 @@ class Window:
     pygame.quit() takes long and the process ends soon, so meanwhile it closes the window only.
     """
 
-    def __init__(self, pictures: bool) -> None:
-        self.wanted = pictures
+    def __init__(self, pictures: bool, photos: list[int]) -> None:
+        self.wanted, self.frames = pictures, photos
         self.pictures: list[int] = []
+        self.photos: list[Photo] = []
+        self.flips = 0
         self.real_quit, self.real_mode = pygame.quit, pygame.display.set_mode
         pygame.quit, pygame.display.set_mode = self._quit, self._set_mode
 
     def _set_mode(self, *args: Any, **kwargs: Any) -> pygame.Surface:
         """Open the window, clipped to one pixel unless pictures are wanted: drawing is slow."""
         surface = self.real_mode(*args, **kwargs)
-        if not self.wanted:
+        if not self.wanted and not self.frames:
             surface.set_clip((0, 0, 1, 1))
         return surface
 
     def _quit(self) -> None:
         pygame.display.quit()  # the rest ends with this process, which is much quicker
 
-    def record_checksum(self) -> None:
-        """Note a checksum of the picture at the end of a frame."""
+    def record(self, frame: int, flips: int) -> None:
+        """Note a checksum of the picture at the end of a frame, and a photo of it if wanted."""
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
-        if self.wanted and surface is not None:
+        if surface is None:
+            return
+        if self.wanted:
             self.pictures.append(zlib.crc32(surface.get_buffer().raw))
+        if frame in self.frames and flips > self.flips:
+            self._photograph(surface, frame)
+        self.flips = flips
+
+    def _photograph(self, surface: pygame.Surface, frame: int) -> None:
+        colours = zlib.compress(pygame.image.tobytes(surface, "RGB"), 1)
+        if len(colours) <= MAX_PHOTO:
+            self.photos.append(Photo(frame, *surface.get_size(), colours))
 
     def restore(self) -> None:
         """Give pygame its own functions back, and close the window if it is still open."""
@@ -258,7 +278,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
-            if isinstance(joint, pymunk.PinJoint):
+            if isinstance(joint, PinJoint):
                 begin = joint.a.local_to_world(joint.anchor_a)
                 end = joint.b.local_to_world(joint.anchor_b)
                 found.append(((end - begin).length, joint.distance))

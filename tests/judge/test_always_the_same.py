@@ -10,11 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from grader.bank.members import Member, members
-from grader.judge.drawing import EXAMPLES, judge_settings, seeded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.report.files import as_json
 
@@ -47,45 +44,6 @@ def test_twenty_grades_are_one(tree: str):
     with busy_machine():
         busy = {as_json(grade(KIT / tree, options)) for _ in range(10)}
     assert len(idle | busy) == 1
-
-
-def drawn(seed: int | None = None) -> list[tuple[float, int]]:
-    """What a property of the judge's would be tried on."""
-    examples = []
-    with judge_settings(), seeded(a_property, seed):
-        a_property(note=lambda *example: examples.append(example))
-    return examples
-
-
-@given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))  # under the settings of this test run
-def a_property(note, x: float, n: int) -> None:
-    note(x, n)
-
-
-def test_a_property_draws_by_the_judges_settings_whoever_loaded_it():
-    usual = drawn()
-    assert len(usual) == EXAMPLES and drawn() == usual
-
-
-def test_a_seed_is_forgotten_after_the_grade():
-    usual = drawn()
-    assert drawn(seed=3) == drawn(seed=3) != usual
-    assert drawn() == usual
-
-
-def test_what_hypothesis_did_before_in_this_process_changes_no_example(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
-    """Hypothesis likes the numbers it finds in modules; ours must not depend on who loaded them."""
-    usual = drawn()
-    numbers = ", ".join(f"{n}, {n}.125" for n in range(70000, 70400))
-    (tmp_path / "numbers_of_a_neighbour.py").write_text(f"NUMBERS = [{numbers}]")
-    monkeypatch.syspath_prepend(tmp_path)
-    import numbers_of_a_neighbour  # noqa: F401
-
-    another = given(x=st.floats(-9e5, 9e5), n=st.integers(0, 10**6))(lambda x, n: None)
-    settings(max_examples=20, database=None)(another)()
-    assert drawn() == usual
 
 
 @pytest.fixture(scope="module")

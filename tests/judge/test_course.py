@@ -34,7 +34,7 @@ from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, sp
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.judge.wording import told
+from grader.judge.wording import withhold_reasons
 from grader.release.build import build, build_wrong_members
 from grader.release.handed_out import make_students_tree, write_tree
 from grader.release.handouts import make_handouts
@@ -142,7 +142,7 @@ WRONG = {
     'todos = ["9"]': "there is no TODO '9'",
     "todos = [4]": "there is no TODO 4; write in quotes",
     'todos = [["1"]]': "there is no TODO",
-    'todos = ["1", "1"]': "1 stands there 2 times",
+    'todos = ["1", "1"]': "1 is listed 2 times",
     'todos = ["B1", "whole"]': "add one of TODO 1 to 8c",
     'todos = ["8a", "whole"]': 'leave "whole" out',
     "points = [1]": "must be a table",
@@ -164,7 +164,7 @@ WRONG = {
     "late = { per_week = 5 }": "late = {'per_week': 5} must be a table",
     "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
     "late = { per_day = -5 }": "per_day = -5 must be a whole number",
-    'late = { per_day = "5" }': 'must be points, or a share as "10%"',
+    'late = { per_day = "5" }': 'or a share as "10%"',
     "late = { cap = 80.5 }": "cap = 80.5 must be a whole number",
     "late = { grace = 5 }": "must be a table",
     "[late]\nper_day = 5\ndue = 2027-05-04T12:00:00Z": "write it above that line",
@@ -348,8 +348,8 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
     ]
     one = TodoResult("1", "x", "not yet", 0, 16, None, checks)
     result = Result(1, "ann", 0, 16, 0, [], [one])
-    assert told(result, course, day) == result == told(result, FULL)
-    before = told(result, course, day - timedelta(seconds=1)).todos[0]
+    assert withhold_reasons(result, course, day) == result == withhold_reasons(result, FULL)
+    before = withhold_reasons(result, course, day - timedelta(seconds=1)).todos[0]
     hidden = {each.id for each in todo.checks if each.hidden}
     assert hidden
     for check, full in zip(before.checks, checks, strict=True):

@@ -1,94 +1,132 @@
-"""Hypothesis draws the recorded examples, and still has the private names that we use.
+"""Properties draw by the name of the check and the seed, and by nothing else."""
 
-A failure after an upgrade means that properties are tried on other examples, so that marks may
-change: see what hypothesis changed, adapt `grader/judge/drawing.py`, and run `make verify`.
-"""
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
-from hypothesis.internal.conjecture import providers
 
-from grader.judge.drawing import EXAMPLES, JUDGE_SETTINGS, NO_CONSTANTS, kept_examples, seeded
+from grader.judge.drawing import EXAMPLES, between, given, kept_examples
+from grader.judge.grade import KIT
 
-RECORDED = [  # the first of 25
-    (0, 0.0),
-    (-5, 0.0),
-    (-5, -0.062757042),
-    (320, -7.474856849),
-    (-878, 6.757686256),
-    (734, -9.661609368),
-    (446, 6.589854925),
-    (872, 0.0),
-    (465, 7.52425202),
-    (555, -0.065812652),
-    (-12, 1.9),
-    (-429, -5.61916789),
-]
+ALL_EXAMPLES = """
+import sys
+from grader.judge.drawing import given, kept_examples
+from grader.judge.loop import load_checks
+from grader.judge.rubric import load_rubric
+from hypothesis import strategies as st
+
+if sys.argv[1:]:
+    __import__(sys.argv[1])
+
+def show(name, function):
+    function.hypothesis.inner_test = lambda lab, **drawn: print(name, drawn)
+    with kept_examples(function, 3):
+        function(lab=None)
+
+for todo in load_rubric().todos:
+    for check in todo.checks:
+        function = getattr(load_checks(todo), check.id)
+        if hasattr(function, "hypothesis"):
+            show(check.id, function)
+
+@given(examples=400, n=st.integers(-10**6, 10**6))
+def a_large_number(lab, n): ...
+
+show("a_large_number", a_large_number)
+"""
 
 
-@given(n=st.integers(-1000, 1000), x=st.floats(-10.0, 10.0))
-def a_property(lab, n: int, x: float) -> None:
-    lab.append((n, x))
+def examples_of_all(folder: Path, *modules: str) -> tuple[list[str], list[str]]:
+    """The examples of all properties in a process of its own, and those of large integers."""
+    command = [sys.executable, "-c", ALL_EXAMPLES, *modules]
+    path = {"PYTHONPATH": f"{KIT}:{folder}", "PATH": ""}
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=path)
+    lines = done.stdout.splitlines()
+    large = [each for each in lines if each.startswith("a_large_number")]
+    return [each for each in lines if each not in large], large
 
 
-@settings(max_examples=3, database=None)
-@given(n=st.integers())
-def one_with_settings(lab, n: int) -> None:
-    lab.append(n)
+def test_what_else_is_loaded_changes_no_example(tmp_path: Path):
+    """Large integers show that hypothesis does take numbers from this module."""
+    numbers = ", ".join(f"{n}, {n / 8}" for n in range(100, 600))
+    (tmp_path / "full_of_numbers.py").write_text(f"NUMBERS = [{numbers}]\n")
+    usual, usual_large = examples_of_all(tmp_path)
+    beside, large = examples_of_all(tmp_path, "full_of_numbers")
+    assert len({each.split()[0] for each in usual}) > 8
+    assert usual_large != large
+    assert usual == beside
 
 
 def drawn(function, seed: int | None = 1) -> list:
     found: list = []
-    with seeded(function, seed):
+    with kept_examples(function, seed):
         function(lab=found)
     return found
 
 
-def test_the_examples_are_those_that_were_recorded():
-    found = drawn(a_property)
-    assert len(found) == EXAMPLES
-    assert [(n, round(x, 9)) for n, x in found[: len(RECORDED)]] == RECORDED
+def a_property(text: str):
+    """A property of the same name, with another text."""
+    names: dict = {"given": given, "between": between, "st": st}
+    exec(
+        f"@given(n=between(-1000, 1000), x=st.integers(0, 9))\n"
+        f"def numbers(lab, n, x):\n    {text}\n    lab.append((n, x))\n",
+        names,
+    )
+    return names["numbers"]
 
 
-def test_constants_of_modules_would_come_in_by_the_name_that_is_shut(
-    monkeypatch: pytest.MonkeyPatch,
-):
-    def count_of(number: int) -> int:
-        providers.CONSTANTS_CACHE.cache.clear()
-        return sum(n == number for seed in range(20) for n, _ in drawn(a_property, seed))
-
-    usual = count_of(777)
-    constants = type(NO_CONSTANTS)()
-    constants.add(777)
-    monkeypatch.setattr(providers, "_get_local_constants", lambda: constants)
-    assert count_of(777) > usual + 5
-    monkeypatch.undo()
-    assert count_of(777) == usual
+def test_the_text_of_a_check_changes_no_example():
+    usual = drawn(a_property("pass"))
+    assert len(usual) == EXAMPLES
+    assert drawn(a_property("y = 1234567")) == usual
 
 
-def test_the_judges_settings_hold_where_a_property_has_none_of_its_own():
-    """The names that decide this are set by hypothesis' own decorators."""
-    assert hasattr(one_with_settings, "_hypothesis_internal_settings_applied")
-    assert not hasattr(a_property, "_hypothesis_internal_settings_applied")
-    with seeded(a_property, None):
-        assert a_property._hypothesis_internal_use_settings is JUDGE_SETTINGS
-    assert len(drawn(one_with_settings)) == 3
+def test_the_seed_and_the_name_decide():
+    usual = drawn(a_property("pass"))
+    assert drawn(a_property("pass"), seed=2) != usual
+    other = a_property("pass")
+    other.__name__ = "other_numbers"
+    assert drawn(other) != usual
+
+
+def test_numbers_between_two_are_all_that_can_come():
+    @given(examples=2000, n=between(-7, 195))
+    def spread(lab, n: int) -> None:
+        lab.append(n)
+
+    found = drawn(spread)
+    assert (found[0], min(found), max(found)) == (0, -7, 195)
+    assert len(set(found)) > 180
+
+
+def test_a_failing_property_ends_with_the_simplest_example():
+    @given(n=between(-1000, 1000))
+    def small(lab, n: int) -> None:
+        lab.append(n)
+        assert n < 150
+
+    found: list = []
+    with kept_examples(small, None), pytest.raises(AssertionError):
+        small(lab=found)
+    assert found[-1] == 150
 
 
 def test_examples_are_kept_as_they_come_and_can_be_asked_again():
-    inner = a_property.hypothesis.inner_test
-    with kept_examples(a_property) as examples:
-        assert a_property.hypothesis.inner_test is not inner
-        found = drawn(a_property)
-    assert a_property.hypothesis.inner_test is inner
+    function = a_property("pass")
+    inner = function.hypothesis.inner_test
+    with kept_examples(function, 1) as examples:
+        assert function.hypothesis.inner_test is not inner
+        function(lab=(found := []))
+    assert function.hypothesis.inner_test is inner
     again: list = []
     for example in examples:
         example(lab=again)
-    assert again == found == drawn(a_property)
+    assert again == found == drawn(function)
 
 
 def test_what_is_no_property_has_no_examples():
-    with kept_examples(lambda lab: None) as examples:
+    with kept_examples(lambda lab: None, 1) as examples:
         pass
     assert examples == []

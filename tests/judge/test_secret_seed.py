@@ -1,10 +1,12 @@
 """Under an instructor's secret seed nothing can be answered by heart."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import msgspec
 import pytest
 
+from grader.bank.members import Member, members
 from grader.bank.verify import shared_worker
 from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -83,6 +85,56 @@ def test_right_work_keeps_every_point_under_any_seed(seeds: range, only: frozens
         result = graded(seed, only)
         lost = [c.got for todo in result.todos for c in todo.checks if c.points < c.max_points]
         assert lost == []
+
+
+# ---------------------------------------------------------------- known mistakes
+
+SOME_MISTAKES = (
+    "1-inside-always-leaves-by-the-top",
+    "2-one-term-is-enough",
+    "3-only-pushes",
+    "4-friction-of-a-only",
+    "5-straight-line-instead-of-exp",
+)
+MORE_MISTAKES = (
+    *("1-first-two-faces", "1-corner-normal-along-an-axis", "1-depth-at-most-the-box-height"),
+    *("1-prefers-the-top", "1-face-by-share-of-the-half", "1-inside-depth-is-the-gap"),
+    *("2-cleans-the-axis", "2-heavy-ones-do-not-turn", "2-known-pairs", "2-second-body-forgotten"),
+    *("3-moves-only-b", "3-level-or-upright", "3-static-end-first", "3-dead-zone"),
+    *("3-impulse-capped", "4-smaller-mu", "4-rests-stay", "4-stops-slow-spins"),
+    *("4-fixed-partners-only", "5-kept-by-dt", "5-one-rate-for-both", "5-both-or-none"),
+    *("7b-largest-never-turn", "8a-position-first", "8c-three-eighths"),
+)
+Marks = list[tuple[str, int]]
+
+
+def marks_under(seed: int | None, member: Member, folder: Path) -> Marks:
+    """The points of each check of the mistake's TODO."""
+    todo = member.name.partition("-")[0]
+    options = Options(shipped_reference(), seed=seed, only=frozenset({todo}))
+    result = grade(folder, options, shared_worker())
+    return [(c.id, c.points) for t in result.todos for c in t.checks if t.id == todo]
+
+
+@pytest.mark.parametrize(
+    ("names", "seeds"),
+    [
+        (SOME_MISTAKES, range(1, 3)),
+        pytest.param((*SOME_MISTAKES, *MORE_MISTAKES), range(1, 11), marks=pytest.mark.soak),
+    ],
+    ids=["five", "thirty"],
+)
+def test_a_mistake_costs_the_same_under_every_seed(
+    names: tuple[str, ...], seeds: range, tmp_path: Path
+):
+    bank = {each.name: each for each in members(KIT) if each.form == "package"}
+    for name in names:
+        folder = tmp_path / name
+        bank[name].build(KIT, folder)
+        usual = marks_under(None, bank[name], folder)
+        assert any(points for _, points in usual) and not all(points for _, points in usual), name
+        for seed in seeds:
+            assert marks_under(seed, bank[name], folder) == usual, (name, seed)
 
 
 # ---------------------------------------------------------------- the numbers themselves

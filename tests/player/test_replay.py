@@ -152,8 +152,8 @@ def test_pages_need_nothing_else_and_are_not_large(pages: Path):
         ),
         (
             "7b-a_ball_resists_turning_as_a_full_disc",
-            "a body of mass 1.44, moment 207.36",
-            "a body of mass 1.44, moment 103.68",
+            "a body of mass 1, moment 100",
+            "a body of mass 1, moment 50",
         ),
     ],
 )
@@ -162,13 +162,9 @@ def test_a_wrong_answer_parts_at_its_call(pages: Path, page: str, yours: str, ex
     assert (line["yours"], line["expected"]) == (yours, expected)
 
 
-def test_friction_parts_in_the_second_pass(pages: Path):
-    """Each increment of 10 kg px/s is within the limit; the total is not from the second on."""
-    data = read_replay(pages / "4-the_total_of_all_passes_is_limited.html")
-    passes = [
-        n for n, line in enumerate(data["scenes"][0]["lines"]) if "solve_contact" in line["code"]
-    ]
-    assert line_of_parting(data)[0] == passes[1]
+def test_friction_parts_in_its_step(pages: Path):
+    data = read_replay(pages / "4-friction_stops_at_its_limit_both_ways.html")
+    assert line_of_parting(data)[1]["code"] == "world.step(1 / 120)"
 
 
 def test_a_missing_cap_parts_in_the_slow_frame(pages: Path):
@@ -191,9 +187,8 @@ def test_an_integrator_is_a_curve_over_the_time(pages: Path):
     scene = data["scenes"][0]
     assert scene["curve"]
     times = [moment[0] for moment in scene["yours"]]
-    # 26 steps of 1/40 s and 52 of 1/80 s, each run from 0 to 0.65 s.
-    assert times.count(0) == 2 and math.isclose(max(times), 0.65, abs_tol=1e-5)
-    assert len(times) == 27 + 53
+    assert times.count(0) == 1 and math.isclose(max(times), 10.0, abs_tol=1e-5)
+    assert len(times) == 301
 
 
 def test_the_right_run_parts_nowhere_from_itself():
@@ -202,7 +197,7 @@ def test_the_right_run_parts_nowhere_from_itself():
         ("3", todo_3.a_pendulum_that_starts_above_keeps_its_length),
         ("4", todo_4.every_contact_of_a_pile_keeps_within_its_friction),
         ("7c", todo_7.the_bob_swings_through_to_the_other_side),
-        ("whole", whole.the_rod_swings_and_keeps_its_length),
+        ("whole", whole.the_rod_swings_alike_at_any_frame_rate),
     )
     with opened(KIT / "solution") as children:
         for todo, function in chosen:
@@ -309,12 +304,12 @@ SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
         r"^None$",
         r"Vector2\(0, 1\), 5\.0, Vector2\(10, -20\)",
     ),
-    ("1-a_world_finds_the_ball_on_its_floor", r"^\[\]$", r"Vector2\(0, 1\), 2\.0"),
+    ("1-balls_land_on_a_floor_and_lie_there", r"^\[80, 22", r"^\[80, 3[67]"),
     ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
     ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
-    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.44, 207\.3", r"\(1\.44, 103\.6"),
+    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.0, 100\.", r"\(1\.0, 50\."),
     ("7c-the_rod_pushes_and_pulls", r"^Vec2d", r"^Vec2d"),
-    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^-", r"^-"),
+    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^2507\.", r"^99\.3"),
 )
 
 
@@ -379,8 +374,8 @@ def test_scripts_are_short(pages: Path):
         lines = path.read_text(encoding="utf-8").splitlines()
         own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
         assert 0 < len(own) <= 24, path
-        if path.name.startswith(("1-", "7b-", "8b-")):
-            assert len(own) <= 13, path  # a mirrored pair is two scenes, and a used contact between
+        if path.name.startswith(("1-overlap", "1-a_centre", "1-no", "7b-", "8b-")):
+            assert len(own) <= 13, path
 
 
 def test_a_force_is_worked_out_as_the_judge_does():

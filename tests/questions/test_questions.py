@@ -664,9 +664,9 @@ def test_a_seed_that_nobody_chose_is_drawn_once_and_kept(tmp_path: Path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("[questions]\nfilms = 1", "there is no kind films"),
+        ("[questions]\nfilms = 1", "there is no key films"),
         ("[questions]\nnumber = 11", "number = 11 must be a whole number from 0 to 10"),
-        ("[questions]\npoints = { why = 0 }", "points of why = 0 must be"),
+        ("[questions]\npoints = { why = 0 }", "why = 0 must be"),
         ("questions = 3", "must be a table"),
     ],
 )

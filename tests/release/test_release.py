@@ -46,7 +46,7 @@ WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" an
 REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
 for todo in REGIONS:
     misconceptions.load_known(todo)
-KNOWN = {f"{mistake.todo}-{mistake.id}" for mistake in misconceptions.known}
+KNOWN = {f"{mistake.todo}-{mistake.id}" for mistake in misconceptions.known_mistakes}
 NAMED = [member for member in WRONG if not member.bonus and member.name in KNOWN]
 EACH = list({REGIONS[min(member.todos)]: member for member in NAMED}.values())  # one a file
 SAMPLE = EACH[::3]  # the soak has them all

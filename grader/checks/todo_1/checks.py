@@ -1,17 +1,17 @@
 """TODO 1: circle_box, from outside and from inside."""
 
 import math
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
 from grader.checks.exact import Disc, Rect, Touch
-from grader.checks.strategies import any_velocities, belts, circles, discs_near_boxes, pairs
+from grader.checks.strategies import belts, circles, eighths, slow_speeds
 from grader.checks.telling import want_told
-from grader.judge.lab import NOTHING, Broke, Lab, Thing
+from grader.judge.drawing import between, given
+from grader.judge.lab import NOTHING, STEP, Broke, Lab, Moment, Pair, Thing
 from grader.protocol import ContactValue
 
 BOX = Rect(0, 0, 40, 20)
@@ -169,7 +169,7 @@ def near_round_numbers(off: float) -> Iterable[tuple[Disc, Rect]]:
 
 
 def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
-    """A centre inside the box leaves by the nearest face"""
+    """A centre inside the box, or on its edge, leaves by the nearest face"""
     discs = (
         Disc(5, -15, 8),
         Disc(-33, 4, 8),
@@ -185,12 +185,8 @@ def a_centre_inside_leaves_by_the_nearest_face(lab: Lab) -> None:
     middle = Disc(BOX.x, BOX.y, 8)  # two faces are equally near, and either will do
     answer = touch(lab, *pair(lab, middle, BOX), middle, BOX, noted=False)
     want(lab, answer, exact.circle_box(middle, BOX))
-
-
-def a_centre_on_the_edge_counts_as_inside(lab: Lab) -> None:
-    """A centre exactly on a face or a corner"""
-    discs = Disc(7, -20, 8), Disc(-40, 3, 8), Disc(9, 20, 8), Disc(40, -6, 8), Disc(40, 20, 8)
-    want_exact(lab, discs, **MOVING)
+    edges = Disc(7, -20, 8), Disc(-40, 3, 8), Disc(9, 20, 8), Disc(40, -6, 8), Disc(40, 20, 8)
+    want_exact(lab, edges, **MOVING)
 
 
 def no_contact_when_apart_or_just_touching(lab: Lab) -> None:
@@ -199,71 +195,146 @@ def no_contact_when_apart_or_just_touching(lab: Lab) -> None:
     want_exact(lab, discs, **MOVING)
 
 
-@given(both=discs_near_boxes(), circle=circles, box=belts)
-def any_circle_and_box_agree_with_the_geometry(
-    lab: Lab, both: tuple[Disc, Rect], circle: Fields, box: Fields
-) -> None:
-    """Any circle and box: normal, depth and point agree with the geometry"""
-    want(lab, touch(lab, *pair(lab, *both, circle, box), *both), exact.circle_box(*both))
+# ---------------------------------------------------------------- every region
+
+
+class Size(NamedTuple):
+    """Half extents of a box, px, and the radius of a circle."""
+
+    hx: float
+    hy: float
+    r: float
+
+
+SIDES = (-1, 0), (1, 0), (0, -1), (0, 1)
+CORNERS = (-1, -1), (-1, 1), (1, -1), (1, 1)
+SCALES = (1.0, 1 / 8, 256.0, 1 / 4)
+PLACES = (-48.0, 32.0), (500_000.0, -40_000.0)  # px, near and far away
+MIDDLE, CLOSE, HARDLY = 0.5, 1 / 64, 63 / 64  # shares of a way
+
+
+def regions(size: Size, share: float) -> Iterator[Pair]:
+    """Places of a centre, as seen from the middle of the box: one in every region there is.
+
+    `share`, from 0 to 1, says how far inside or outside they are.
+    """
+    hx, hy, r = size
+    least = min(hx, hy)
+    for sx, sy in SIDES:  # inside, beyond a side, and on its edge
+        along = share / 2 * (hy if sx else hx)
+        for way in (-share * least / 2, share * r, CLOSE * r, HARDLY * r, 0.0, r * (1 + share)):
+            yield (sx * (hx + way), along) if sx else (along, sy * (hy + way))
+    for sx, sy in CORNERS:  # two inner faces are nearly as near, and then the other way round
+        yield sx * (hx - 0.7 * least), sy * (hy - 0.5 * least)
+        yield sx * (hx - 0.5 * least), sy * (hy - 0.6 * least)
+        for across, down in ((0.6, 0.75 * share), (CLOSE, MIDDLE), (0.75, 0.75), (0.6, 0.8)):
+            yield sx * (hx + across * r), sy * (hy + down * r)
+        yield sx * hx, sy * hy
+    yield 0.0, 0.0
+
+
+halves = between(64, 400).map(eighths)  # px
 
 
 @given(
-    both=discs_near_boxes(),
-    shift=pairs,
-    flip=st.sampled_from([(-1, 1), (1, -1), (-1, -1)]),
+    examples=2,
+    long=halves,
+    short=halves,
+    r=between(32, 240).map(eighths),
+    share=st.integers(8, 56).map(lambda n: n / 64),
     circle=circles,
-    vel=any_velocities,
+    box=belts,
+    slow=st.tuples(slow_speeds, slow_speeds),
 )
-def a_mirrored_or_moved_pair_touches_alike(
+def any_circle_and_box_agree_with_the_geometry(
     lab: Lab,
-    both: tuple[Disc, Rect],
-    shift: tuple[float, float],
-    flip: tuple[int, int],
+    long: float,
+    short: float,
+    r: float,
+    share: float,
     circle: Fields,
-    vel: tuple[float, float],
+    box: Fields,
+    slow: Pair,
 ) -> None:
-    """A mirrored or moved pair touches in the mirrored or moved way"""
-    disc, rect = both
-    if exact.equally_near(disc, rect):
-        return  # either face is right, and mirroring may choose the other
-    disc_there = disc._replace(x=flip[0] * disc.x + shift[0], y=flip[1] * disc.y + shift[1])
-    rect_there = rect._replace(x=flip[0] * rect.x + shift[0], y=flip[1] * rect.y + shift[1])
-    things = pair(lab, disc, rect, circle)
-    first = touch(lab, *things, disc, rect, twice=False)
-    image = first and Touch(
-        flip[0] * first.nx,
-        flip[1] * first.ny,
-        first.depth,
-        flip[0] * first.px + shift[0],
-        flip[1] * first.py + shift[1],
-    )
-    lab.put(things[0], pos=(disc_there.x, disc_there.y), vel=vel)
-    lab.put(things[1], pos=(rect_there.x, rect_there.y))
-    there = touch(lab, *things, disc_there, rect_there, twice=False)
-    want(lab, there, [image], "the image of the first contact: ")
-    lab.put(things[0], pos=(disc.x, disc.y))
-    lab.put(things[1], pos=(rect.x, rect.y))
-    back = touch(lab, *things, disc, rect, twice=False)
-    want(lab, back, [first], "back in place, the first contact again: ")
+    """A circle anywhere in and around any box, also where both have been moved"""
+    moving = circle, {**circle, "vel": slow}
+    wide, tall = (long + 40.0, short / 2, r), (short / 2, long + 40.0, r)
+    speck = short / 4, short / 8, short + 4 * r  # inside the circle
+    shapes = wide, tall, speck, (4 * r + long, 4 * r + long - 1.0, r)  # last, a large square
+    for n, scale in enumerate(SCALES):
+        size = Size(*(scale * each for each in shapes[n]))
+        one = pair(lab, Disc(0, 0, size.r), Rect(*PLACES[0], size.hx, size.hy), moving[n % 2], box)
+        for number, (dx, dy) in enumerate(regions(size, share)):
+            x, y = PLACES[number % 2]
+            disc, rect = Disc(x + dx, y + dy, size.r), Rect(x, y, size.hx, size.hy)
+            lab.put(one[0], pos=(disc.x, disc.y))
+            lab.put(one[1], pos=(rect.x, rect.y))
+            want(lab, touch(lab, *one, disc, rect), exact.circle_box(disc, rect))
 
 
-def a_world_finds_the_ball_on_its_floor(lab: Lab) -> None:
-    """A world finds the contacts of balls with their floor, in any order"""
-    lab.ran("find_contacts in a world with a floor, two balls 2 px deep in it, and a ball above")
-    x, y = lab.about(0.0, 64.0), lab.about(0.0, 64.0)
-    first, second = (
-        lab.circle((x + left, y - 8.0), 10.0, vel=(0.0, vy))
-        for left, vy in ((30.0, 50.0), (-90.0, -50.0))
-    )
-    high = lab.circle((x - 60.0, y - 40.0), 10.0)
-    floor = lab.box((x, y + 20.0), (200.0, 20.0))
-    for bodies in ((first, second, high, floor), (floor, high, second, first)):
-        world = lab.world(*bodies)
-        found = lab.tell(world, "find_contacts") or lab.get(world, "contacts")
-        contacts = [lab.contact_or_none(each) for each in lab.items(found, "the contacts")]
+# ---------------------------------------------------------------- what a player sees
+
+APART = 1000.0  # px, between the boxes of one scene
+
+
+def balls_bounce_off_every_side_of_a_box(lab: Lab) -> None:
+    """Balls bounce off every side of a box"""
+    speed = lab.about(200.0)
+    lab.ran(f"balls thrown straight at a side of a box each, at {speed:g} px/s, half a second")
+    boxes = [lab.box((APART * number, 0.0), (60.0, 30.0)) for number in range(4)]
+    balls = [
+        lab.circle((APART * number + 90.0 * x, 60.0 * y), 10.0, vel=(-speed * x, -speed * y))
+        for number, (x, y) in enumerate(SIDES)
+    ]
+    run = lab.simulate(lab.world(*balls, *boxes), balls, 60)
+    for number, (x, y) in enumerate(SIDES):
+        last = run.body(number)[-1]
+        away, aside = x * last.vx + y * last.vy, abs(y * last.vx) + abs(x * last.vy)
         lab.want(
-            sorted((c.a, c.b) for c in contacts if c)
-            == sorted((ball.ref, floor.ref) for ball in (first, second)),
-            "two contacts: each low ball as A with the floor as B",
-            f"{len(contacts)} contacts" if len(contacts) != 2 else "contacts of others",
+            0.25 * speed < away < 0.35 * speed and aside < 1.0,
+            f"a ball that comes straight back from each side, at {0.3 * speed:g} px/s",
+            f"one at ({last.vx:.0f}, {last.vy:.0f}) px/s, thrown at ({-speed * x:g}, "
+            f"{-speed * y:g}) px/s",
+        )
+
+
+def balls_land_on_a_floor_and_lie_there(lab: Lab) -> None:
+    """Balls fall on a floor and come to rest on it"""
+    high = lab.about(80.0)
+    lab.ran(f"balls dropped from {high:g} px above a floor and from a little above, 2 seconds")
+    floor = lab.box((300.0, 400.0), (300.0, 20.0))
+    balls = [lab.circle((x, 370.0 - drop), 10.0) for x, drop in ((80.0, high), (420.0, 3.0))]
+    world = lab.world(*balls, floor, gravity=(0.0, 980.0))
+    run = lab.simulate(world, balls, round(2 / STEP))
+    for number, x in enumerate((80.0, 420.0)):
+        want_at_rest(lab, run.body(number), x)
+
+
+def want_at_rest(lab: Lab, moments: list[Moment], x: float) -> None:
+    """On the floor: at most as deep as it may be without a push, and a step's fall."""
+    last = moments[-30:]
+    lab.want(
+        all(abs(each.y - 370.0) < 1.5 and abs(each.x - x) < 1.0 for each in last),
+        f"a ball at rest on the floor, its centre at ({x:g}, 370)",
+        f"one at ({last[-1].x:.1f}, {last[-1].y:.1f}), {last[-1].vy:.0f} px/s down",
+    )
+
+
+def a_ball_inside_a_box_comes_out_at_the_nearest_side(lab: Lab) -> None:
+    """A ball that got inside a box comes out at the nearest side"""
+    inside = lab.about(12.0)
+    lab.ran(f"balls at rest {inside:g} px inside each side of a box, for a quarter of a second")
+    box = lab.box((300.0, 200.0), (90.0, 60.0))
+    balls = [
+        lab.circle((300.0 + (90.0 - inside) * x + 15.0 * abs(y), 200.0 + (60.0 - inside) * y), 6.0)
+        for x, y in SIDES
+    ]
+    run = lab.simulate(lab.world(*balls, box), balls, 30, every=30)
+    for number, (x, y) in enumerate(SIDES):
+        last = run.body(number)[-1]
+        out = x * (last.x - 300.0) - 90.0 if x else y * (last.y - 200.0) - 60.0
+        lab.want(
+            out >= 5.0 and abs(last.y - 200.0 if x else last.x - 315.0) < 1.0,
+            "each ball outside, straight before the side that it was nearest to",
+            f"one at ({last.x - 300.0:.1f}, {last.y - 200.0:.1f}) from the middle of the box",
         )

@@ -1,53 +1,46 @@
-"""Known mistakes in TODO 4, as models of the friction in total after each pass."""
+"""Known mistakes in TODO 4, as models of the friction in a step."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 
 from grader.checks import exact
-from grader.checks.exact import DEPTH, Pair, Rubbing, clamped
-from grader.judge.misconceptions import Undecided, mistake, truth
-from grader.judge.misconceptions import known as registered
+from grader.checks.exact import Pair, clamped
+from grader.judge.misconceptions import Undecided, known_mistakes, mistake, truth
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
-Model = Callable[[Pair, float, Sequence[Rubbing]], tuple[float, ...]]
+Model = Callable[[Pair, float, float, float], float]  # as exact.friction
+PASSES = 8  # of the solver in a step
+DEPTH = 0.265625  # px, the overlap of all that is rubbed
 
 
-def like(mu: Pair, k: float, passes: Sequence[Rubbing]) -> dict[str, str]:
+def like(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
     """How the two rub, in words."""
-    slips = [each.slip for each in passes if each.slip]
-    ways = {slip > 0 for slip in slips}
-    words = {
-        "ways": "B slips both ways in turn"
-        if len(ways) == 2
-        else f"B slips {'forwards' if True in ways else 'backwards'}",
+    limit = math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
+    return {
+        "ways": f"B slips {'forwards' if slip > 0 else 'backwards'}",
         "_mu": f"the two frictions are {'equal' if mu[0] == mu[1] else 'different'}",
-        "_passes": "there are several passes" if len(passes) > 1 else "there is one pass",
+        "limit": f"the limit is {'' if abs(slip / k) > limit else 'not '}reached",
+        "_pressure": "the two are pressed" if limit else "nothing presses",
     }
-    limits = [math.sqrt(mu[0] * mu[1]) * each.pressed(k) for each in passes]
-    within = all(abs(each.slip / k) <= limit for each, limit in zip(passes, limits, strict=True))
-    words["limit"] = f"the limit is {'not ' if within else ''}reached"
-    words["_pressure"] = "nothing presses" if not any(limits) else "the two are pressed"
-    return words
 
 
-truth("friction", exact.friction_totals, like, {"the friction in total": []})
+truth("friction", exact.friction, like, {"the friction": []})
 
 known = partial(mistake, "4", "friction")
 
 
 def with_limit_and_rule(limit_of: Limit, rule: Rule) -> Model:
-    """The totals pass by pass with this limit, and this rule for what becomes of a total."""
+    """The friction of all passes with this limit, and this rule for what becomes of a total."""
 
-    def model(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
+    def model(mu: Pair, k: float, closing: float, slip: float) -> float:
         if not (mu[0] and mu[1]):
             raise Undecided  # an engine may leave friction out where there is none
-        totals = [0.0]
-        for each in passes:
-            limit = limit_of(mu, each.pressed(k))
-            totals.append(rule(totals[-1], totals[-1] - each.slip / k, limit))
-        return tuple(totals[1:])
+        total, limit = 0.0, limit_of(mu, max(closing / k, 0.0))
+        for _ in range(PASSES):
+            total = rule(total, total - (slip + k * total) / k, limit)
+        return total
 
     return model
 
@@ -222,15 +215,15 @@ def kept_as_wanted(applied: Rule) -> Model:
     `applied` takes what the contact has kept, what is wanted, and the limit.
     """
 
-    def model(mu: Pair, k: float, passes: Sequence[Rubbing]) -> tuple[float, ...]:
+    def model(mu: Pair, k: float, closing: float, slip: float) -> float:
         if not (mu[0] and mu[1]):
             raise Undecided
-        totals, kept = [0.0], 0.0
-        for each in passes:
-            limit, wanted = math.sqrt(mu[0] * mu[1]) * each.pressed(k), kept - each.slip / k
-            totals.append(totals[-1] + applied(kept, wanted, limit))
-            kept = wanted
-        return tuple(totals[1:])
+        total = kept = 0.0
+        limit = math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
+        for _ in range(PASSES):
+            wanted = kept - (slip + k * total) / k
+            total, kept = total + applied(kept, wanted, limit), wanted
+        return total
 
     return model
 
@@ -276,7 +269,7 @@ RULES: tuple[tuple[str, Rule], ...] = (
 
 
 def meaning_of(name: str) -> str:
-    return next(each.meaning for each in registered if (each.todo, each.id) == ("4", name))
+    return next(each.meaning for each in known_mistakes if (each.todo, each.id) == ("4", name))
 
 
 for limit_name, limit_of in LIMITS.items():

@@ -3,39 +3,67 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import astuple
+from itertools import product
+from typing import NamedTuple
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks import exact
-from grader.checks.strategies import any_speeds, damped_steps, pulls, rates, wide_velocities
+from grader.checks.strategies import (
+    any_speeds,
+    damped_steps,
+    low_speeds,
+    rates,
+    wide_velocities,
+)
 from grader.checks.telling import decimals_to_tell
+from grader.judge.drawing import given
 from grader.judge.lab import Lab, Moment, Pair, Thing
 from grader.protocol import BodyValue
 
 SPEED, SPIN = 300.0, 12.0  # px/s, rad/s
 SINGLE = 2.0**-23  # of a speed and a step: who computes what is kept in single precision is right
 Shares = tuple[float, float]  # of speed and spin
+PULLS = (0.0, 980.0), (0.0, 0.0), (-120.375, 35.5), (0.125, -980.25)  # px/s²
+
+
+class Damped(NamedTuple):
+    """A ball in a world of its own, whose rates may be changed."""
+
+    lab: Lab
+    world: Thing
+    ball: Thing
+
+    def shares(
+        self,
+        linear: float,
+        angular: float,
+        dt: float,
+        steps: int,
+        motion: Pair = (SPEED, SPIN),
+    ) -> Shares:
+        """The shares of speed and spin that are left after some steps at these rates."""
+        lab, (speed, spin) = self.lab, motion
+        lab.put(self.world, linear_damping=linear, angular_damping=angular)
+        lab.put(self.ball, pos=(0.0, 0.0), vel=(speed, 0.0), omega=spin)
+        last = lab.simulate(self.world, [self.ball], steps, dt, every=steps).body(0)[-1]
+        shares = last.vx / speed, last.omega / spin
+        lab.saw("damping", (linear, angular, dt, steps), shares)
+        return shares
+
+
+def damped_ball(lab: Lab, linear: float, angular: float, walls: int = 0) -> Damped:
+    """A ball far from all walls, in a world with these rates."""
+    ball = lab.circle((0.0, 0.0))
+    boxes = [lab.box((1e4, 100.0 * number), (20.0, 20.0)) for number in range(walls)]
+    world = lab.world(ball, *boxes, linear_damping=linear, angular_damping=angular)
+    return Damped(lab, world, ball)
 
 
 def damp(
-    lab: Lab,
-    linear: float,
-    angular: float,
-    dt: float,
-    steps: int,
-    motion: tuple[float, float] = (SPEED, SPIN),
-    walls: int = 0,
+    lab: Lab, linear: float, angular: float, dt: float, steps: int, motion: Pair, walls: int = 0
 ) -> Shares:
-    """The shares of speed and spin that one ball has left after some steps, far from `walls`."""
-    speed, spin = motion
-    ball = lab.circle((0.0, 0.0), vel=(speed, 0.0), omega=spin)
-    boxes = [lab.box((1e4, 100.0 * number), (20.0, 20.0)) for number in range(walls)]
-    world = lab.world(ball, *boxes, linear_damping=linear, angular_damping=angular)
-    last = lab.simulate(world, [ball], steps, dt, every=steps).body(0)[-1]
-    shares = last.vx / speed, last.omega / spin
-    lab.saw("damping", (linear, angular, dt, steps), shares)
-    return shares
+    return damped_ball(lab, linear, angular, walls).shares(linear, angular, dt, steps, motion)
 
 
 def say(share: float, decimals: int = 2) -> str:
@@ -67,30 +95,81 @@ def one_second_keeps_the_same_share_at_every_step_size(lab: Lab) -> None:
 
 
 def speed_and_spin_have_a_rate_of_their_own(lab: Lab) -> None:
-    """Speed and spin are damped by a rate of their own"""
+    """Speed and spin are damped by a rate of their own, and a rate of 0 loses nothing"""
     for usual, walls in (((1.0, 0.25), 0), ((0.0, 2.0), 0), ((2.0, 0.0), 24), ((0.25, 1.0), 0)):
         linear, angular = (lab.about(rate, min(rate / 4, 1 / 16)) for rate in usual)
         lab.ran(f"linear_damping = {linear:g}, angular_damping = {angular:g}, half a second")
         motion = lab.about(SPEED), lab.about(SPIN)
-        speed, spin = damp(lab, linear, angular, 1 / 120, 60, motion, walls)
-        right = exact.damped(linear, 0.5), exact.damped(angular, 0.5)
-        lab.want(
-            alike((speed, spin), right, within=0.01),
-            f"{say(right[0])} of the speed and {say(right[1])} of the spin left",
-            f"{say(speed)} and {say(spin)}",
+        got = damp(lab, linear, angular, 1 / 120, 60, motion, walls)
+        want_shares(lab, got, (linear, angular), 0.5)
+        for rate, share in zip((linear, angular), got, strict=True):
+            lab.want(rate > 0 or share == 1.0, "all of it left at a rate of 0", say(share, 6))
+    motion = lab.about(SPEED), lab.about(SPIN)
+    lab.ran("one ball, both dampings 0, for one second")
+    speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
+    n = decimals((1.0, 1.0), (speed, spin))
+    left = f"{say(speed, n)} and {say(spin, n)}"
+    lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)
+
+
+def want_shares(lab: Lab, got: Shares, rates: Pair, seconds: float) -> None:
+    """About as exp says; a straight line is near enough where steps are short."""
+    right = exact.damped(rates[0], seconds), exact.damped(rates[1], seconds)
+    n = decimals(right, got)
+    lab.want(
+        alike(got, right, within=0.01),
+        f"{say(right[0], n)} of the speed and {say(right[1], n)} of the spin left",
+        f"{say(got[0], n)} and {say(got[1], n)}",
+    )
+
+
+def one_world_follows_its_rates_and_its_step(lab: Lab) -> None:
+    """A world whose rates or whose step are changed follows them at once"""
+    first, second = damped_ball(lab, 0.5, 2.0), damped_ball(lab, 2.0, 0.5)
+    motion = lab.about(SPEED), lab.about(SPIN)
+    slow, fast = lab.about(0.5), lab.about(2.0)
+    for each, (linear, angular), steps in (
+        (first, (slow, fast), 120),
+        (second, (fast, slow), 120),  # another world, the same step
+        (first, (fast, slow), 120),  # other rates
+        (first, (fast, slow), 240),  # another step
+        (first, (0.0, slow), 240),
+        (second, (slow, fast), 60),
+        (first, (slow, fast), 120),  # as at first
+    ):
+        lab.ran(
+            f"worlds that are changed: linear_damping = {linear:g}, angular_damping = "
+            f"{angular:g}, {steps // 2} steps of {say_step(1 / steps)}"
         )
+        got = each.shares(linear, angular, 1 / steps, steps // 2, motion)
+        want_shares(lab, got, (linear, angular), 0.5)
 
 
-@given(linear=rates, angular=rates, dt=damped_steps, parts=st.integers(2, 8))
+MANY_RATES = (0.05, 0.001, 0.625, 3.0, 20.0, 0.0)  # 1/s; at 0.603 and 60 Hz 0.99 a step is right
+MANY_STEPS = (1 / 60, 1 / 120, 1 / 30, 0.25, 1 / 1000)  # s
+
+
+@given(examples=2, other=rates, dt=damped_steps, parts=st.integers(2, 8))
 def one_long_step_or_many_short_ones_damp_alike(
-    lab: Lab, linear: float, angular: float, dt: float, parts: int
+    lab: Lab, other: float, dt: float, parts: int
 ) -> None:
-    """One long step and many short ones damp alike"""
+    """One long step and many short ones damp alike, at any rate"""
+    damped = damped_ball(lab, other, other)
+    cases = list(product(MANY_RATES, MANY_STEPS))
+    for n, (linear, step) in enumerate([*cases, (other, dt)]):
+        angular = (*MANY_RATES, other)[(n + n // len(MANY_STEPS)) % 7]
+        want_both(lab, damped, (linear, angular), step, parts)
+
+
+def want_both(lab: Lab, damped: Damped, rates: Pair, dt: float, parts: int) -> None:
+    """The same is left after one step and after the same time in parts."""
+    linear, angular = rates
     lab.ran(
         f"linear_damping = {linear:g}, angular_damping = {angular:g}: "
         f"one step of {say_step(dt)}, and the same time in {parts} steps"
     )
-    once, often = damp(lab, linear, angular, dt, 1), damp(lab, linear, angular, dt / parts, parts)
+    once = damped.shares(linear, angular, dt, 1)
+    often = damped.shares(linear, angular, dt / parts, parts)
     right = exact.damped(linear, dt), exact.damped(angular, dt)
     n = decimals((*right, *right), (*once, *often))
     lab.want(
@@ -106,33 +185,20 @@ def say_step(dt: float) -> str:
 
 
 @given(
+    examples=2,
     first=wide_velocities,
-    second=wide_velocities,
-    spins=st.tuples(any_speeds, any_speeds),
-    linear=rates,
-    angular=rates,
-    steps=st.tuples(damped_steps, damped_steps),
-    pull=pulls,
+    slow=st.tuples(low_speeds, low_speeds),
+    spins=st.tuples(any_speeds, low_speeds),
+    rates=st.tuples(rates, rates),
+    dt=damped_steps,
 )
 def damping_keeps_the_direction_and_leaves_statics_alone(
-    lab: Lab,
-    first: Pair,
-    second: Pair,
-    spins: Pair,
-    linear: float,
-    angular: float,
-    steps: Pair,
-    pull: Pair,
+    lab: Lab, first: Pair, slow: Pair, spins: Pair, rates: Pair, dt: float
 ) -> None:
     """Damping keeps the direction, after gravity, and static bodies are left alone"""
-    lab.ran(
-        f"balls at {first} and {second} px/s with spins of {spins} rad/s, gravity {pull} px/s², "
-        f"linear_damping = {linear:g}, angular_damping = {angular:g}, "
-        f"a step of {say_step(steps[0])} and one of {say_step(steps[1])}"
-    )
     meant = [  # far from each other: at 20000 px/s a ball comes 10000 px far
         Moment(-1e5, 40.0, *first, 0.3, spins[0]),
-        Moment(1e5, -70.0, *second, -2.0, spins[1]),
+        Moment(1e5, -70.0, *slow, -2.0, spins[1]),
     ]
     balls = [
         lab.circle((m.x, m.y), mass=2.0, vel=(m.vx, m.vy), angle=m.angle, omega=m.omega)
@@ -141,28 +207,38 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
     fleet, rods = a_fleet(lab)
     still = lab.box((0.0, 5e5), (20.0, 20.0))
     belt = lab.circle((0.0, -5e5), mass=0.0, vel=(50.0, -20.0), omega=2.0)
-    world = lab.world(
-        *(*balls, *fleet, still, belt),
-        gravity=pull,
-        linear_damping=linear,
-        angular_damping=angular,
-        joints=rods,
-    )
-    changes = {world: "contacts", belt: "pos angle"} | {  # a belt may move or stay
+    bodies = *balls, *fleet, still, belt
+    changes = {belt: "pos angle"} | {  # a belt may move or stay
         ball: "pos vel angle omega" for ball in (*balls, *fleet)
     }
     changes |= {rod: "axis bias k stiffness damping" for rod in rods}
-    for dt in (*steps, 1 / 118, 1 / 118.05):  # the last ones nearly as usual, and as each other
-        left = lab.thing(
-            lab.call("Contact", fleet[0], fleet[2], (0.0, 1.0), 0.25, (0.0, 9e5 + 20.0))
+    for n, pull in enumerate(PULLS):
+        linear, angular = ((0.5, 0.125), rates, (0.0, 0.25), (2.0, 0.0))[n]
+        world = lab.world(
+            *bodies, gravity=pull, linear_damping=linear, angular_damping=angular, joints=rods
         )
-        lab.tell(world, "contacts.append", left)  # as if the step before had found one
-        lab.tell(world, "step", dt, changes=changes, sees=[*changes, still])
-        keep = exact.damped(linear, dt), exact.damped(angular, dt)
-        meant = [stepped(each, pull, keep, dt) for each in meant]
-        for ball, right in zip(balls, meant, strict=True):
-            want_moment(lab, moment(lab.state(ball)), right, dt)
-        meant = [moment(lab.state(ball)) for ball in balls]
+        for step in ((1 / 118, 1 / 118.05), (dt, 1 / 24), (1 / 120, 0.25), (dt, dt))[n]:
+            lab.ran(
+                f"balls at {first} and {slow} px/s with spins of {spins} rad/s, gravity {pull} "
+                f"px/s², linear_damping = {linear:g}, angular_damping = {angular:g}, then a step "
+                f"of {say_step(step)}"
+            )
+            left = lab.thing(
+                lab.call("Contact", fleet[0], fleet[2], (0.0, 1.0), 0.25, (0.0, 9e5 + 20.0))
+            )
+            lab.tell(world, "contacts.append", left)  # as if the step before had found one
+            may = {world: "contacts", **changes}
+            lab.tell(world, "step", step, changes=may, sees=[*may, still])
+            keep = exact.damped(linear, step), exact.damped(angular, step)
+            meant = [stepped(each, pull, keep, step) for each in meant]
+            for ball, right in zip(balls, meant, strict=True):
+                want_moment(lab, moment(lab.state(ball)), right, step)
+            meant = [moment(lab.state(ball)) for ball in balls]
+    want_unmoved(lab, still, belt)
+
+
+def want_unmoved(lab: Lab, still: Thing, belt: Thing) -> None:
+    """The static box where it was, and the belt as fast as it was."""
     for each, vel, omega in ((still, (0.0, 0.0), 0.0), (belt, (50.0, -20.0), 2.0)):
         body = lab.state(each)
         lab.want(
@@ -217,20 +293,3 @@ def say_moment(each: Moment, n: int) -> str:
         f"speed ({each.vx:.{n}f}, {each.vy:.{n}f}) px/s, spin {each.omega:.{n}f} rad/s, "
         f"at ({each.x:.{n}f}, {each.y:.{n}f}) px, angle {each.angle:.{n}f} rad"
     )
-
-
-def no_damping_loses_nothing(lab: Lab) -> None:
-    """A rate of 0 loses nothing"""
-    motion, rate = (lab.about(SPEED), lab.about(SPIN)), lab.about(0.5)
-    lab.ran("one ball, both dampings 0, for one second")
-    speed, spin = damp(lab, 0.0, 0.0, 1 / 120, 120, motion)
-    n = decimals((1.0, 1.0), (speed, spin))
-    left = f"{say(speed, n)} and {say(spin, n)}"
-    lab.want(speed == 1.0 and spin == 1.0, "all of its speed and spin", left)
-    # A world may leave damping out where both rates are 0: one at a time is asked of the student.
-    lab.ran(f"one ball, angular_damping = {rate:g} and the other 0, for one second")
-    speed, _ = damp(lab, 0.0, rate, 1 / 120, 120, motion)
-    lab.want(speed == 1.0, "all of its speed", say(speed, decimals([1.0], [speed])))
-    lab.ran(f"one ball, linear_damping = {rate:g} and the other 0, for one second")
-    _, spin = damp(lab, rate, 0.0, 1 / 120, 120, motion)
-    lab.want(spin == 1.0, "all of its spin", say(spin, decimals([1.0], [spin])))

@@ -5,13 +5,13 @@
 
 import math
 import random
+from itertools import count
 from typing import Any, NamedTuple
-
-from hypothesis import given
 
 from grader.checks import exact
 from grader.checks.strategies import places_around, seeds
 from grader.checks.telling import decimals_to_tell
+from grader.judge.drawing import given
 from grader.judge.lab import STEP, Frame, Lab, Moment, Pair, Thing
 from grader.protocol import Rng, SpaceBody, SpaceJoint, SpaceValue, Vec
 
@@ -47,14 +47,12 @@ def the_space_pulls_like_the_mini_engine(lab: Lab) -> None:
         )
 
 
-SETTINGS = (
-    *("iterations", "sleep_time_threshold", "idle_speed_threshold"),
-    *("collision_slop", "collision_bias", "current_time_step"),
-)
+SETTINGS = "idle_speed_threshold", "collision_slop", "collision_bias", "current_time_step"
+PASSES = range(2, 21)  # of the solver: the lesson proposes to try 2 and 20, and sleep as well
 
 
 def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
-    """The space is otherwise as it was given: damping 0.95, and pymunk's own settings"""
+    """The space has damping 0.95, and else pymunk's own settings or those of an experiment"""
     lab.ran("make_space, and looked at the space's settings")
     space = scene(lab)
     lab.want(space.damping == 0.95, "damping 0.95", f"damping {space.damping:g}")
@@ -74,6 +72,8 @@ def want_usual_settings(lab: Lab, space: Thing) -> None:
     for name in SETTINGS:
         right, answer = lab.get(usual, name), lab.get(space, name)
         lab.want(answer == right, f"{name} {right}, as pymunk has it", f"{name} {answer}")
+    passes = lab.number(lab.get(space, "iterations"), "iterations")
+    lab.want(passes in PASSES, "iterations 10, or from 2 to 20", f"iterations {passes:g}")
 
 
 def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
@@ -87,10 +87,11 @@ def a_free_ball_falls_in_the_scene(lab: Lab) -> None:
     lab.tell(space, "add", ball)
     last = lab.simulate(space, [ball], steps, every=steps).body(0)[-1]
     fallen, speed = exact.pymunk_fall(GRAVITY[1], STEP, steps)
-    lab.want(
-        near((last.x, last.y), (x, y + fallen), 1e-6)
-        and near((last.vx, last.vy), (0.0, speed), 1e-6),
-        f"{fallen:.1f} px further down, at (0, {speed:.1f}) px/s",
+    lab.want(  # a tenth more or less looks the same
+        math.isclose(last.y - y, fallen, rel_tol=0.1)
+        and math.isclose(last.vy, speed, rel_tol=0.1)
+        and abs(last.x - x) < 1.0,
+        f"about {fallen:.0f} px further down, at (0, {speed:.0f}) px/s",
         f"{last.y - y:.1f} px further down, at ({last.vx:.1f}, {last.vy:.1f}) px/s",
     )
 
@@ -149,9 +150,18 @@ def want_full_disc(lab: Lab, ball: Ball) -> None:
     )
 
 
+RADII = range(10, 23)  # px
+
+
+def seed_of(radius: int, first: int) -> int:
+    """The next seed that draws a ball of this size; how a colour is drawn later is left open."""
+    return next(n for n in count(first) if random.Random(n).randint(RADII[0], RADII[-1]) == radius)
+
+
 def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     """A ball has the moment of inertia of a full disc"""
-    for seed in map(lab.whole, (1, 12, 15), (90, 90, 90)):
+    for radius in (RADII[0], 17, RADII[-1]):
+        seed = seed_of(radius, abs(lab.whole(1, 90)))
         lab.ran(f"add_ball with random.Random({seed}) in an empty space")
         space = lab.thing(lab.call("pymunk:Space"))
         want_full_disc(lab, drop(lab, space, Rng(seed), (450.0, 300.0)))
@@ -159,22 +169,19 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
     lab.ran(f"add_ball eight times with one random.Random({seed})")
     rng = lab.thing(lab.call("random:Random", seed))
     balls = [drop(lab, space, rng, (100.0 * number, 300.0)) for number in range(8)]
-    for ball in balls:
-        want_full_disc(lab, ball)
     radii = {ball.radius for ball in balls}  # of 13 that there are; seldom so few by chance
     lab.want(len(radii) > 2, "balls of several sizes", f"eight of {sorted(radii)} px")
 
 
-@given(seed=seeds, x=places_around, y=places_around)
+@given(examples=2, seed=seeds, x=places_around, y=places_around)
 def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
-    """Every ball has the moment of its own size, and is else as it was given"""
+    """Balls of all thirteen sizes have moments of their own, and are else as they were given"""
     space = lab.thing(lab.call("pymunk:Space"), "the space")
     lab.put(space, gravity=(3.5, 700.25), damping=0.8125, iterations=7)
-    for number in range(3):
-        lab.ran(f"add_ball with random.Random({seed + number}) at ({x + 50.0 * number:g}, {y:g})")
-        # The first that is drawn; how a colour is drawn behind it is left open.
-        radius = random.Random(seed + number).randint(10, 22)
-        rng = lab.thing(lab.call("random:Random", seed + number))
+    for number, radius in enumerate(RADII):
+        chosen = seed_of(radius, seed)
+        lab.ran(f"add_ball with random.Random({chosen}) at ({x + 50.0 * number:g}, {y:g})")
+        rng = lab.thing(lab.call("random:Random", chosen))
         ball = drop(lab, space, rng, (x + 50.0 * number, y), changes={space: "bodies shapes"})
         want_full_disc(lab, ball)
         lab.want(
@@ -187,22 +194,30 @@ def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: 
         )
 
 
+def floor_in(lab: Lab, space: Thing) -> None:
+    """A level floor at y = 560 of our own, however the submission makes its floors."""
+    body = lab.space(lab.get(space, "")).bodies[0]
+    segment = lab.call("pymunk:Segment", lab.thing(body), (-900.0, 580.0), (1800.0, 580.0), 20.0)
+    floor = lab.thing(segment, "a floor")
+    lab.put(floor, friction=0.6, elasticity=0.3)
+    lab.tell(space, "add", floor)
+
+
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
-    """A ball that slides comes to roll at two thirds of its speed"""
+    """A ball that slides comes to roll: its spin times its radius is its speed"""
     speed = lab.about(300.0)
     lab.ran(f"a ball of add_ball set on a floor, sliding at {speed:g} px/s, no damping, one second")
     space = lab.thing(lab.call("pymunk:Space"))
     lab.put(space, gravity=GRAVITY)
-    lab.call("add_static_box", space, (450.0, 580.0), (900.0, 40.0))
+    floor_in(lab, space)
     ball = drop(lab, space, Rng(lab.whole(12, 12)), (200.0, 300.0))
     lab.put(ball.body, position=(200.0, 560.0 - ball.radius), velocity=(speed, 0.0))
     last = lab.simulate(space, [ball.body], 120, every=120).body(0)[-1]
-    right = exact.rolling_speed(speed)
+    rim = last.omega * ball.radius
     lab.want(
-        math.isclose(last.vx, right, rel_tol=0.01)
-        and math.isclose(last.omega * ball.radius, right, rel_tol=0.01),
-        f"{right:.0f} px/s, and as much as spin x radius: it rolls",
-        f"{last.vx:.1f} px/s, spin x radius {last.omega * ball.radius:.1f} px/s",
+        last.vx > speed / 10 and math.isclose(rim, last.vx, rel_tol=0.03),
+        "a speed, and as much as spin x radius: it rolls",
+        f"{last.vx:.1f} px/s, spin x radius {rim:.1f} px/s",
     )
 
 
@@ -291,7 +306,7 @@ def a_joint_holds_the_bob_by_its_centre(lab: Lab) -> None:
 
 
 def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
-    """The bob is as given: a disc of 24 px and 6 kg, at rest, in a usual space"""
+    """The bob is as given: a disc of 24 px and 6 kg, at rest"""
     lab.ran("make_space, and looked at the bob")
     space = scene(lab)
     found = [each for each in space.bodies if each.kind == "dynamic" and of_bob(each)]
@@ -301,11 +316,6 @@ def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
     lab.want(surfaces == [(0.6, 0.2)], "friction 0.6, elasticity 0.2", f"{surfaces}")
     solid = all(each.solid for each in bob.shapes)
     lab.want(solid, "a bob that knocks against all there is", "a sensor, or a filter on its shape")
-    lab.want(
-        space.damping == 0.95 and near(pair(space.gravity), GRAVITY, 1e-9),
-        "damping 0.95 and gravity (0, 980)",
-        f"damping {space.damping:g} and gravity {pair(space.gravity)}",
-    )
     right = exact.disc_moment(6.0, 24.0)
     moment = math.inf if bob.moment is None else bob.moment
     lab.want(
@@ -313,7 +323,6 @@ def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
         f"mass 6, and the moment of a full disc: {right:g}",
         f"mass {bob.mass:g}, moment {moment:g}",
     )
-    want_usual_settings(lab, lab.thing(space))
 
 
 def of_bob(body: SpaceBody) -> bool:

@@ -5,12 +5,11 @@ from collections.abc import Callable
 from itertools import islice, pairwise
 from typing import NamedTuple
 
-from hypothesis import given
-
 from grader.checks import exact
 from grader.checks.exact import Accel, State
-from grader.checks.strategies import forces, near_and_far, states, time_steps
+from grader.checks.strategies import forces, near_and_far, starts
 from grader.checks.telling import want_told
+from grader.judge.drawing import given
 from grader.judge.lab import Lab
 
 OMEGA = 2 * math.pi  # rad/s: the lesson's spring swings once per second
@@ -20,7 +19,12 @@ NEARLY_USUAL = [((100.03125, 0.5), 1 / 29.8), ((260.0, 2345.25), 1 / 2000)]  # p
 TELLING = 4  # first steps on the spring, by which mistakes can be told apart
 FAR = 1e6  # px or px/s, from where a cubic force leads out of all numbers
 
+# From long ones, by which integrators are told apart, to short ones that are no round numbers.
+TIME_STEPS = (0.5, 2.0, 1.0, 1 / 4, 1 / 8, 1 / 16, 1 / 30, 1 / 120, 1 / 480)  # s
+
 Polynomial = tuple[float, ...]  # lowest power first
+Starts = tuple[State, State]  # one that moves, and one at rest
+GRAVITY: Polynomial = (980.25, 0.0, 0.0, 0.0)  # px/s², nearly
 
 
 class Method(NamedTuple):
@@ -97,30 +101,13 @@ def formula(force: Polynomial) -> str:
     return " ".join(f"{c:+g}{power}" for c, power in powers if c) or "0"
 
 
-def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> State:
-    """Where the spring's body is after so many steps; it is let go at x0."""
+def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> list[State]:
+    """The states of the spring's body after each of so many steps; it is let go at x0."""
     start, dt = (x0, 0.0), seconds / steps
     states = lab.integrate(method.name, start, dt, SPRING, steps)
     for before, answer in islice(pairwise([start, *states]), TELLING):
         lab.saw(method.name, (*before, dt, SPRING), answer)
-    return states[-1]
-
-
-def want_order(lab: Lab, method: Method) -> None:
-    """Half the step must divide the error by 2^order, or by what is nearest to that."""
-    x0 = lab.about(X0)
-    lab.ran(
-        f"{method.name} on the spring for 0.65 s from x = {x0:g} px, with dt = 1/40 s and with "
-        "dt = 1/80 s"
-    )
-    exact_x = x0 * math.cos(OMEGA * 0.65)
-    coarse, fine = (abs(swing(lab, method, steps, 0.65, x0)[0] - exact_x) for steps in (26, 52))
-    ratio = 2**method.order
-    lab.want(
-        ratio / math.sqrt(2) * fine < coarse < ratio * math.sqrt(2) * fine,
-        f"half the step, 1/{ratio} of the error (order {method.order})",
-        f"{coarse:.3g} px off with 1/40 s, {fine:.3g} px off with 1/80 s",
-    )
+    return states
 
 
 # What a failed check asks besides, to tell what is wrong: single steps, none of them round.
@@ -147,61 +134,81 @@ def look_closely(lab: Lab, method: Method) -> None:
         lab.saw(method.name, (x, v, dt, force), answer)
 
 
-def want_figures(lab: Lab, method: Method) -> None:
-    """The printed figures of the lesson's table, to half a unit of their last digit."""
+def want_a_swing(lab: Lab, method: Method) -> None:
+    """About the figures of the lesson's table, or better: half as much again is let pass."""
+    look_closely(lab, method)
     x0 = lab.about(X0)
     lab.ran(f"{method.name} on the spring for 10 s, dt = 1/30 s, from x = {x0:g} px at rest")
-    x, v = swing(lab, method, 300, 10.0, x0)
+    states = swing(lab, method, 300, 10.0, x0)
+    (x, v), farthest = states[-1], min(x for x, _ in states)
+    lab.want(
+        farthest < -0.9 * x0,
+        f"it swings to about x = {-x0:g} px, on the other side",
+        f"it comes to x = {farthest:.1f} px at the farthest",
+    )
     error, scale = abs(x - x0), x0 / X0
     change = 100 * ((v**2 + OMEGA**2 * x**2) / (OMEGA**2 * x0**2) - 1)
     lab.want(
-        abs(error - scale * method.error) <= 0.0005 * scale
-        and abs(change - method.energy_change) <= 0.005,
-        f"{scale * method.error:.3f} px off, energy changed by {method.energy_change:+.2f}%",
+        error <= 1.5 * scale * method.error and abs(change) <= 1.5 * abs(method.energy_change),
+        f"about {scale * method.error:.3f} px off, energy changed by {method.energy_change:+.2f}%",
         f"{error:.3f} px off, energy changed by {change:+.2f}%",
     )
 
 
-@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
+def asked_everywhere(check: Callable[..., None]) -> Callable[..., None]:
+    """Make it a property that draws what a step of an integrator is asked with."""
+    drawn = given(examples=2, starts=starts, force=forces, other=forces, elsewhere=near_and_far)
+    return drawn(check)
+
+
+def want_every_step(
+    lab: Lab,
+    method: Method,
+    starts: Starts,
+    force: Polynomial,
+    other: Polynomial,
+    elsewhere: float,
+) -> None:
+    """Steps of every length, from where it moves and from rest, also where nothing but x falls."""
+    for n, dt in enumerate(TIME_STEPS):
+        first = GRAVITY if n % 3 == 2 else force
+        want_steps(lab, method, starts[n % 2], dt, first, other, elsewhere)
+
+
+@asked_everywhere
 def semi_implicit_euler_moves_with_the_new_velocity(
-    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
+    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
 ) -> None:
     """A step changes the velocity first, then moves with the new one"""
-    want_steps(lab, SEMI_IMPLICIT_EULER, start, dt, force, other, elsewhere)
+    want_every_step(lab, SEMI_IMPLICIT_EULER, starts, force, other, elsewhere)
 
 
 def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring gives the lesson's figures, with an error of order 1"""
-    look_closely(lab, SEMI_IMPLICIT_EULER)
-    want_order(lab, SEMI_IMPLICIT_EULER)
-    want_figures(lab, SEMI_IMPLICIT_EULER)
+    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    want_a_swing(lab, SEMI_IMPLICIT_EULER)
 
 
-@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
+@asked_everywhere
 def velocity_verlet_uses_the_accelerations_at_both_ends(
-    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
+    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
 ) -> None:
     """A step uses the accelerations at both of its ends"""
-    want_steps(lab, VELOCITY_VERLET, start, dt, force, other, elsewhere)
+    want_every_step(lab, VELOCITY_VERLET, starts, force, other, elsewhere)
 
 
 def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring gives the lesson's figures, with an error of order 2"""
-    look_closely(lab, VELOCITY_VERLET)
-    want_order(lab, VELOCITY_VERLET)
-    want_figures(lab, VELOCITY_VERLET)
+    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    want_a_swing(lab, VELOCITY_VERLET)
 
 
-@given(start=states, dt=time_steps, force=forces, other=forces, elsewhere=near_and_far)
+@asked_everywhere
 def rk4_weighs_four_samples(
-    lab: Lab, start: State, dt: float, force: Polynomial, other: Polynomial, elsewhere: float
+    lab: Lab, starts: Starts, force: Polynomial, other: Polynomial, elsewhere: float
 ) -> None:
     """A step weighs four samples of velocity and acceleration"""
-    want_steps(lab, RK4, start, dt, force, other, elsewhere)
+    want_every_step(lab, RK4, starts, force, other, elsewhere)
 
 
 def rk4_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring gives the lesson's figures, with an error of order 4"""
-    look_closely(lab, RK4)
-    want_order(lab, RK4)
-    want_figures(lab, RK4)
+    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    want_a_swing(lab, RK4)

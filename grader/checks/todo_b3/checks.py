@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from typing import Any
 
-from hypothesis import given
 from hypothesis import strategies as st
 
 from grader.checks.exact import Disc, Rect
 from grader.checks.strategies import circles, crowd_discs, crowd_rects, pairs
+from grader.judge.drawing import given
 from grader.judge.lab import Lab, Pair, Thing
 
 Contacts = Counter[tuple[int, ...]]  # how many each two bodies have, by their numbers
