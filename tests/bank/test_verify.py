@@ -198,8 +198,8 @@ def test_a_wrong_name_for_a_mistake_is_a_complaint():
     assert find_complaint(other, result, 1.0) == "its mistake is named spin-is-not-damped"
 
 
-def rung(path: Path, points: int) -> Verdict:
-    member = Member("ladder", f"5-{path.stem}", "package", Entry(), path)
+def judge_rung(sheet: Path, name: str, points: int) -> Verdict:
+    member = Member("ladder", f"5-{name}", "package", Entry(), sheet)
     todo = TodoResult("5", "Damping", "not yet", points, 8, None, [])
     return Verdict(member, replace_in(RIGHT, points=points, todos=[todo]), 1.0, "")
 
@@ -214,11 +214,10 @@ def rung(path: Path, points: int) -> Verdict:
     ],
 )
 def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complaint: str):
-    paths = [tmp_path / "5" / f"{name}.py" for name in ("0-a", "1-b", "2-c", "3-d")]
-    paths[0].parent.mkdir()
-    for path in paths:
-        path.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
-    report = Report([rung(*each) for each in zip(paths, points, strict=True)])
+    names, sheet = ("0-a", "1-b", "2-c", "3-d"), tmp_path / "5.toml"
+    sheet.write_text("".join(f'[{each}]\ncode = "pass"\n' for each in names), encoding="utf-8")
+    rungs = zip(names, points, strict=True)
+    report = Report([judge_rung(sheet, *each) for each in rungs])
     (ladder,) = report.ladders
     assert ladder.complaint == complaint
     assert report.sound == (not complaint)
