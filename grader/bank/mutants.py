@@ -22,7 +22,7 @@ from rich.table import Table
 
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, make_slips
-from grader.bank.verify import each_of, shared_worker
+from grader.bank.verify import run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
@@ -286,7 +286,7 @@ def run_mutants(
     """Grade the mutants; print each complaint, and a table."""
     outcomes: list[Outcome] = []
     with Counter("grading mutants", len(mutants), console) as counter:
-        for outcome in each_of(partial(grade_mutant, alone=alone), mutants, jobs):
+        for outcome in run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs):
             outcomes.append(outcome)
             counter.reached(len(outcomes))
             if outcome.complaint:

@@ -10,7 +10,7 @@ from msgspec.structs import replace as replace_in
 
 from grader.bank.ladders import ladders
 from grader.bank.members import CONSTANTS, Member, change_files, change_text, members
-from grader.bank.verify import grade_member, kit_complaints
+from grader.bank.verify import check_kit, grade_member
 from grader.judge.grade import KIT
 from grader.judge.result import is_bonus
 from grader.judge.rubric import load_rubric
@@ -211,4 +211,4 @@ def test_every_todo_has_wrong_submissions():
 
 
 def test_trees_and_rubric_have_nothing_to_complain_of():
-    assert list(kit_complaints()) == []
+    assert list(check_kit()) == []

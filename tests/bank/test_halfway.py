@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from grader.bank.halfway import halfway
-from grader.bank.verify import graded_halfway
+from grader.bank.verify import judge_halfway
 from grader.checks.exact import Disc, Lever, Rect, Touch, circle_box
 from grader.judge.diagnosis import Diagnosis
 from grader.judge.lab import Observation
@@ -31,7 +31,7 @@ def drawn() -> list[str]:
 @pytest.mark.parametrize("name", drawn())
 def test_the_first_failure_of_a_state_says_what_it_must(name: str):
     (state,) = [each for each in STATES if each.name == name]
-    assert graded_halfway(state).complaint == ""
+    assert judge_halfway(state).complaint == ""
 
 
 def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
