@@ -29,9 +29,12 @@ set_hypothesis_home_dir(CACHE)
 
 
 def given(
-    examples: int = EXAMPLES, shrinks: bool = True, **strategies: st.SearchStrategy[Any]
+    examples: int = EXAMPLES, **strategies: st.SearchStrategy[Any]
 ) -> Callable[[Property], Property]:
-    """Make a check a property: hypothesis' own `given`, under the judge's settings."""
+    """Make a check a property: hypothesis' own `given`, under the judge's settings.
+
+    The first example is the simplest there is. With one more, or none, nothing is worth shrinking.
+    """
     phases = [Phase.explicit, Phase.generate, Phase.shrink]
     settings = hypothesis.settings(
         deadline=None,
@@ -39,7 +42,7 @@ def given(
         max_examples=examples,
         report_multiple_bugs=False,
         print_blob=False,
-        phases=phases if shrinks else phases[:2],
+        phases=phases if examples > 2 else phases[:2],
         suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
     )
     return lambda function: settings(hypothesis.given(**strategies)(function))

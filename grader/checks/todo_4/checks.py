@@ -79,8 +79,9 @@ def rub(
     last = motion(lab.state(a), lab.state(b))
     rubbing = rubbed(discs, first, last)
     want_opposite(lab, discs, first, last, max(closing / discs.k, 0.0), rubbing)
-    lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
-    if spin:
+    if not spin:
+        lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
+    else:
         want_contact(lab, world, discs, max(closing / discs.k, 0.0), rubbing)
     return rubbing
 
