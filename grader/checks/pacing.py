@@ -134,6 +134,8 @@ def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     longer = (length for length, frame in both if length > max(frame, work) + ROUNDING)
     # A program that sleeps before its first steps may have all of that left.
     waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), LONGEST_WAIT)
+    if lab.opening is not None:  # what ran before may have left a part of a step
+        waiting = max(waiting, STEP_MS)
     paced = Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
     return paced, max(longer, default=0.0)
 
