@@ -210,7 +210,7 @@ class Grading:
 
     def put_given_code_back(self, loop: "CheckLoop") -> None:
         """Ask failed checks with changed given code undone; a TODO's own that pass have passed."""
-        failed = {key: loop.results[key] for key in loop.functions}
+        failed = {key: loop.results[key] for key in loop.failed}
         if not failed or not (changed := self.changed_given(loop.unusable.values())):
             return
         blame = Blame(changed, self.open_with, loop.again, lambda: bool(loop.budget.cut))
@@ -323,7 +323,7 @@ class Grading:
         self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]
     ) -> TodoResult:
         """Return what came of a TODO, when it is known which ones are `unfinished`."""
-        ran = {id for todo_id, id in loop.functions if todo_id == todo.id}
+        ran = {id for todo_id, id in loop.failed if todo_id == todo.id}
         mistake = None
         if any(check.failed and check.id in ran for check in checks):
             mistake = misconceptions.name_mistake(todo.id, self.observations.get(todo.id, []))
@@ -356,7 +356,7 @@ class Grading:
         found = {}
         for check in todo.checks:
             module, key = check.module or todo.module, (todo.id, check.id)
-            if key not in loop.functions:
+            if key not in loop.failed:
                 continue
             others = [
                 each.id
