@@ -25,7 +25,9 @@ A right member must get every point. Where it differs from the solution in one T
 - `right/NAME.py` and `hostile/NAME.py` hold regions that take the place of the solution's.
 - `right/NAME.toml` and `hostile/NAME.toml` edit a whole tree: `base` is the tree or right member to
   begin with. Then come `remove` (files, folders), `copy` (new file = old file), `files` (pairs as
-  in `change`, by file) and `everywhere` (code for every TODO).
+  in `change`, by file), `add` (new files) and `everywhere` (code for every TODO).
+- `lesson.toml` holds variants of the lesson's programs in the same form. `verify` grades the
+  programs as printed, `right/lesson-as-printed/`, and these before all others.
 - `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
   mini_engine.py there replaces the package.
 - `bank.toml` has the marks of members without a NAME.toml.
@@ -60,6 +62,7 @@ Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
+LESSON = "lesson-"  # how the names of the lesson's programs and their variants begin
 CLEAN = shutil.ignore_patterns("__pycache__", "notebooks", ".*")  # no submission has these
 TREES = ("solution", "starter")
 IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
@@ -83,6 +86,7 @@ class Entry(Variant, frozen=True):
     """A member, as TOML describes it: what it changes, and the marks it must get."""
 
     base: str = "solution"  # or "starter", "empty", or the name of a right member
+    add: dict[str, str] = {}  # new files
     remove: list[str] = []
     copy: dict[str, str] = {}  # new file, old file
     everywhere: str = ""  # code for every TODO
@@ -90,6 +94,11 @@ class Entry(Variant, frozen=True):
     points: int | None = None  # exactly; None: all of them
     single_file: bool = True  # whether a wrong member is graded as a single file as well
     seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
+
+    @property
+    def modules(self) -> set[str]:
+        """Return the programs it changes."""
+        return {file.partition("/")[0].removesuffix(".py") for file in self.files}
 
 
 class Wrong(Entry, frozen=True):
@@ -100,11 +109,6 @@ class Wrong(Entry, frozen=True):
     state: str = ""  # the name of the half-way state, if it has one of its own
     says: list[str] = []
     never: list[str] = []
-
-    @property
-    def modules(self) -> set[str]:
-        """Return the programs it changes."""
-        return {file.partition("/")[0].removesuffix(".py") for file in self.files}
 
 
 class Rung(Variant, frozen=True):
@@ -168,12 +172,12 @@ class Member:
         """
         if self.kind == "ladder":
             return self.todos
+        todos = [todo for todo in load_rubric().todos if todo.function]
+        if self.breach is not None or (is_of_lesson(self.name) and self.entry.files):
+            near = {t.id for t in todos if t.module in self.entry.modules and not t.bonus}
+            return frozenset(near | {"whole"})
         if self.kind == "hostile" or not self.todos:
             return frozenset()
-        todos = [todo for todo in load_rubric().todos if todo.function]
-        if self.breach is not None:
-            near = {t.id for t in todos if t.module in self.breach.modules and not t.bonus}
-            return frozenset(near | {"whole"})
         touched = {todo.module for todo in todos if todo.id in self.todos}
         wanted = {
             todo.id
@@ -194,7 +198,7 @@ class Member:
         """Return whether a course has the TODOs and programs that it is about."""
         asked = {todo.id for todo in course.rubric.todos}
         if self.breach is not None:
-            return "whole" in asked and self.breach.modules <= set(course.modules)
+            return "whole" in asked and self.entry.modules <= set(course.modules)
         if self.kind == "right":
             return not self.todos or not asked.isdisjoint(self.todos)
         return self.todos <= asked
@@ -273,14 +277,28 @@ def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
 def every_member(kit: Path) -> Iterator[Member]:
     """Yield the whole bank, wrong members in each form they can take."""
     bank = kit / "tests" / "bank"
+    yield from lesson_members(bank)
     yield from wrong_members(bank)
     yield from right_variants(bank)
-    yield from submissions(bank, "right")
+    yield from (each for each in submissions(bank, "right") if not is_of_lesson(each.name))
     yield from submissions(bank, "hostile")
     yield Member("right", "single-file", "single file", Entry(), None)
     yield from rungs(bank)
     if any(constants(kit)):
         yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), None)
+
+
+def is_of_lesson(name: str) -> bool:
+    return name.startswith(LESSON)
+
+
+def lesson_members(bank: Path) -> Iterator[Member]:
+    """Yield the lesson's programs as printed, and the variants of them."""
+    yield from (each for each in submissions(bank, "right") if is_of_lesson(each.name))
+    sheet = bank / "lesson.toml"
+    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
+    for name, entry in entries.items():
+        yield Member("right", f"{LESSON}{name}", "package", entry, sheet)
 
 
 def wrong_members(bank: Path) -> Iterator[Member]:
@@ -390,6 +408,8 @@ def edit_tree(entry: Entry, folder: Path) -> None:
         path = folder / name
         shutil.rmtree(path) if path.is_dir() else path.unlink()
     change_files(entry.files, folder)
+    for name, text in entry.add.items():
+        (folder / name).write_text(text, encoding="utf-8")
     if entry.everywhere:
         fill_every_todo(folder, entry.everywhere)
 
@@ -555,6 +575,11 @@ def copies_inside(folder: Path) -> None:
         shutil.copyfile(starter, package / f"{name}_old.py")
 
 
+def use_printed_names(folder: Path) -> None:
+    for name in ("mini_engine", "pymunk_scene"):
+        (folder / f"{name}.py").rename(folder / f"{name}_starter.py")
+
+
 def leave_out_given_files(folder: Path) -> None:
     """Hand in only what has a TODO."""
     for path in [folder / "lab_runtime.py", *(folder / "mini_engine").rglob("*.py")]:
@@ -565,6 +590,7 @@ def leave_out_given_files(folder: Path) -> None:
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "copies-beside": copies_beside,
     "copies-inside": copies_inside,
+    "printed-names": use_printed_names,
     "given-files-missing": leave_out_given_files,
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),

@@ -21,6 +21,8 @@ from typing import Any
 
 import psutil
 
+from grader.judge.drawing import CACHE
+
 OWN_FOLDER = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
 OPEN_TO_ALL = ("/dev/shm", "/tmp", "/var/tmp")
 MAKES = {"open": 0, "os.mkdir": 0, "os.link": 1, "os.rename": 1, "os.symlink": 1}  # which argument
@@ -51,6 +53,7 @@ def watched(own: Path, name: str) -> Iterator[Traces]:
     with at_home_in(own), noted() as made:
         yield traces
     left = {*own.rglob("*"), *made} | {path for path, _ in named(name, shared) - files}
+    left = {path for path in left if CACHE not in (path, *path.parents)}  # the judge's own
     kept = sorted(path for path in left if os.path.lexists(path))
     traces.left += [f"the file {path}" for path in kept[:3]]
     for process in descendants() - processes:

@@ -27,7 +27,7 @@ from grader.judge.grade import Options
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
-from grader.player.page import filled, one_line
+from grader.player.page import clean_line, fill_template
 from grader.player.replay import grade_with_replays
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
@@ -255,7 +255,7 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
     points = [each.outcome.final for each in marked]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
     style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
-    return filled(
+    return fill_template(
         TEMPLATES / "dashboard.html",
         style,
         script,
@@ -275,7 +275,7 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
         bonus=any(each.outcome.bonus for each in marked),
         marks=MARKS,
         notes=list_notes,
-        clean=one_line,
+        clean=clean_line,
         quote=quote,
         script=Markup(script),
     )

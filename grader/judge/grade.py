@@ -23,7 +23,7 @@ from grader.judge.meaning import Evidence, explain
 from grader.judge.names import Names
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
-from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
+from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
@@ -207,6 +207,12 @@ class Grading:
         self.failing = loop.failing
         self.put_given_code_back(loop)
         return self.result(loop)
+
+    def new_lab(self, todo: Todo, check: Check) -> Lab:
+        """Return a lab for one check, with the reference in the other TODOs' places."""
+        module = check.module or todo.module
+        pieces = self.reference.for_the_others(todo, module, self.rubric, self.submission)
+        return Lab(module, lambda: self.sandbox.open_child(check.cpu_seconds), pieces)
 
     def put_given_code_back(self, loop: "CheckLoop") -> None:
         """Ask failed checks with changed given code undone; a TODO's own that pass have passed."""

@@ -14,6 +14,7 @@ from pathlib import Path, PurePath, PurePosixPath
 import msgspec
 
 from grader.errors import Stop
+from grader.judge.file_names import accept_printed_names
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
@@ -80,6 +81,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         shutil.copyfile(path, copy / path.name)
     else:
         copy_tree(path, submission)
+    accept_printed_names(copy)
     supply_given(copy)
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from markupsafe import Markup, escape
 
-from grader.player.page import filled, one_line
+from grader.player.page import clean_line, fill_template
 from grader.questions.question import KINDS, Picture, Sheet
 from grader.text import digits
 
@@ -16,7 +16,7 @@ PageKind = Literal["sheet", "key", "practice"]
 
 def page(sheet: Sheet, title: str, kind: PageKind) -> str:
     """One page that needs nothing else."""
-    return filled(
+    return fill_template(
         TEMPLATES / "sheet.html",
         (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
         sheet=sheet,
@@ -31,7 +31,7 @@ def page(sheet: Sheet, title: str, kind: PageKind) -> str:
 
 def worded(text: str, tag: str = "p") -> Markup:
     """A text with a paragraph for each line, and its code as code; all else is plain text."""
-    paragraphs = [with_code(one_line(line)) for line in text.splitlines()]
+    paragraphs = [with_code(clean_line(line)) for line in text.splitlines()]
     if not tag:
         return Markup(" ").join(paragraphs)
     return Markup("").join(Markup("<p>{}</p>").format(each) for each in paragraphs)

@@ -10,7 +10,7 @@ import msgspec
 from msgspec import Struct
 
 from grader.judge.submission import CannotGrade
-from grader.player.page import filled
+from grader.player.page import fill_template
 from grader.questions.marking import Mark
 from grader.questions.page import TEMPLATES, drawn, worded
 from grader.questions.question import KINDS, Question, Sheet
@@ -98,7 +98,7 @@ def rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
 
 def write_bank(path: Path, sheets: Sequence[Sheet], tally: Tally) -> None:
     """The instructor's page of all questions that these sheets have."""
-    page = filled(
+    page = fill_template(
         TEMPLATES / "bank.html",
         (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
         rows=list(rows(sheets, tally)),

@@ -231,7 +231,7 @@ WEIGHTS = 1.0, 1024.0, 1 / 1024  # times the mass
 OFF = math.sin(1 / 64), math.cos(1 / 64)  # hardly off an upright normal
 NORMALS = (ASLANT, OFF, (-1.0, 0.0), (-0.8, 0.6), (0.0, -1.0), (OFF[1], -OFF[0]), (-0.28, -0.96))
 SPINS = 0.0625, -0.0625, 2.0, -2.0  # rad/s
-SHARES = 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 4.0, -4.0, 100.0, -100.0
+SHARES = 4.0, -4.0, 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 100.0, -100.0
 
 
 def slips(discs: Discs, closing: float) -> Iterator[float]:
