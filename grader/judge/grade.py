@@ -226,10 +226,10 @@ class Grading:
         for id in {id for id, _ in blame.seen}:
             answers = [each for key, each in loop.seen.items() if key[0] == id]
             self.observations[id] = [each for some in answers for each in some]
-        todos = {todo.id: todo for todo in self.rubric.todos}
         for key, blamed in blame.found.items():
-            if blamed.mended and self.keeps_points(todos[key[0]]):
-                check = loop.results[key]
+            check, job = loop.results[key], loop.failed[key]
+            if blamed.mended and self.keeps_points(job.todo):
+                hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
                 loop.failing.pop(key, None)
                 loop.results[key] = msgspec.structs.replace(
                     check,
@@ -237,7 +237,7 @@ class Grading:
                     points=check.max_points,
                     expected="",
                     got="",
-                    meaning=blamed.in_words,
+                    meaning=f"{blamed.in_words} {hint}".rstrip(),
                     where=blamed.place(check),
                 )
 
