@@ -183,8 +183,13 @@ class Diagnosis:
                 join(name for name in part_names[mistake.about] if name in changed) if more else ""
             )
             found.append(Finding(mistake, clause, part, changed, shows))
-        is_all = all(self.questions[n].wrong <= covered for n in wrong)
-        return found if is_all else []
+        return found if self.is_complete(found, wrong, covered) else []
+
+    def is_complete(self, found: list[Finding], wrong: list[int], covered: frozenset[str]) -> bool:
+        """Return whether findings give every number of the wrong answers they are able to give."""
+        models = [each.mistake for each in found]
+        decided = [n for n in wrong if any(self.predict(model, n) for model in models)]
+        return all(self.questions[n].wrong <= covered for n in decided)
 
     def find_changed(
         self, mistake: Mistake, numbers: list[int], covered: frozenset[str]

@@ -216,7 +216,7 @@ class Grading:
 
     def put_given_code_back(self, loop: "CheckLoop") -> None:
         """Ask failed checks with changed given code undone; a TODO's own that pass have passed."""
-        failed = {key: loop.results[key] for key in loop.functions}
+        failed = {key: loop.results[key] for key in loop.failed}
         if not failed or not (changed := self.changed_given(loop.unusable.values())):
             return
         blame = Blame(changed, self.open_with, loop.again, lambda: bool(loop.budget.cut))
@@ -226,10 +226,10 @@ class Grading:
         for id in {id for id, _ in blame.seen}:
             answers = [each for key, each in loop.seen.items() if key[0] == id]
             self.observations[id] = [each for some in answers for each in some]
-        todos = {todo.id: todo for todo in self.rubric.todos}
         for key, blamed in blame.found.items():
-            if blamed.mended and self.keeps_points(todos[key[0]]):
-                check = loop.results[key]
+            check, job = loop.results[key], loop.failed[key]
+            if blamed.mended and self.keeps_points(job.todo):
+                hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
                 loop.failing.pop(key, None)
                 loop.results[key] = msgspec.structs.replace(
                     check,
@@ -237,7 +237,7 @@ class Grading:
                     points=check.max_points,
                     expected="",
                     got="",
-                    meaning=blamed.in_words,
+                    meaning=f"{blamed.in_words} {hint}".rstrip(),
                     where=blamed.place(check),
                 )
 
@@ -329,7 +329,7 @@ class Grading:
         self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]
     ) -> TodoResult:
         """Return what came of a TODO, when it is known which ones are `unfinished`."""
-        ran = {id for todo_id, id in loop.functions if todo_id == todo.id}
+        ran = {id for todo_id, id in loop.failed if todo_id == todo.id}
         mistake = None
         if any(check.failed and check.id in ran for check in checks):
             mistake = misconceptions.name_mistake(todo.id, self.observations.get(todo.id, []))
@@ -362,7 +362,7 @@ class Grading:
         found = {}
         for check in todo.checks:
             module, key = check.module or todo.module, (todo.id, check.id)
-            if key not in loop.functions:
+            if key not in loop.failed:
                 continue
             others = [
                 each.id
