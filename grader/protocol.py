@@ -17,7 +17,7 @@ from msgspec import Meta, Struct
 
 MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; usual are up to 250 KB
 RUNAWAY = 2000  # steps in one frame at which a program is stopped
-MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot of a film
+MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one moment
 HEADER = struct.Struct(">I")
 
 # What every child finds in its environment, whatever stood in ours: a window that nobody sees,
@@ -39,6 +39,7 @@ ENVIRONMENT = {
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
 MAX_PRINTED = 65 * 1024  # of one answer
 MAX_LINES = 200  # that a program printed
+MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
 MAX_FRAMES = 12  # functions that an error went through
 
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
@@ -290,6 +291,8 @@ class Play(Struct, frozen=True, tag="play"):
     physics: bool = True  # False: steps are counted and not run
     trail_every: int = 0  # record every moving body after each so many steps; 0 = never
     pictures: bool = False  # False: next to nothing is drawn
+    photos: list[int] = []  # the frames at whose end the window is photographed
+    step_ms: float = 0.0  # how long each step takes on the scripted clock
 
 
 Setup = Set | MakeBody | MakeWorld  # what needs no answer of its own
@@ -298,11 +301,11 @@ Request = (
 )
 
 
-class Film(Struct, frozen=True, tag="film"):
-    """Answer a request and show what it does to the bodies: for replays, once marks are decided."""
+class Record(Struct, frozen=True, tag="record"):
+    """Answer a request and record the bodies meanwhile: for replays, once marks are decided."""
 
     request: Request
-    most: int  # shots; of more steps or frames only some are taken
+    most: int  # moments; of more steps or frames only some are taken
     cut: bool = False  # a new scene: what was made before is not shown any more
 
 
@@ -366,6 +369,15 @@ class Simulated(Struct, frozen=True, tag="simulated"):
     opcodes: int = 0  # that ran, where they were to be counted
 
 
+class Photo(Struct, frozen=True, array_like=True):
+    """What the window showed when a frame ended; nothing where no frame was shown."""
+
+    frame: int
+    width: int  # px
+    height: int  # px
+    colours: Annotated[bytes, Meta(max_length=MAX_PHOTO)]  # RGB row by row, compressed by zlib
+
+
 class Played(Struct, frozen=True, tag="played"):
     """The record of a program, frame by frame; the last entry covers what came after."""
 
@@ -378,6 +390,7 @@ class Played(Struct, frozen=True, tag="played"):
     rods: list[tuple[float, float]]  # distance now, length meant; px
     trail: list[list[float]] = []
     pictures: list[int] = []  # a checksum of what the window showed when each frame ended
+    photos: Annotated[list[Photo], Meta(max_length=MAX_PHOTOS)] = []
     paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
 
@@ -426,8 +439,8 @@ class TouchRow(Struct, frozen=True, array_like=True):
     limit: float = 0.0
 
 
-class Shot(Struct, frozen=True, array_like=True):
-    """All that is to be seen at one moment."""
+class Moment(Struct, frozen=True, array_like=True):
+    """One recorded state of the bodies."""
 
     time: float  # s, since the request began
     steps: int  # that have run since then
@@ -436,23 +449,23 @@ class Shot(Struct, frozen=True, array_like=True):
     rods: list[tuple[float, float, float, float]]  # from x, y to x, y
 
 
-class Filmed(Struct, frozen=True, tag="filmed"):
-    """The reply to a filmed request, and the shots: the last one shows how it ended."""
+class WithMoments(Struct, frozen=True, tag="with-moments"):
+    """The reply to a recorded request, and its moments: the last one shows how it ended."""
 
     reply: Reply
     looks: dict[int, BodyLook]  # by number, of the bodies that are new
-    shots: list[Shot]
+    moments: list[Moment]
 
 
 class Asked(Struct, frozen=True):
     number: int
-    request: Request | Film
+    request: Request | Record
     first: list[Setup] = []  # to be done before it; what fails there is the answer
 
 
 class Answered(Struct, frozen=True):
     number: int
-    reply: Reply | Filmed
+    reply: Reply | WithMoments
     output: Printed = ""  # what the submission printed since the last answer, cut to a bound
 
 

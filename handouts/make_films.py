@@ -24,7 +24,7 @@ import pymunk
 from make_figures import BLUE, GREY, INK, Svg
 from make_pictures import environment_in
 
-from grader.bank.members import patch
+from grader.bank.members import make_mistake
 from grader.source.regions import python_files, regions_in, replaced
 
 KIT = Path(__file__).resolve().parents[1]
@@ -49,7 +49,7 @@ def tree_of(todo, variant, folder):
                 text = replaced(target.read_text(encoding="utf-8"), stubs)
                 target.write_text(text, encoding="utf-8", newline="\n")
     elif variant != RIGHT:
-        patch(KIT / "tests" / "bank" / "wrong" / f"{todo}-{variant}.py", tree)
+        make_mistake(f"{todo}-{variant}", tree)
     return tree
 
 

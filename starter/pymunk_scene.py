@@ -60,7 +60,7 @@ def add_static_circle(space, center, radius):
 def add_ball(space, rng, pos):
     """Add a ball of random size and colour at pos and return its body; rng is a random.Random."""
     radius = rng.randint(10, 22)
-    color = (rng.randint(90, 240), rng.randint(90, 240), rng.randint(90, 240))
+    color = (rng.randint(90, 255), rng.randint(90, 255), rng.randint(90, 255))
     mass = radius**2 / 100
     # TODO 7b: the ball's moment of inertia
     # An infinite moment never turns.

@@ -1,9 +1,16 @@
-"""Students half way: states of their work, and what the first failure must and must not say.
+"""Half-way states of students' work, and what the first failure must and must not say.
 
-Each file of `tests/bank/halfway/` is about one TODO. It holds the code of a student who is right,
-and states in which a part of it is missing, wrong, or wrong in two ways, or in which a name or a
-given line was changed. What counts is the *Meaning* of the first failure, or its *Got* where there
-is none: a student who is alone reads that.
+Each file of `tests/bank/halfway/` is about one TODO. Its `code` is that of a student who is right.
+To add a state, add a table: `change` or `code` for the region, `files` for a given line or a name
+that was changed (see members.py), and regular expressions:
+
+    [state.upper-limit-only]
+    change = [["if total < -limit:\\n    total = -limit", ""]]
+    says = ["upper|one way"]
+
+All in `says` must be found, none in `never` may be. They are searched in the *Meaning* of the first
+failure, or in its *Got* if it has none: a student who is alone reads that. A wrong member that
+`says` anything is a state as well.
 """
 
 import re
@@ -15,32 +22,32 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.bank.members import Edits, Replacement, indented, replace_text
+from grader.bank.members import (
+    Variant,
+    change_files,
+    put_regions,
+    read_wrong,
+    solution_code,
+)
 from grader.judge.children import Worker
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import load_rubric, visible
-from grader.source.regions import read_source, regions_in, replaced
 
-FOLDER = KIT / "tests" / "bank" / "halfway"
+BANK = KIT / "tests" / "bank"
 PROGRAMS = ("mini_engine", "lab_runtime.py", "integrators.py", "pymunk_scene.py")
 
 
-class State(Struct, frozen=True, forbid_unknown_fields=True):
-    """What a student has: the sheet's code with some text changed, or code of its own."""
+class State(Variant, frozen=True, kw_only=True):
+    """A student's code: the sheet's with some text changed, or code of its own."""
 
-    name: str
     says: list[str]  # regular expressions, each of which must be found
-    never: list[str] = []  # and these must not
-    change: list[tuple[str, str]] = []  # old and new text of the code; the old one stands once
-    code: str = ""
-    replace: list[Replacement] = []  # text outside the region
+    never: list[str] = msgspec.field(default_factory=list)  # and these must not
 
 
 class Sheet(Struct, frozen=True, forbid_unknown_fields=True):
-    file: str  # in which the TODO is
     code: str  # right, and as a student writes it
-    state: list[State]
+    state: dict[str, State]
 
 
 @dataclass(frozen=True)
@@ -48,13 +55,9 @@ class Halfway:
     """One state of one TODO."""
 
     todo: str
-    file: str
+    name: str
     code: str  # of the region
     state: State
-
-    @property
-    def name(self) -> str:
-        return f"{self.todo}-{self.state.name}"
 
     def build(self, folder: Path, tree: str = "solution") -> None:
         """Write it into `folder`, which must not exist; the other TODOs are those of the tree."""
@@ -65,15 +68,11 @@ class Halfway:
             else:
                 folder.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(source, target)
-        path = folder / self.file
-        text = read_source(path)
-        region = next(region for region in regions_in(text) if region.id == self.todo)
-        lines = indented(self.code.splitlines(), text, region)
-        path.write_text(replaced(text, {self.todo: lines}), encoding="utf-8")
-        replace_text(Edits(self.state.replace), folder)
+        put_regions({self.todo: tuple(self.code.splitlines())}, folder)
+        change_files(self.state.files, folder)
 
     def complaint(self, result: Result) -> str:
-        """What its first failure says that it must not, or fails to say; empty where it is well."""
+        """Return what is wrong with the words of its first failure; empty if nothing is."""
         first = first_failure(result)
         if first is None:
             return "nothing fails"
@@ -86,29 +85,27 @@ class Halfway:
 
 
 def halfway(todo: str = "") -> Iterator[Halfway]:
-    """All states, or those of one TODO."""
-    for path in sorted(FOLDER.glob(f"{todo or '*'}.toml")):
+    """Yield all states, or those of one TODO."""
+    for path in sorted((BANK / "halfway").glob(f"{todo or '*'}.toml")):
         sheet = msgspec.toml.decode(path.read_bytes(), type=Sheet)
-        for state in sheet.state:
-            yield Halfway(path.stem, sheet.file, code_of(sheet, state), state)
-
-
-def code_of(sheet: Sheet, state: State) -> str:
-    """The code of a state. Raises ValueError where an old text does not stand there once."""
-    code = state.code or sheet.code
-    for old, new in state.change:
-        if code.count(old) != 1:
-            raise ValueError(f"{state.name}: {old!r} stands there {code.count(old)} times")
-        code = code.replace(old, new)
-    return code
+        for name, state in sheet.state.items():
+            yield Halfway(path.stem, f"{path.stem}-{name}", state.rewrite(sheet.code), state)
+    for path in sorted((BANK / "wrong").glob(f"{todo or '*'}.toml")):
+        for name, wrong in read_wrong(path).items():
+            if wrong.says:
+                code = wrong.rewrite(solution_code()[path.stem])
+                state = State(says=wrong.says, never=wrong.never)
+                yield Halfway(path.stem, f"{path.stem}-{wrong.state or name}", code, state)
 
 
 def first_failure(result: Result) -> CheckResult | None:
-    return next((check for todo in result.todos for check in todo.failed), None)
+    """Return the first failed check, or one that passes with given code put back."""
+    checks = [check for todo in result.todos for check in todo.checks]
+    return next((each for each in checks if each.failed or each.meaning), None)
 
 
 def graded(state: Halfway, folder: Path, worker: Worker | None, tree: str = "solution") -> Result:
-    """What students are told of it: no reference takes part, and no hidden check."""
+    """Grade it as students do: without the reference and without hidden checks."""
     state.build(folder / state.name, tree)
     options = Options(reference=None, only=frozenset({state.todo}), trusted=True)
     with grading(folder / state.name, options, worker, visible(load_rubric())) as run:

@@ -1,6 +1,8 @@
 """Ladders: answers to one TODO from nothing to all, of which a better one never earns less.
 
-The rungs of a ladder are `tests/bank/ladders/ID/0-name.py`, `1-name.py` and so on.
+The rungs of a ladder are the tables of `tests/bank/ladders/TODO.toml`. Their names begin with 0, 1
+and so on. A rung has the code of a `wrong` member, or its own `code` or `change` (see members.py).
+One with none of these is the solution.
 """
 
 from collections.abc import Iterable
@@ -8,27 +10,26 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
-from grader.bank.members import Member
+from grader.bank.members import Member, read_rungs
 from grader.judge.result import Result
 
 
 @dataclass
 class Ladder:
-    """The rungs of one folder that were graded, lowest first."""
+    """The rungs of one sheet that were graded, lowest first."""
 
-    folder: Path
+    sheet: Path
     points: dict[str, int] = field(default_factory=dict)  # by rung
     most: int = 0
 
     @property
     def name(self) -> str:
-        return self.folder.name
+        return self.sheet.stem
 
     @property
     def complaint(self) -> str:
-        """What is wrong with the points of its rungs."""
-        stems = sorted(path.stem for path in self.folder.glob("*.py"))
-        bottom, top = stems[0], stems[-1]
+        """Return what is wrong with the points of its rungs."""
+        bottom, *_, top = read_rungs(self.sheet)
         if self.points.get(bottom, 0) > 0:
             return f"{bottom} earns {self.points[bottom]} points for nothing"
         for below, above in pairwise(self.points):
@@ -40,12 +41,13 @@ class Ladder:
 
 
 def ladders(graded: Iterable[tuple[Member, Result | None]]) -> list[Ladder]:
-    """The ladders of which rungs were graded."""
+    """Return the ladders of which rungs were graded."""
     found: dict[Path, Ladder] = {}
     for member, result in graded:
-        if member.kind == "ladder" and member.is_patch and member.source and result is not None:
-            ladder = found.setdefault(member.source.parent, Ladder(member.source.parent))
-            ladder.points[member.source.stem] = sum(todo.points for todo in result.todos)
+        if member.is_rung and member.source and result is not None:
+            ladder = found.setdefault(member.source, Ladder(member.source))
+            rung = member.name.removeprefix(f"{ladder.name}-")
+            ladder.points[rung] = sum(todo.points for todo in result.todos)
             ladder.most = sum(todo.max_points for todo in result.todos)
     for ladder in found.values():
         ladder.points = dict(sorted(ladder.points.items()))

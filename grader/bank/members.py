@@ -1,29 +1,53 @@
-"""The bank: submissions that are wrong, right or hostile, and the marks each must get.
+"""The bank: wrong, right and hostile submissions, and the marks each must get.
 
-- `tests/bank/wrong/4-clamps-the-increment.py`: the solution with this one region put in; TODO 4
-  must lose points and no other TODO may. Graded as a package and as a single file. The name is the
-  mistake's; `+` and more follow where the same one is made in another way.
-- `tests/bank/wrong/whole-one-pass.toml`: the solution with some of its given text replaced, so that
-  a promise of the lesson's is broken. The program as a whole must lose points, and no TODO may, but
-  for those whose checks need that very text.
-- `tests/bank/ladders/6/2-keeps-the-rest.py`: a rung of a ladder, graded on its TODO alone. Rung 0
-  earns nothing, the last one all, and none less than the one before. See ladders.py.
-- `tests/bank/right/NAME.py` or `NAME/`: different, and worth every point.
-- `tests/bank/hostile/NAME.py`, `NAME.toml` or `NAME/`: an attack, and the marks in `bank.toml`.
-- `tests/bank/old_package/`: the package as it was handed out before its bonus tasks had a folder.
+To add a wrong member, add a table to `tests/bank/wrong/TODO.toml`. Its name is the mistake's; `+`
+and more follow where another member makes the same mistake. TODO must lose points, and no other
+TODO may:
+
+    [clamps-the-increment]
+    why = "Clamps each pass's change to the limit instead of the accumulated total."
+    change = [["total = clamp(total)", "total = c.jt + clamp(total - c.jt)"]]
+
+- `change` lists pairs of an old and a new text. The old one must stand once in the solution's
+  region. A line `...` in it stands for any number of lines.
+- `code` holds the whole region instead, where little of the solution is left.
+- `says` and `never` make it a half-way state as well (see halfway.py), under its own name or under
+  the one in `state`.
+- Most members are graded as a package and, for TODO 1 to 6, as a single file too.
+  `single_file = false` leaves that out.
+
+A member of `wrong/whole.toml` breaks a promise of the lesson in given code, by `files`. The program
+as a whole must lose points; of the TODOs, only those in `also` may.
+
+A right member must get every point. Where it differs from the solution in one TODO, add a table to
+`right/TODO.toml`, with `why`, and `change` or `code`. The other members:
+
+- `right/NAME.py` and `hostile/NAME.py` hold regions that take the place of the solution's.
+- `right/NAME.toml` and `hostile/NAME.toml` edit a whole tree: `base` is the tree or right member to
+  begin with. Then come `remove` (files, folders), `copy` (new file = old file), `files` (pairs as
+  in `change`, by file), `add` (new files) and `everywhere` (code for every TODO).
+- `lesson.toml` holds variants of the lesson's programs in the same form. `verify` grades the
+  programs as printed, `right/lesson-as-printed/`, and these before all others.
+- `right/NAME/` and `hostile/NAME/` hold files to add or replace, beside or without a NAME.toml. A
+  mini_engine.py there replaces the package.
+- `bank.toml` has the marks of members without a NAME.toml.
+- `ladders/TODO.toml` holds the rungs of a ladder, lowest first (see ladders.py).
 """
 
 import os
 import re
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+import textwrap
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 from typing import Literal
 
 import msgspec
 from msgspec import Struct
+from msgspec.structs import replace as replace_in
 
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
@@ -33,53 +57,64 @@ from grader.source.regions import Region, python_files, read_source, regions_in,
 
 Kind = Literal["wrong", "right", "hostile", "ladder"]
 Form = Literal["package", "single file"]
-Base = Literal["solution", "starter", "old package", "empty"]
-
+Pairs = list[tuple[str, str]]  # old text, which must stand once, and new text
+Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
+LESSON = "lesson-"  # how the names of the lesson's programs and their variants begin
+CLEAN = shutil.ignore_patterns("__pycache__", "notebooks", ".*")  # no submission has these
+TREES = ("solution", "starter")
+IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
+SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
 
 
-class Entry(Struct, frozen=True, forbid_unknown_fields=True):
-    """What bank.toml says of a member that is more than a patch of the solution."""
+class Variant(Struct, frozen=True, forbid_unknown_fields=True):
+    """Code that differs from the usual code: in the region of one TODO, or elsewhere."""
 
     why: str = ""
-    base: Base = "solution"
-    points: int | None = None  # exactly; None: all of them
-    transform: str = ""
-    single_file: bool = True  # whether a wrong member is wrong as a single file as well
-    seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
+    code: str = ""  # of the whole region
+    change: Pairs = []  # in the region's usual code
+    files: dict[str, Pairs] = {}  # in other text, by file
+
+    def rewrite(self, usual: str) -> str:
+        """Return the region's code, made from the usual one."""
+        return change_text(self.code or usual, self.change)
 
 
-class Book(Struct, frozen=True, forbid_unknown_fields=True):
-    wrong: dict[str, Entry] = {}
-    right: dict[str, Entry] = {}
-    hostile: dict[str, Entry] = {}
+class Entry(Variant, frozen=True):
+    """A member, as TOML describes it: what it changes, and the marks it must get."""
 
-
-class Replacement(Struct, frozen=True, forbid_unknown_fields=True):
-    file: str
-    old: str  # stands there once
-    new: str
-
-
-class Edits(Struct, frozen=True, forbid_unknown_fields=True):
-    """What the file of a right or hostile member holds: where it is not what it is made from."""
-
-    replace: list[Replacement] = []
+    base: str = "solution"  # or "starter", "empty", or the name of a right member
+    add: dict[str, str] = {}  # new files
+    remove: list[str] = []
+    copy: dict[str, str] = {}  # new file, old file
     everywhere: str = ""  # code for every TODO
-
-
-class Breach(Edits, frozen=True, kw_only=True):
-    """What the file of a wrong member holds that breaks a promise of the lesson's."""
-
-    breaks: str  # the promise
-    also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
+    transform: str = ""
+    points: int | None = None  # exactly; None: all of them
+    single_file: bool = True  # whether a wrong member is graded as a single file as well
+    seconds: int = 120  # the longest it may keep the judge busy; a limit on harm, not a score
 
     @property
     def modules(self) -> set[str]:
-        """The programs it is made in."""
-        return {each.file.partition("/")[0].removesuffix(".py") for each in self.replace}
+        """Return the programs it changes."""
+        return {file.partition("/")[0].removesuffix(".py") for file in self.files}
+
+
+class Wrong(Entry, frozen=True):
+    """A wrong member. It is a half-way state as well if it `says` anything."""
+
+    breaks: str = ""  # the promise of the lesson that it breaks in given code
+    also: list[str] = []  # TODOs that may lose points too: their checks need what is broken
+    state: str = ""  # the name of the half-way state, if it has one of its own
+    says: list[str] = []
+    never: list[str] = []
+
+
+class Rung(Variant, frozen=True):
+    """A rung of a ladder; the solution's code if nothing else is said."""
+
+    wrong: str = ""  # the wrong member whose code it has
 
 
 @dataclass(frozen=True)
@@ -89,44 +124,47 @@ class Member:
     kind: Kind
     name: str
     form: Form
-    entry: Entry
-    source: Path | None  # a patch, edits, a folder to lay over, or nothing but a transform
+    entry: Entry = field(hash=False)
+    source: Path | None  # its regions (.py), the folder with its files, or its TOML
     course: Course = field(default=FULL, compare=False)  # by which it is graded
 
     @property
+    def regions(self) -> Regions:
+        """Return the code that replaces regions, by TODO."""
+        if self.source is not None and self.source.suffix == ".py":
+            return regions_of(self.source)
+        if self.entry.code or self.entry.change or self.is_rung:
+            todo = self.name.partition("-")[0]
+            return {todo: tuple(self.entry.rewrite(solution_code()[todo]).split("\n"))}
+        return {}
+
+    @property
+    def is_rung(self) -> bool:
+        return self.kind == "ladder" and self.name != CONSTANTS
+
+    @property
     def is_patch(self) -> bool:
-        """Whether it replaces the regions of TODOs and nothing else."""
-        return self.source is not None and self.source.suffix == ".py"
+        """Return whether it replaces the regions of TODOs."""
+        return bool(self.regions)
 
     @property
-    def edits(self) -> Edits | None:
-        if self.source is None or self.source.suffix != ".toml":
-            return None
-        kind = Breach if self.kind == "wrong" else Edits
-        return msgspec.toml.decode(self.source.read_bytes(), type=kind)
-
-    @property
-    def breach(self) -> Breach | None:
-        edits = self.edits
-        return edits if isinstance(edits, Breach) else None
+    def breach(self) -> Wrong | None:
+        """Return the entry of a member that breaks a promise of the lesson."""
+        return self.entry if isinstance(self.entry, Wrong) and self.entry.breaks else None
 
     @property
     def todos(self) -> frozenset[str]:
-        """What it is about: the TODOs whose regions a patch replaces, or the program as a whole."""
-        if self.breach is not None:
-            return frozenset({"whole"})
-        if self.source is None or not self.is_patch:
-            return frozenset()
-        return frozenset(region.id for region in regions_in(read_source(self.source)))
+        """Return the TODOs whose regions it replaces, or "whole" for the program as a whole."""
+        return frozenset({"whole"} if self.breach else self.regions)
 
     @property
     def bonus(self) -> bool:
-        """Whether it is about bonus tasks and nothing else."""
+        """Return whether it is about bonus tasks and nothing else."""
         return self.kind != "hostile" and bool(self.todos) and all(map(is_bonus, self.todos))
 
     @property
     def judged_by(self) -> frozenset[str]:
-        """The TODOs to grade; empty for all.
+        """Return the TODOs to grade; empty for all.
 
         A patch changes regions of some programs, and the programs share no file: the others are
         the solution's, letter by letter. The whole may suffer from a wrong member or not, so it is
@@ -134,12 +172,12 @@ class Member:
         """
         if self.kind == "ladder":
             return self.todos
+        todos = [todo for todo in load_rubric().todos if todo.function]
+        if self.breach is not None or (is_of_lesson(self.name) and self.entry.files):
+            near = {t.id for t in todos if t.module in self.entry.modules and not t.bonus}
+            return frozenset(near | {"whole"})
         if self.kind == "hostile" or not self.todos:
             return frozenset()
-        todos = [todo for todo in load_rubric().todos if todo.function]
-        if self.breach is not None:
-            near = {t.id for t in todos if t.module in self.breach.modules and not t.bonus}
-            return frozenset(near | {"whole"})
         touched = {todo.module for todo in todos if todo.id in self.todos}
         wanted = {
             todo.id
@@ -149,45 +187,47 @@ class Member:
         whole = self.kind == "right" or self.bonus
         return frozenset(wanted | {"whole"} if whole else wanted)
 
+    @property
+    def lineage(self) -> Iterator["Member"]:
+        """Yield the member itself and the right members that it is based on."""
+        yield self
+        if self.entry.base not in (*TREES, "empty"):
+            yield from base_of(self, KIT).lineage
+
     def belongs_to(self, course: Course) -> bool:
-        """Whether a course has the TODOs that it is about, and the programs it is wrong in."""
+        """Return whether a course has the TODOs and programs that it is about."""
         asked = {todo.id for todo in course.rubric.todos}
         if self.breach is not None:
-            return "whole" in asked and self.breach.modules <= set(course.modules)
+            return "whole" in asked and self.entry.modules <= set(course.modules)
         if self.kind == "right":
             return not self.todos or not asked.isdisjoint(self.todos)
         return self.todos <= asked
 
     def build(self, kit: Path, folder: Path) -> None:
         """Write the submission into `folder`, which must not exist."""
-        base = self.entry.base
-        if base == "empty":
+        if self.entry.base == "empty":
             folder.mkdir(parents=True)
+        elif self.entry.base in TREES:
+            shutil.copytree(kit / self.entry.base, folder, ignore=CLEAN)
         else:
-            ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
-            tree = "starter" if base == "starter" else "solution"
-            shutil.copytree(kit / tree, folder, ignore=ignored)
-        if base == "old package":
-            use_old_package(kit, folder)
+            base_of(self, kit).build(kit, folder)
         if self.form == "single file":
             use_single_file(kit, folder)
-        if self.kind == "ladder" and self.source is not None and self.source.is_dir():
-            for rung in constants(self.source):
-                patch(rung, folder)
-        elif self.source is not None and self.source.is_dir():
+        if self.name == CONSTANTS:
+            for rung in constants(kit):
+                put_regions(rung.regions, folder)
+        put_regions(self.regions, folder)
+        edit_tree(self.entry, folder)
+        if self.source is not None and self.source.is_dir():
             lay_over(self.source, folder)
-        elif self.edits is not None:
-            replace_text(self.edits, folder)
-        elif self.source is not None:
-            patch(self.source, folder)
         if self.entry.transform:
             TRANSFORMS[self.entry.transform](folder)
 
     def complaint(self, result: Result, seconds: float) -> str:
-        """What is wrong with the marks this member got; empty when they are what they must be."""
+        """Return what is wrong with the marks it got; empty if they are what they must be."""
         lost = {t.id: t.max_points - t.points for t in result.todos if t.points != t.max_points}
-        if self.kind == "ladder":  # a rung is held against the others of its ladder
-            many = not self.is_patch and result.points > MOST_FOR_CONSTANTS
+        if self.kind == "ladder":  # a rung is compared with the others of its ladder
+            many = not self.is_rung and result.points > MOST_FOR_CONSTANTS
             return f"{result.points} points, more than {MOST_FOR_CONSTANTS}" if many else ""
         if self.kind == "wrong":
             allowed = self.todos.union(self.breach.also if self.breach else ())
@@ -207,17 +247,25 @@ class Member:
         return ""
 
     def misnamed(self, result: Result) -> Literal["right", "wrong", "none"]:
-        """How the mistake of a wrong member was named."""
+        """Return how the report names the mistake of a wrong member."""
         names = {todo.misconception for todo in result.todos} - {None}
         if not names:
             return "none"
         return "right" if names == {self.name.partition("-")[2].partition("+")[0]} else "wrong"
 
 
-def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
-    """Every member of the bank that a course has to do with.
+def base_of(member: Member, kit: Path) -> Member:
+    """Return the right member that another one is based on."""
+    return read_submission(kit / "tests" / "bank", "right", member.entry.base)
 
-    Attacks are on the judge, whatever it asks: they are graded by all that there is.
+
+# ---------------------------------------------------------------- reading the bank
+
+
+def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
+    """Yield the members that concern a course.
+
+    Attacks are on the judge, whatever a course has: they are graded on every TODO.
     """
     for member in every_member(kit):
         if member.kind == "hostile":
@@ -227,71 +275,161 @@ def members(kit: Path, course: Course = FULL) -> Iterator[Member]:
 
 
 def every_member(kit: Path) -> Iterator[Member]:
-    """All of the bank, wrong ones in each form they can take."""
+    """Yield the whole bank, wrong members in each form they can take."""
     bank = kit / "tests" / "bank"
-    book = msgspec.toml.decode((bank / "bank.toml").read_bytes(), type=Book)
-    for path in sorted((bank / "wrong").glob("*.py")):
-        entry = book.wrong.get(path.stem, Entry())
-        member = Member("wrong", path.stem, "package", entry, path)
-        yield member
-        if entry.single_file and member.todos <= set("123456"):
-            yield Member("wrong", path.stem, "single file", Entry(), path)
-    for path in sorted((bank / "wrong").glob("whole-*.toml")):
-        yield Member("wrong", path.stem, "package", Entry(), path)
-    kinds: list[tuple[Kind, dict[str, Entry]]] = [("right", book.right), ("hostile", book.hostile)]
-    for kind, entries in kinds:
-        files = {path.stem: path for path in sorted((bank / kind).glob("*"))}
-        for name in sorted(files | entries):
-            yield Member(kind, name, "package", entries.get(name, Entry()), files.get(name))
+    yield from lesson_members(bank)
+    yield from wrong_members(bank)
+    yield from right_variants(bank)
+    yield from (each for each in submissions(bank, "right") if not is_of_lesson(each.name))
+    yield from submissions(bank, "hostile")
     yield Member("right", "single-file", "single file", Entry(), None)
-    yield from rungs(bank / "ladders")
+    yield from rungs(bank)
+    if any(constants(kit)):
+        yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), None)
 
 
-def rungs(folder: Path) -> Iterator[Member]:
-    """Each rung of each ladder, lowest first, and all of their constants in one submission."""
-    for path in sorted(folder.glob("*/*.py")):
-        yield Member("ladder", f"{path.parent.name}-{path.stem}", "package", Entry(), path)
-    if any(constants(folder)):
-        yield Member("ladder", CONSTANTS, "package", Entry(base="starter"), folder)
+def is_of_lesson(name: str) -> bool:
+    return name.startswith(LESSON)
 
 
-def constants(ladders: Path) -> Iterator[Path]:
-    """The rungs that answer the same to every question."""
-    yield from sorted(ladders.glob("*/*-constant*.py"))
+def lesson_members(bank: Path) -> Iterator[Member]:
+    """Yield the lesson's programs as printed, and the variants of them."""
+    yield from (each for each in submissions(bank, "right") if is_of_lesson(each.name))
+    sheet = bank / "lesson.toml"
+    entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
+    for name, entry in entries.items():
+        yield Member("right", f"{LESSON}{name}", "package", entry, sheet)
+
+
+def wrong_members(bank: Path) -> Iterator[Member]:
+    for sheet in sheets(bank / "wrong"):
+        for name, entry in read_wrong(sheet).items():
+            member = Member("wrong", f"{sheet.stem}-{name}", "package", entry, sheet)
+            yield member
+            if entry.single_file and member.todos <= set("123456"):
+                single = replace_in(entry, base="solution")
+                yield replace(member, form="single file", entry=single)
+
+
+def read_wrong(sheet: Path) -> dict[str, Wrong]:
+    """Return the wrong members of one TODO by the names of their mistakes."""
+    return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Wrong])
+
+
+def right_variants(bank: Path) -> Iterator[Member]:
+    """Yield the right members that differ from the solution in one TODO."""
+    for sheet in sheets(bank / "right"):
+        entries = msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Entry])
+        for name, entry in entries.items():
+            yield Member("right", f"{sheet.stem}-{name}", "package", entry, sheet)
+
+
+def sheets(folder: Path) -> list[Path]:
+    """Return the files that hold members of one TODO each."""
+    return [path for path in sorted(folder.glob("*.toml")) if IS_TODO.fullmatch(path.stem)]
+
+
+def submissions(bank: Path, kind: Literal["right", "hostile"]) -> Iterator[Member]:
+    """Yield the members that have a file or folder of their own, or only marks in bank.toml."""
+    names = {path.stem for path in (bank / kind).glob("*")} | set(read_marks(bank, kind))
+    for name in sorted(names):
+        if not IS_TODO.fullmatch(name):
+            yield read_submission(bank, kind, name)
+
+
+def read_submission(bank: Path, kind: Literal["right", "hostile"], name: str) -> Member:
+    """Return one member, described by its own TOML or by bank.toml."""
+    described = bank / kind / f"{name}.toml"
+    sources = (bank / kind / name, bank / kind / f"{name}.py", described)
+    source = next((path for path in sources if path.exists()), None)
+    if described.exists():
+        entry = msgspec.toml.decode(described.read_bytes(), type=Entry)
+    else:
+        entry = read_marks(bank, kind).get(name, Entry())
+    return Member(kind, name, "package", entry, source)
+
+
+def read_marks(bank: Path, kind: Literal["right", "hostile"]) -> dict[str, Entry]:
+    """Return what bank.toml says of right or hostile members, by name."""
+    path = bank / "bank.toml"
+    return msgspec.toml.decode(path.read_bytes(), type=dict[str, dict[str, Entry]])[kind]
+
+
+def rungs(bank: Path) -> Iterator[Member]:
+    """Yield each rung of each ladder, lowest first."""
+    for sheet in sorted((bank / "ladders").glob("*.toml")):
+        mistakes = read_wrong(bank / "wrong" / sheet.name)
+        for name, rung in read_rungs(sheet).items():
+            variant = mistakes[rung.wrong] if rung.wrong else rung
+            entry = Entry(code=variant.code, change=variant.change)
+            yield Member("ladder", f"{sheet.stem}-{name}", "package", entry, sheet)
+
+
+def read_rungs(sheet: Path) -> dict[str, Rung]:
+    return msgspec.toml.decode(sheet.read_bytes(), type=dict[str, Rung])
+
+
+def constants(kit: Path) -> Iterator[Member]:
+    """Yield the rungs that answer the same to every question."""
+    for rung in rungs(kit / "tests" / "bank"):
+        if re.match(r"\w+-\d+-constant", rung.name):
+            yield rung
+
+
+@cache
+def solution_code() -> dict[str, str]:
+    """Return the code of the solution's regions, by TODO."""
+    texts = [read_source(path) for path in python_files(KIT / "solution")]
+    return {r.id: textwrap.dedent("\n".join(r.lines)) for t in texts for r in regions_in(t)}
+
+
+# ---------------------------------------------------------------- edits
 
 
 def use_single_file(kit: Path, folder: Path) -> None:
     shutil.rmtree(folder / "mini_engine")
-    shutil.copyfile(
-        kit / "tests" / "bank" / "single_file" / "mini_engine.py", folder / "mini_engine.py"
-    )
-
-
-def use_old_package(kit: Path, folder: Path) -> None:
-    shutil.rmtree(folder / "mini_engine")
-    old = kit / "tests" / "bank" / "old_package" / "mini_engine"
-    shutil.copytree(old, folder / "mini_engine", ignore=shutil.ignore_patterns("__pycache__"))
+    single = kit / "tests" / "bank" / "single_file" / "mini_engine.py"
+    shutil.copyfile(single, folder / "mini_engine.py")
 
 
 def lay_over(source: Path, folder: Path) -> None:
-    """A single mini_engine.py takes the place of the package."""
+    """Add files to a tree. A single mini_engine.py replaces the package."""
     if (source / "mini_engine.py").exists():
         shutil.rmtree(folder / "mini_engine", ignore_errors=True)
     shutil.copytree(source, folder, dirs_exist_ok=True)
 
 
-def replace_text(edits: Edits, folder: Path) -> None:
-    """Edit the files of `folder`; ValueError where an old text is not there once."""
-    for each in edits.replace:
-        path = folder / each.file
-        text = read_source(path)
-        if text.count(each.old) != 1:
-            raise ValueError(
-                f"{each.file} holds {each.old!r} {text.count(each.old)} times, not once"
-            )
-        path.write_text(text.replace(each.old, each.new), encoding="utf-8")
-    if edits.everywhere:
-        fill_every_todo(folder, edits.everywhere)
+def edit_tree(entry: Entry, folder: Path) -> None:
+    """Copy, remove and change files of a tree."""
+    for new, old in entry.copy.items():
+        (folder / new).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(folder / old, folder / new)
+    for name in entry.remove:
+        path = folder / name
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+    change_files(entry.files, folder)
+    for name, text in entry.add.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    if entry.everywhere:
+        fill_every_todo(folder, entry.everywhere)
+
+
+def change_files(files: Mapping[str, Pairs], folder: Path) -> None:
+    for name, change in files.items():
+        text = change_text(read_source(folder / name), change)
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+def change_text(text: str, change: Pairs) -> str:
+    """Replace each old text by its new one; ValueError for an old one that does not stand once."""
+    for old, new in change:
+        pattern = SKIPPED_LINES.join(map(re.escape, old.split("\n...\n")))
+        found = [match.span() for match in re.finditer(pattern, text)]
+        if len(found) != 1:
+            raise ValueError(f"{old!r} stands there {len(found)} times, not once")
+        ((start, stop),) = found
+        text = text[:start] + new + text[stop:]
+    return text
 
 
 def fill_every_todo(folder: Path, code: str) -> None:
@@ -303,25 +441,39 @@ def fill_every_todo(folder: Path, code: str) -> None:
             path.write_text(replaced(text, here), encoding="utf-8")
 
 
+def make_mistake(name: str, folder: Path) -> None:
+    """Put the code of a wrong member into the files of `folder`."""
+    wrong = wrong_members(KIT / "tests" / "bank")
+    put_regions(next(member for member in wrong if member.name == name).regions, folder)
+
+
 def patch(source: Path, folder: Path) -> None:
-    """Put the regions of `source` in the place of those in the files of `folder`."""
-    wanted = {region.id: region.lines for region in regions_in(read_source(source))}
-    for path in python_files(folder):
+    """Put the regions of one file in the place of the same ones in `folder`."""
+    put_regions(regions_of(source), folder)
+
+
+def regions_of(source: Path) -> Regions:
+    return {region.id: region.lines for region in regions_in(read_source(source))}
+
+
+def put_regions(regions: Regions, folder: Path) -> None:
+    """Put code in the place of the same regions in the files of `folder`."""
+    wanted = dict(regions)
+    for path in python_files(folder) if wanted else ():
         text = read_source(path)
         here = {
-            region.id: indented(wanted[region.id], text, region)
+            region.id: indented(wanted.pop(region.id), text, region)
             for region in regions_in(text)
             if region.id in wanted
         }
         if here:
             path.write_text(replaced(text, here), encoding="utf-8")
-            wanted = {name: lines for name, lines in wanted.items() if name not in here}
     if wanted:
-        raise ValueError(f"{source.name} patches TODO {', '.join(wanted)}, which is nowhere")
+        raise ValueError(f"no file has TODO {', '.join(wanted)}")
 
 
 def indented(lines: Iterable[str], text: str, region: Region) -> tuple[str, ...]:
-    """Lines that begin where those of a region of this text do."""
+    """Indent lines like those of a region of this text."""
     first = text.splitlines()[region.start]
     indent = first[: len(first) - len(first.lstrip())]
     return tuple(indent + line if line else line for line in lines)
@@ -423,6 +575,11 @@ def copies_inside(folder: Path) -> None:
         shutil.copyfile(starter, package / f"{name}_old.py")
 
 
+def use_printed_names(folder: Path) -> None:
+    for name in ("mini_engine", "pymunk_scene"):
+        (folder / f"{name}.py").rename(folder / f"{name}_starter.py")
+
+
 def leave_out_given_files(folder: Path) -> None:
     """Hand in only what has a TODO."""
     for path in [folder / "lab_runtime.py", *(folder / "mini_engine").rglob("*.py")]:
@@ -433,6 +590,7 @@ def leave_out_given_files(folder: Path) -> None:
 TRANSFORMS: dict[str, Callable[[Path], None]] = {
     "copies-beside": copies_beside,
     "copies-inside": copies_inside,
+    "printed-names": use_printed_names,
     "given-files-missing": leave_out_given_files,
     "crlf": rewrite(lambda data: data.replace(b"\n", b"\r\n")),
     "bom": rewrite(lambda data: b"\xef\xbb\xbf" + data),

@@ -1,1 +1,1 @@
-"""Measure what grading costs."""
+"""Measure what grading costs: one bench, with the figures that matter."""

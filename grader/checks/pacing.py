@@ -20,6 +20,7 @@ OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding wo
 ENDLESS = "The loop of steps does not end: each step must take STEP from the accumulator."
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
 LONGEST_FRAME = 58  # ms: of those that are meant to stay below the cap
+STEP_TAKES = 2.5  # ms, where steps are slow; they fit into every frame
 LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room between them
 
 
@@ -79,14 +80,16 @@ class Pace:
         return None
 
 
-def pace(lab: Lab, frames: list[int]) -> Pace:
+def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
     """Play the program with these frames and count its steps without running them.
+
+    Each step takes so many ms of the frame, as on a slow computer.
 
     One that waits by itself makes short frames as long as it likes: who always waits for as many
     steps as always run has no need of an accumulator. So it is asked once more, with longer frames
     that its waiting does not fill.
     """
-    paced, waits = played_at(lab, frames)
+    paced, waits = played_at(lab, frames, step_ms)
     if not waits:
         return paced
     lab.want(
@@ -95,7 +98,7 @@ def pace(lab: Lab, frames: list[int]) -> Pace:
         "program waits by itself",
         f"one of {waits:.0f} ms",
     )
-    paced, waits = played_at(lab, [beyond(waits, each) for each in frames])
+    paced, waits = played_at(lab, [beyond(waits, each) for each in frames], step_ms)
     lab.want(
         not waits,
         "a program that waits for no longer where its frames are longer",
@@ -114,10 +117,10 @@ def beyond(waits: float, frame: int) -> int:
     return max(least + math.ceil(room * min(frame / LONGEST_FRAME, 1.0)), frame)
 
 
-def played_at(lab: Lab, asked: list[int]) -> tuple[Pace, float]:
+def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
     """What the program makes of these frames; and the longest that it has made longer, ms, or 0."""
     frames = [*OFF_BEAT, *asked, *SETTLE]
-    played = lab.play(frames, physics=False)
+    played = lab.play(frames, physics=False, step_ms=step_ms)
     count = len(frames)
     # What ran before the first frame had a length is nothing to judge a program by, nor is a
     # last frame that the program may have left out.
@@ -127,9 +130,12 @@ def played_at(lab: Lab, asked: list[int]) -> tuple[Pace, float]:
     want_a_proper_end(lab, played, count)
     lengths = [end - begin for begin, end in pairwise(played.clock[: count + 1])]
     both = zip(lengths[len(OFF_BEAT) :], asked, strict=False)
-    longer = (length for length, frame in both if length > frame + ROUNDING)
+    work = step_ms * max(steps, default=0)  # in a frame that is shorter than its steps
+    longer = (length for length, frame in both if length > max(frame, work) + ROUNDING)
     # A program that sleeps before its first steps may have all of that left.
     waiting = min(max(played.clock[0] - STEP_MS * played.steps[0], 0.0), LONGEST_WAIT)
+    if lab.opening is not None:  # what ran before may have left a part of a step
+        waiting = max(waiting, STEP_MS)
     paced = Pace(lengths, played.steps[1 : count + 1], played.dts, waiting, played.paced)
     return paced, max(longer, default=0.0)
 

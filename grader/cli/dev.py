@@ -1,5 +1,6 @@
 """Define the maintainers' commands, which verify, release and measure the kit."""
 
+import random
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +11,6 @@ from grader.cli.shared import (
     check_todos,
     console,
     print_note,
-    refuse_ignored,
     require_checkout,
 )
 from grader.errors import Stop
@@ -98,41 +98,30 @@ def mutants_command(
     With --alone, neither what the others lose nor names are looked at.
     """
     require_checkout("mutants")
-    from grader.bank.mutants import all_mutants, campaign, chosen_from
+    from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
 
     todos = check_todos(todo)
     operators = sorted({mutant.operator for mutant in all_mutants()})
     for name in operator or ():
         if name not in operators:
             raise Stop(f"there is no operator {name}; there are {', '.join(operators)}")
-    mutants = chosen_from(all_mutants(), todos, frozenset(operator or ()))
-    raise typer.Exit(0 if campaign(mutants, count, seed, jobs, console, alone).sound else 1)
+    mutants = choose_mutants(todos, operator or ())
+    if count:
+        mutants = random.Random(seed).sample(mutants, min(count, len(mutants)))
+    outcomes = run_mutants(mutants, jobs, console, alone)
+    raise typer.Exit(1 if any(each.complaint for each in outcomes) else 0)
 
 
 @app.command("bench")
 def bench_command(
-    context: typer.Context,
-    rounds: Annotated[int, typer.Option(help="How often each is measured, in turns.")] = 5,
-    class_: Annotated[
-        int, typer.Option("--class", min=0, help="Instead: a class of so many; 200 take an hour.")
-    ] = 0,
-    greedy: Annotated[
-        bool, typer.Option("--greedy", help="Instead: twelve, of which three want all there is.")
-    ] = False,
+    rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
+    size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,
 ) -> None:
-    """Measure what a grade costs and what the isolation adds to it; or what a class does."""
+    """Measure how long a student waits, and what a grade, its isolation and a class cost.
+
+    A round takes about two minutes.
+    """
     require_checkout("bench")
-    if greedy:
-        refuse_ignored(context, ("class_",), "with --greedy")
-        from grader.bench.greedy import bench_greedy
+    from grader.bench.figures import bench
 
-        bench_greedy(rounds, console)
-    elif class_:
-        refuse_ignored(context, ("rounds",), "with --class")
-        from grader.bench.classes import bench_class
-
-        bench_class(console, class_)
-    else:
-        from grader.bench.single import bench
-
-        bench(rounds, console)
+    bench(rounds, size, console)

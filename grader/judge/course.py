@@ -1,4 +1,4 @@
-"""What a course takes of the kit: which TODOs, for how many points, until when.
+"""Read what a course takes of the kit: which TODOs, for how many points, until when.
 
 `course.toml` at the top of the kit says it, and is read here alone. What is wrong in it is said in
 one sentence, before anything is graded.
@@ -7,10 +7,11 @@ one sentence, before anything is graded.
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from datetime import date, datetime, time, timedelta, timezone
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Never, TypeVar
 
 import msgspec
 from msgspec import Meta, Struct, structs
@@ -27,12 +28,15 @@ END_OF_DAY = time(23, 59, 59)  # when something is due that is due on a day
 ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day ends last of all
 
 
-class WrongCourse(Stop):
-    """A course cannot be as its file says; the message names the file and what to write."""
-
-
+Read = TypeVar("Read", bound=Struct)
+Kind = Literal["number", "film", "line", "why"]
 Count = Annotated[int, Meta(ge=0)]
 Share = Annotated[str, Meta(pattern=r"^\d+%$")]
+Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
+
+
+class WrongCourse(Stop):
+    """A course cannot be as its file says; the message names the file and what to write."""
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
@@ -47,7 +51,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:
-        """The points that so many days take off `points`; a begun point of a share is kept."""
+        """Return the points that so many days take off; a begun point of a share is kept."""
         if isinstance(self.per_day, str):
             share = min(days * int(self.per_day.removesuffix("%")), 100)
             return min(points * share // 100, self.at_most)
@@ -57,18 +61,18 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
 class Asked(Struct, frozen=True, forbid_unknown_fields=True):
     """How many questions of each kind a sheet about the student's own program has."""
 
-    number: int = 3
-    film: int = 1
-    line: int = 1
-    why: int = 2
-    points: dict[str, int] = {}  # of one question, by its kind; see WORTH for the others
+    number: Annotated[int, Meta(ge=0, le=10)] = 3
+    film: Annotated[int, Meta(ge=0, le=10)] = 1
+    line: Annotated[int, Meta(ge=0, le=10)] = 1
+    why: Annotated[int, Meta(ge=0, le=10)] = 2
+    points: dict[Kind, Annotated[int, Meta(ge=1, le=100)]] = {}  # of one question; see WORTH
 
-    def worth(self, kind: str) -> int:
-        """The points of one question of a kind."""
+    def worth(self, kind: Kind) -> int:
+        """Return the points of one question of a kind."""
         return self.points.get(kind, WORTH[kind])
 
 
-WORTH = {"number": 2, "film": 4, "line": 3, "why": 3}
+WORTH: dict[Kind, int] = {"number": 2, "film": 4, "line": 3, "why": 3}
 
 
 class Course(Struct, frozen=True, forbid_unknown_fields=True):
@@ -83,11 +87,11 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `questions`: what is on the sheets about their own programs, whose points stand apart.
     """
 
-    title: str = "Physics engine"
+    title: Annotated[str, Meta(pattern=r"\S")] = "Physics engine"
     todos: tuple[str, ...] | None = None
-    points: dict[str, int] = {}
-    out_of: float | None = None
-    bonus: Literal["apart", "left out"] | int = "apart"
+    points: dict[str, Worth] = {}
+    out_of: Annotated[float, Meta(gt=0, le=100_000)] | None = None
+    bonus: Literal["apart", "left out"] | Count = "apart"
     due: datetime | None = None
     late: Late | None = None
     visible: datetime | None = None
@@ -95,7 +99,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def rubric(self) -> Rubric:
-        """The rubric of this course."""
+        """Return the rubric of this course."""
         todos = self.todos
         if self.bonus == "left out":
             known = [todo.id for todo in load_rubric().todos] if todos is None else todos
@@ -104,27 +108,27 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def given(self) -> list[Todo]:
-        """The TODOs with a region that it leaves out: their code is handed out done."""
+        """Return the TODOs with a region that it leaves out: their code is handed out done."""
         asked = {todo.id for todo in self.rubric.todos}
         return [todo for todo in load_rubric().todos if todo.function and todo.id not in asked]
 
     @property
     def modules(self) -> list[str]:
-        """The programs with a TODO, in the order of the rubric: what is to be handed in."""
+        """Return the programs with a TODO, in the order of the rubric: what is to be handed in."""
         return list(dict.fromkeys(todo.module for todo in self.rubric.todos if todo.function))
 
     @property
     def as_rated(self) -> "Course":
-        """The same with the rubric's points, of which each check has at least one."""
+        """Return the same with the rubric's points, of which each check has at least one."""
         return structs.replace(self, points={})
 
     def added(self, bonus: int) -> int:
-        """How many points of a bonus count with the others."""
+        """Return how many points of a bonus count with the others."""
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
 
     @property
     def most(self) -> int:
-        """The most points that a mark can have, with as much of the bonus as counts."""
+        """Return the most points that a mark can have, with as much of the bonus as counts."""
         bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
         return self.rubric.max_points + self.added(bonus)
 
@@ -137,7 +141,7 @@ FULL = Course()
 
 @cache
 def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
-    """The rubric with these TODOs alone, in its own order, and with these points where it says so.
+    """Return the rubric with these TODOs alone, in its own order, and with these points.
 
     The whole program is asked by those of its checks that run a program with a TODO; one that needs
     none of the TODOs counts only once another one passes.
@@ -155,7 +159,7 @@ def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -
 
 
 def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check]:
-    """The checks of the whole program that a course with these programs and TODOs has."""
+    """Return the checks of the whole program that a course with these programs and TODOs has."""
     return [
         structs.replace(
             check,
@@ -168,14 +172,14 @@ def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check
 
 
 def with_points(todo: Todo, points: int) -> Todo:
-    """The TODO worth so many points, its checks in the proportion that they had."""
+    """Return the TODO worth so many points, its checks in the proportion that they had."""
     shares = spread(points, [check.points for check in todo.checks])
     pairs = zip(todo.checks, shares, strict=True)
     return structs.replace(todo, checks=[structs.replace(c, points=p) for c, p in pairs])
 
 
 def spread(points: int, weights: Sequence[int]) -> list[int]:
-    """Whole numbers that add up to `points`, by the largest remainder.
+    """Return whole numbers that add up to `points`, by the largest remainder.
 
     None of them is 0, unless there are fewer points than weights.
     """
@@ -194,7 +198,7 @@ def spread(points: int, weights: Sequence[int]) -> list[int]:
 
 
 def read_course(path: Path | None = None) -> Course:
-    """The course in this file, or else the kit's own; raises WrongCourse where it cannot be so.
+    """Read the course in this file, or else the kit's own; may raise WrongCourse.
 
     Where there is no kit around the grader, as with students, there is nothing but what they have.
     """
@@ -211,17 +215,16 @@ def read_course(path: Path | None = None) -> Course:
     for name, at in (("due", END_OF_DAY), ("visible", time())):
         if isinstance(document.get(name), date):
             document[name] = instant(document[name], at)
-    complaint = next(complaints(document), "")
-    if complaint:
-        raise WrongCourse(f"{path}: {complaint}")
     try:
-        return msgspec.convert(document, Course)
-    except msgspec.ValidationError as error:
-        raise WrongCourse(f"{path}: {error}") from error
+        course = next(map(refuse, faults_before(document)), None) or convert(document, Course)
+        next(map(refuse, faults_between(course)), None)
+    except WrongCourse as wrong:
+        raise WrongCourse(f"{path}: {wrong}") from None
+    return course
 
 
 def instant(when: date, at: time) -> datetime:
-    """A date of a course: without a time it is `at`, and without a zone anywhere on Earth.
+    """Return a date of a course: without a time it is `at`, and without a zone anywhere on Earth.
 
     So it does not depend on the machine's zone, and nobody is late whose own clock is before it.
     """
@@ -229,23 +232,78 @@ def instant(when: date, at: time) -> datetime:
     return exact if exact.tzinfo else exact.replace(tzinfo=ANYWHERE)
 
 
-def complaints(document: dict[str, Any]) -> Iterator[str]:
-    """All that is wrong with a course, a sentence each, the one to mend first."""
-    yield from strangers(document)
+def refuse(complaint: str) -> Never:
+    raise WrongCourse(complaint)
+
+
+# What each value must be, by its place in the file; * is any key of a table.
+MUST = {
+    "title": "is no title: write some words in quotes",
+    "points": "must be a table: write [points] on a line and 4 = 12 below it",
+    "points.*": "must be a whole number from 1 to 1000",
+    "out_of": "must be a number above 0, as in out_of = 100",
+    "bonus": 'must be "apart", "left out", or how many points count at most',
+    "due": f"must be a date without quotes, as in due = {EXAMPLE}",
+    "visible": f"must be a date without quotes, as in visible = {EXAMPLE}",
+    "late": "must be a table: write [late] on a line and per_day = 10 below it",
+    "late.per_day": 'must be a whole number, 0 or more, or a share as "10%"',
+    "late.*": "must be a whole number, 0 or more",
+    "questions": "must be a table: write [questions] and number = 3 below it",
+    "questions.points": "must be as in points = { number = 2, why = 3 }",
+    "questions.points.*": "must be a whole number from 1 to 100, of number, film, line or why",
+    "questions.*": "must be a whole number from 0 to 10",
+}
+
+
+def convert(document: Any, kind: type[Read]) -> Read:
+    """Return a table of the file as a struct; raises WrongCourse with a sentence.
+
+    msgspec names the place of what is wrong, but not the key in a table of numbers.
+    """
+    try:
+        return msgspec.convert(document, kind)
+    except msgspec.ValidationError as error:
+        place = re.search(r"`\$\.?([\w.]*)(?:\[.*)?`$", str(error))
+        names = [name for name in place[1].split(".") if name] if place else []
+        if unknown := re.search(r"unknown field `(.*?)`", str(error)):
+            owner = {"late": Late, "questions": Asked}.get(names[-1] if names else "", Course)
+            known = ", ".join(
+                each for each in owner.__struct_fields__ if each != "due" or not names
+            )
+            raise WrongCourse(
+                f"{': '.join([*names, ''])}there is no key {unknown[1]}; there are {known}"
+            ) from None
+        value = document
+        for name in names:
+            value = value[name]
+        if isinstance(value, dict) and names[-1] == "points":
+            names, value = next(
+                ([*names, key], worth)
+                for key, worth in value.items()
+                if not fits({key: worth}, Asked if len(names) > 1 else Course)
+            )
+        must = next(MUST[p] for p in (".".join(names), ".".join([*names[:-1], "*"])) if p in MUST)
+        shown = ": ".join([*names[:-1], f"{names[-1]} = {value!r} {must}"])
+        raise WrongCourse(shown) from None
+
+
+def fits(points: dict[str, Any], kind: type[Struct]) -> bool:
+    with suppress(msgspec.ValidationError):
+        msgspec.convert({"points": points}, kind)
+        return True
+    return False
+
+
+def faults_before(document: dict[str, Any]) -> Iterator[str]:
+    """Yield what is wrong with keys and TODOs, which no type can tell, the first to mend first."""
+    points, late = document.get("points"), document.get("late")
+    for table, name in ((points, "points"), (late, "late")):
+        known = Course.__struct_fields__ if name == "points" else ("due",)
+        for key in (each for each in known if isinstance(table, dict) and each in table):
+            yield f"{name}: {key} stands below [{name}]: write it above that line"
+    if isinstance(late, dict) and not late.keys() & {"per_day", "cap", "closed_after"}:
+        yield f"late = {late!r} {MUST['late']}"
     yield from wrong_todos(document.get("todos"))
-    yield from wrong_points(document)
-    yield from wrong_numbers(document)
-    yield from wrong_questions(document.get("questions", {}))
-    yield from wrong_dates(document)
-
-
-def strangers(document: dict[str, Any]) -> Iterator[str]:
-    known = Course.__struct_fields__
-    for name in document.keys() - set(known):
-        yield f"there is no key {name}; there are {', '.join(known)}"
-    title = document.get("title", "")
-    if not isinstance(title, str) or (not title.strip() and "title" in document):
-        yield f"title = {title!r} is no title: write some words in quotes"
 
 
 def wrong_todos(todos: Any) -> Iterator[str]:
@@ -260,90 +318,26 @@ def wrong_todos(todos: Any) -> Iterator[str]:
             quoted = " in quotes" if str(each) in known else ""
             yield f"todos: there is no TODO {each!r}; write{quoted} some of {', '.join(known)}"
         elif todos.count(each) > 1:
-            yield f"todos: {each} stands there {todos.count(each)} times, and needs to stand once"
-    asked = [todo for todo in load_rubric().todos if todo.id in todos]
-    if not any(todo.function and not todo.bonus for todo in asked):
-        yield "todos: nobody could earn a point without a bonus: add one of TODO 1 to 8c"
-    whole = next((todo for todo in chosen(tuple(todos), ()).todos if not todo.function), None)
-    if whole and all(check.guard for check in whole.checks):
-        yield (
-            "todos: none of the checks of the whole program needs one of these TODOs, so it would "
-            'be given away: leave "whole" out'
-        )
+            yield f"todos: {each} is listed {todos.count(each)} times; list it once"
 
 
-def wrong_points(document: dict[str, Any]) -> Iterator[str]:
-    points = document.get("points", {})
-    if not isinstance(points, dict):
-        yield f"points = {points!r} must be a table: write [points] on a line and 4 = 12 below it"
-        return
-    known = [todo.id for todo in load_rubric().todos]
-    for name, worth in points.items():
-        if name in Course.__struct_fields__:
-            yield f"points: {name} stands below [points]: write it above that line"
-        elif name not in document.get("todos", known):
-            there = "is not among the todos" if name in known else "is no TODO"
+def faults_between(course: Course) -> Iterator[str]:
+    """Yield what is wrong with values that are right by themselves."""
+    todos = [todo.id for todo in load_rubric().todos]
+    if course.todos is not None:
+        asked = [todo for todo in load_rubric().todos if todo.id in course.todos]
+        if not any(todo.function and not todo.bonus for todo in asked):
+            yield "todos: nobody could earn a point without a bonus: add one of TODO 1 to 8c"
+        whole = next((todo for todo in chosen(course.todos, ()).todos if not todo.function), None)
+        if whole and all(check.guard for check in whole.checks):
+            yield (
+                "todos: none of the checks of the whole program needs one of these TODOs, so it "
+                'would be given away: leave "whole" out'
+            )
+    for name in course.points:
+        if name not in (course.todos or todos):
+            there = "is not among the todos" if name in todos else "is no TODO"
             yield f"points: {name} {there}: remove it, or add it there"
-        elif type(worth) is not int or not 1 <= worth <= 1000:
-            yield f"points: {name} = {worth!r} must be a whole number from 1 to 1000"
-
-
-def wrong_numbers(document: dict[str, Any]) -> Iterator[str]:
-    out_of, bonus, late = (document.get(name) for name in ("out_of", "bonus", "late"))
-    if out_of is not None and (type(out_of) not in (int, float) or not 0 < out_of <= 100_000):
-        yield f"out_of = {out_of!r} must be a number above 0, as in out_of = 100"
-    words = bonus in ("apart", "left out")
-    if bonus is not None and not words and (type(bonus) is not int or bonus < 0):
-        yield f'bonus = {bonus!r} must be "apart", "left out", or how many points count at most'
-    if late is None:
-        return
-    if not isinstance(late, dict) or not late.keys() & {"per_day", "cap", "closed_after"}:
-        yield f"late = {late!r} must be a table: write [late] on a line and per_day = 10 below it"
-    elif "due" in late:
-        yield "late: due stands below [late]: write it above that line"
-    else:
-        yield from wrong_late(late)
-
-
-def wrong_late(late: dict[str, Any]) -> Iterator[str]:
-    """All that is wrong with rules for late work; their date aside."""
-    known = [name for name in Late.__struct_fields__ if name != "due"]
-    for name, worth in late.items():
-        share = isinstance(worth, str) and re.fullmatch(r"\d+%", worth)
-        if name not in known:
-            yield f"late: there is no key {name}; there are {', '.join(known)}"
-        elif name == "per_day" and isinstance(worth, str) and not share:
-            yield f'late: per_day = {worth!r} must be points, or a share as "10%"'
-        elif not (name == "per_day" and share) and (type(worth) is not int or worth < 0):
-            yield f"late: {name} = {worth!r} must be a whole number, 0 or more"
-
-
-def wrong_questions(asked: Any) -> Iterator[str]:
-    """All that is wrong with the sheets of questions."""
-    if not isinstance(asked, dict):
-        yield f"questions = {asked!r} must be a table: write [questions] and number = 3 below it"
-        return
-    points = asked.get("points", {})
-    if not isinstance(points, dict):
-        yield f"questions: points = {points!r} must be as in points = {{ number = 2, why = 3 }}"
-        return
-    for name in [*asked, *points]:
-        if name not in WORTH and (name in points or name != "points"):
-            yield f"questions: there is no kind {name}; there are {', '.join(WORTH)}"
-    for name, count in asked.items():
-        if name in WORTH and (type(count) is not int or not 0 <= count <= 10):
-            yield f"questions: {name} = {count!r} must be a whole number from 0 to 10"
-    for name, worth in points.items():
-        if type(worth) is not int or not 1 <= worth <= 100:
-            yield f"questions: points of {name} = {worth!r} must be a whole number from 1 to 100"
-
-
-def wrong_dates(document: dict[str, Any]) -> Iterator[str]:
-    for name in ("due", "visible"):
-        when = document.get(name)
-        if when is not None and not isinstance(when, datetime):
-            yield f"{name} = {when!r} must be a date without quotes, as in {name} = {EXAMPLE}"
-            return
-    due, visible = document.get("due"), document.get("visible")
-    if due is not None and visible is not None and visible < due:
-        yield f"visible = {visible} is before due = {due}: students could still hand in"
+    if course.due is not None and course.visible is not None and course.visible < course.due:
+        visible = f"visible = {course.visible} is before due = {course.due}"
+        yield f"{visible}: students could still hand in"

@@ -44,6 +44,7 @@ from grader.protocol import (
 
 STEP = 1 / 120  # s
 ROUNDED = 1e-6  # ms
+Opening = tuple[int, Event | None]  # frames to wait, and what ends the title
 Frame = Mapping[Thing, str]  # the fields that may change, by the thing that has them
 NOTHING: Frame = {}
 OURS = 1_000_000  # numbers of objects from here on are given by us, lower ones by the child
@@ -83,6 +84,7 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for what is made at our word
         self.remembers: list[str] = []  # the names in which something was kept; see Remembered
         self.played = False  # whether the child has run a program
+        self.opening: Opening | None = None  # of a program that begins with something else
 
     @property
     def ended(self) -> bool:
@@ -372,20 +374,56 @@ class Lab(Decoder):
         physics: bool = True,
         trail_every: int = 0,
         pictures: bool = False,
+        photos: Sequence[int] = (),
+        step_ms: float = 0.0,
         module: str = "",
     ) -> Played:
         """Run the program as `python -m` starts it, one entry of `frames` (ms) per frame.
 
-        A second run has a process of its own: a program may count on being started once.
+        A second run has a process of its own: a program may count on being started once. One that
+        shows a title or loads something begins where that ends.
         """
+        request = Play(
+            module or self.module,
+            frames,
+            list(events),
+            physics,
+            trail_every,
+            pictures,
+            list(photos),
+            step_ms,
+        )
+        if self.opening is not None:
+            return self._opened(request, self.opening)
+        reply = self._played(request)
+        if reply.ended != "returned" or starts_at_once(reply):
+            return reply
+        return next(self._openings(request, reply), reply)
+
+    def _openings(self, request: Play, reply: Played) -> Iterator[Played]:
+        """Try to open a program that is late: by waiting, and as a person would try to."""
+        for event in (None, *TRIES):
+            tried = self._played(with_lead(request, LEAD, event)) if event else reply
+            first = first_step(tried)
+            if first is not None and starts_at_once(
+                played := self._opened(request, (opening := (first - 1, event)))
+            ):
+                self.opening = opening
+                yield played
+
+    def _opened(self, request: Play, opening: Opening) -> Played:
+        """Run the program, and leave out the frames before its first one."""
+        return without_lead(self._played(with_lead(request, *opening)), opening[0])
+
+    def _played(self, request: Play) -> Played:
+        """Run the program once."""
         if self.played:
             self.start_anew()
         self.played = True
-        request = Play(module or self.module, frames, list(events), physics, trail_every, pictures)
         reply = self._reply(request)
         if not isinstance(reply, Played):
             self.fail("a run of the program", "something else")
-        asked = zip(reply.clock, accumulate(frames, initial=0), strict=False)
+        asked = zip(reply.clock, accumulate(request.frames, initial=0), strict=False)
         self.want(
             all(told >= ms - ROUNDED for told, ms in asked),
             "frames that take as long as they are asked to",
@@ -415,6 +453,50 @@ class Lab(Decoder):
         except (Broke, NotYet) as failure:
             self.remember(failure)
             raise
+
+
+LEAD = 20  # frames, for a program that shows a title or loads something
+IDLE = 100.0  # ms
+TRIES = (  # what a person tries where a program shows a title
+    Event(2, "key", key="return"),
+    Event(2, "click", (450, 300)),
+    Event(2, "key", key="space"),
+)
+
+
+def first_step(played: Played) -> int | None:
+    """Return the first frame in which a step ran, or None."""
+    return next((number for number, steps in enumerate(played.steps) if steps), None)
+
+
+def starts_at_once(played: Played) -> bool:
+    """Return whether the first step runs before a person would see that nothing moves."""
+    first = first_step(played)
+    return first is not None and (first == 0 or played.clock[first - 1] <= IDLE)
+
+
+def with_lead(request: Play, lead: int, event: Event | None) -> Play:
+    """Return the request with so many frames before all others, and an event in them."""
+    later = [msgspec.structs.replace(each, frame=each.frame + lead) for each in request.events]
+    return msgspec.structs.replace(
+        request,
+        frames=[17] * lead + request.frames,
+        events=[event, *later] if event else later,
+        photos=[frame + lead for frame in request.photos],
+    )
+
+
+def without_lead(played: Played, lead: int) -> Played:
+    """Return what a program did after so many frames, as if it had begun then."""
+    if len(played.steps) <= lead:
+        return played
+    return msgspec.structs.replace(
+        played,
+        steps=[sum(played.steps[: lead + 1]), *played.steps[lead + 1 :]],
+        clock=[each - played.clock[lead] for each in played.clock[lead:]],
+        pictures=played.pictures[lead:],
+        photos=[msgspec.structs.replace(p, frame=p.frame - lead) for p in played.photos],
+    )
 
 
 class Advance(NamedTuple):

@@ -1,4 +1,4 @@
-"""Taking in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
+"""Take in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
 
 import errno
 import math
@@ -14,16 +14,18 @@ from pathlib import Path, PurePath, PurePosixPath
 import msgspec
 
 from grader.errors import Stop
+from grader.judge.file_names import accept_printed_names
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
+from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
+from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
-    RegionError,
     python_files,
+    read_regions,
     read_source,
-    regions_in,
     shape_of,
 )
 
@@ -54,9 +56,12 @@ class Submission:
     left_out: list[str] = field(default_factory=list)
     unread: list[str] = field(default_factory=list)  # files too long to look into, in words
     uses_numpy: bool = False
+    flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
+    outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
+    starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
 
     def holds(self, file: str) -> bool:
-        """Whether there is such a file in it: what a child says may name any."""
+        """Return whether there is such a file in it: what a child says may name any."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
         with suppress(OSError):  # such as a name that is too long for any file
@@ -76,6 +81,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
         shutil.copyfile(path, copy / path.name)
     else:
         copy_tree(path, submission)
+    accept_printed_names(copy)
     supply_given(copy)
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:
@@ -84,7 +90,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 
 
 def copy_tree(path: Path, submission: Submission) -> None:
-    """Plain files only, the lab's first: no links, nothing hidden, and no more than the bounds."""
+    """Copy plain files, the lab's first: no links, nothing hidden, no more than the bounds."""
     files = size = 0
     for source in sorted(plain_files(path), key=lambda each: weight(each.relative_to(path))):
         inside = source.relative_to(path)
@@ -107,7 +113,7 @@ def copy_tree(path: Path, submission: Submission) -> None:
 
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
-    """The order in which files are taken while there is room: the lab's own before all others."""
+    """Return the order in which files are taken: the lab's own before all others."""
     of_lab = inside.parts[0].removesuffix(".py") in {todo.module for todo in load_rubric().todos}
     return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
@@ -136,12 +142,12 @@ def supply_given(folder: Path) -> None:
 
 @cache
 def load_given() -> dict[str, str]:
-    """The programs as they were handed out: files by name, as `sync` keeps them."""
+    """Return the programs as they were handed out: files by name, as `sync` keeps them."""
     return msgspec.json.decode((CHECKS / "given.json").read_bytes(), type=dict[str, str])
 
 
 def plain_files(path: Path) -> Iterator[Path]:
-    """What may be part of a submission: nothing hidden, no environment, no name that is no text.
+    """Yield the files that may be part of a submission: no hidden ones, no environment.
 
     A Mac leaves a hidden `._contacts.py`, which is no Python, beside each file on a foreign disk.
     Folder by folder from the top. Raises CannotGrade where there is no end of it, or a folder
@@ -169,7 +175,7 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def unreadable(error: OSError, within: Path) -> str:
-    """Why a file or a folder of a submission cannot be read, by its name in there."""
+    """Say why a file or a folder of a submission cannot be read, by its name in there."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
     if not name or name == os.fspath(within):
@@ -179,24 +185,24 @@ def unreadable(error: OSError, within: Path) -> str:
 
 
 def may_be_read(name: str) -> bool:
-    """No hidden file or folder, and no name that is no text."""
+    """Return whether a name is neither hidden nor without text."""
     return name.isprintable() and not name.startswith(".")
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    """No virtual environment, and no name that would be wrong in those of its files."""
+    """Return whether a folder is no virtual environment and its name may be read."""
     ours = may_be_read(folder.name) and folder.name not in IGNORED
     return ours and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
-    """Where each TODO stands, and whether anything but the stub stands there."""
+    """Find where each TODO stands, and whether anything but the stub stands there."""
     texts = {
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
     }
     submission.uses_numpy = any("numpy" in text for text in texts.values())
-    program = Program(texts)
+    program = mend_programs(submission, texts)
     for todo in rubric.todos:
         if not todo.function:
             continue
@@ -206,11 +212,77 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    for module in dict.fromkeys(todo.module for todo in rubric.todos):
+        main = program.definition(module, "main")
+        if main is not None:
+            file = program.paths[main.module].as_posix()
+            submission.starts[module] = Where(file, main.function.lineno if main.function else 1)
+        elif module in program.paths:
+            submission.starts[module] = Where(program.paths[module].as_posix(), 1)
+    for module, flaw in submission.outside.items():
+        own = [todo.id for todo in rubric.todos if todo.function and todo.module == module]
+        if not any(id in submission.functions for id in own):  # nothing but what is no Python
+            submission.flaws |= dict.fromkeys(own, flaw)
+    for id, flaw in submission.flaws.items():
+        submission.begun[id], submission.where[id] = True, Where(flaw.file, flaw.line)
     giants = {each for each in submission.folder.rglob("*.py") if each.is_file()} - {
         submission.folder / inside for inside in texts
     }
     paths = [*sorted(giants), *(submission.folder / inside for inside in program.unread)]
     submission.unread = [in_words(path, submission.folder) for path in paths]
+
+
+def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
+    """Put something else in the place of what Python refuses in the files that its programs load.
+
+    Changes `texts` and the copy, and notes whose code was replaced.
+    """
+    mender, mended_once = Mender(handed_out()), set[Path]()
+    modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    started = [*modules, *(f"{module}.__main__" for module in modules)]
+    while True:
+        program = Program(texts)
+        loaded = dict.fromkeys(part for module in started for part in program.loaded(module))
+        refused = {
+            path: flaw
+            for name in loaded
+            if (path := program.paths[name]) not in {*mended_once, *program.unread}
+            and (flaw := flaw_of(submission.folder / path, program.modules[name].refused))
+        }
+        for path, flaw in refused.items():
+            mend_file(submission, mender, path, texts, flaw)
+        if not refused:
+            return program
+        mended_once |= refused.keys()
+
+
+def mend_file(
+    submission: Submission, mender: Mender, path: Path, texts: dict[Path, str], flaw: Flaw
+) -> None:
+    module, flaw = module_of(path), flaw.in_file(path.as_posix())
+    mended = mender.mend(flaw, texts[path])
+    if mended is None:
+        submission.outside.setdefault(module, flaw)
+        return
+    texts[path] = mended.text
+    (submission.folder / path).write_text(mended.text, encoding="utf-8", newline="\n")
+    for todo, each in mended.flaws.items():
+        if todo == OUTSIDE:
+            submission.outside.setdefault(module, each)
+        else:
+            submission.flaws.setdefault(todo, each)
+
+
+def flaw_of(path: Path, refused: bool) -> Flaw | None:
+    """Return what Python refuses in a file, whose text may parse while its bytes are no text."""
+    return find_bad_bytes(path.read_bytes()) or (find_flaw(read_source(path)) if refused else None)
+
+
+@cache
+def handed_out() -> HandedOut:
+    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
+    functions = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
+    return HandedOut(load_given(), stubs, functions)
 
 
 def in_words(path: Path, folder: Path) -> str:
@@ -229,11 +301,11 @@ def look_at(
     text: str,
     function: Function | None,
 ) -> None:
-    """What a TODO's own file has: its region, or where no marker is, the function that says enough.
+    """Note a TODO's region or, where no marker is, the function that says enough.
 
     A region counts inside the function alone: a copy of it further up is not what runs.
     """
-    region = region_of(text, todo.id)
+    region = next((each for each in read_regions(text)[0] if each.id == todo.id), None)
     if function is not None:
         source = source_of(text, function)
         submission.functions[todo.id] = shape_of(source)
@@ -249,7 +321,7 @@ def look_at(
 
 
 def first_code_line(region: Region) -> int:
-    """The number of a region's first line that says something, or of the one below its marker."""
+    """Return the number of a region's first line of code, or of its first line."""
     said = (number for number, line in enumerate(region.lines) if not is_comment(line))
     return region.start + 2 + next(said, 0)
 
@@ -258,14 +330,6 @@ def is_comment(line: str) -> bool:
     return line.strip().startswith("#") or not line.strip()
 
 
-def region_of(text: str, todo: str) -> Region | None:
-    """The region of a TODO; None where the markers of the file do not pair up."""
-    try:
-        return next((region for region in regions_in(text) if region.id == todo), None)
-    except RegionError:
-        return None
-
-
 def module_of(inside: PurePath) -> str:
-    """The module or package that a file, named from the submission's folder, belongs to."""
+    """Return the module or package that a file, named from the submission's folder, belongs to."""
     return inside.parts[0].removesuffix(".py")

@@ -1,15 +1,17 @@
-"""Small changes to a piece of code: swap, drop, shift or negate one thing at a time.
+"""Make small changes to a piece of code: swap, drop, shift or negate one thing at a time.
 
-Each operator looks at one node of the syntax tree and offers others in its place. What comes out is
-a piece of code that a hurried student could have written, and that a good check should notice.
+Each operator looks at one node of the syntax tree and offers others in its place. The result is
+code that a hurried student could have written, and that a good check should notice.
 """
 
 import ast
+import copy
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-Offer = ast.AST | list[ast.stmt]  # what stands in the place of one node
+Code = list[ast.stmt]
+Offer = ast.AST | Code  # what stands in the place of one node
 Operator = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
 
 ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
@@ -27,7 +29,8 @@ COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
     ast.Eq: (ast.NotEq,),
     ast.NotEq: (ast.Eq,),
 }
-NAMES = (  # variables that are easily taken for one another
+NAMES = (  # variables and functions that are easily taken for one another
+    ("max", "min"),
     ("a", "b"),
     ("ra", "rb", "axis"),
     ("low", "high"),
@@ -50,12 +53,13 @@ ATTRIBUTES = (
     ("jn", "jt"),
     ("bias", "k"),
 )
-ANY_ORDER = {"max", "min"}  # two arguments of these may change places
+ANY_ORDER = {"max", "min"}  # swapping arguments of these changes nothing
+SIGNS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a node hangs in its tree: a field of its parent, or an item of such a field."""
+    """The place of a node in its tree: a field of its parent, or an item of such a field."""
 
     parent: ast.AST
     field: str
@@ -67,7 +71,7 @@ class Place:
         return held if self.index is None else held[self.index]
 
     def put(self, offer: Offer) -> Callable[[], None]:
-        """Hang `offer` here; returns what puts everything back."""
+        """Put `offer` here; return a function that puts the node back."""
         before = getattr(self.parent, self.field)
         if self.index is None:
             new: Any = offer
@@ -80,26 +84,26 @@ class Place:
         return lambda: setattr(self.parent, self.field, before)
 
 
-def places(tree: ast.AST) -> Iterator[Place]:
-    """Every place in a tree, outer ones first."""
+def walk_places(tree: ast.AST) -> Iterator[Place]:
+    """Yield every place in a tree, outer ones first."""
     for field, value in ast.iter_fields(tree):
         items = list(enumerate(value)) if isinstance(value, list) else [(None, value)]
         for index, item in items:
             if isinstance(item, ast.AST):
                 yield Place(tree, field, index)
-                yield from places(item)
+                yield from walk_places(item)
 
 
-def changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[str, str]]:
-    """Every change of one thing in `code`: the operator's name, and the code after it.
+def make_changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[str, str]]:
+    """Yield every change of one thing in `code`: the operator's name and the code after it.
 
     `names` are the variables in scope beside those of the code itself. The code comes in the
-    layout of `ast.unparse`; a change that is no change is left out, and so is one made before.
+    layout of `ast.unparse`, and no code comes twice.
     """
     tree = ast.parse(code)
     known = names | names_in(tree)
     seen = {ast.unparse(tree)}
-    for place in list(places(tree)):
+    for place in list(walk_places(tree)):
         for operator in OPERATORS:
             for offer in operator(place.node, known):
                 restore = place.put(offer)
@@ -111,34 +115,56 @@ def changes(code: str, names: frozenset[str] = frozenset()) -> Iterator[tuple[st
 
 
 def names_in(tree: ast.AST) -> frozenset[str]:
-    """The variables and parameters that a piece of code speaks of."""
+    """Return the variables and parameters of a piece of code."""
     variables = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     return frozenset(variables | {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)})
 
 
-def normal(code: str) -> str:
-    """The code in the layout that all changes have."""
+def normalize(code: str) -> str:
+    """Return the code in the layout that all changes have."""
     return ast.unparse(ast.parse(code))
+
+
+def parse_code(text: str) -> Code:
+    return ast.parse(text).body
+
+
+def parse_expression(text: str) -> ast.expr:
+    return ast.parse(text, mode="eval").body
+
+
+class Replacer(ast.NodeTransformer):
+    """Put one expression in the place of another wherever its value is used."""
+
+    def __init__(self, old: str, new: str) -> None:
+        self.old = old
+        self.new = new
+
+    def generic_visit(self, node: ast.AST) -> ast.AST:
+        loaded = isinstance(getattr(node, "ctx", ast.Load()), ast.Load)
+        if isinstance(node, ast.expr) and loaded and ast.unparse(node) == self.old:
+            return parse_expression(self.new)
+        return super().generic_visit(node)
 
 
 # ---------------------------------------------------------------- the operators
 
 
-def other_arithmetic(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`+` for `-`, `*` for `/`, and `*` for `**`."""
+def change_arithmetic(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `+` for `-`, `*` for `/`, and `*` for `**`."""
     if isinstance(node, ast.BinOp) and type(node.op) in ARITHMETIC:
         yield ast.BinOp(node.left, ARITHMETIC[type(node.op)](), node.right)
 
 
-def other_comparison(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`<=` or `>` for `<`, and so on."""
+def change_comparison(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `<=` or `>` for `<`, and so on."""
     if isinstance(node, ast.Compare) and len(node.ops) == 1:
         for other in COMPARISONS.get(type(node.ops[0]), ()):
             yield ast.Compare(node.left, [other()], node.comparators)
 
 
-def other_constant(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """One more, half as much, the other sign, 0 or 1."""
+def change_constant(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Add one, halve, negate, or take 0 or 1."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         value = node.value
         assert isinstance(value, int | float)
@@ -147,66 +173,56 @@ def other_constant(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
                 yield ast.Constant(other)
 
 
-def other_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """A name or an attribute of like kind."""
+def change_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Use another name or attribute of the same kind."""
     if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
-        for other in kin(node.id, NAMES):
-            if other in names:
+        for other in related_names(node.id, NAMES):
+            if other in names or other in ANY_ORDER:
                 yield ast.Name(other, node.ctx)
     if isinstance(node, ast.Attribute):
-        for other in kin(node.attr, ATTRIBUTES):
+        for other in related_names(node.attr, ATTRIBUTES):
             yield ast.Attribute(node.value, other, node.ctx)
 
 
-def kin(name: str, groups: Iterable[tuple[str, ...]]) -> list[str]:
+def related_names(name: str, groups: Iterable[tuple[str, ...]]) -> list[str]:
     return [each for group in groups if name in group for each in group if each != name]
 
 
-def max_for_min(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`max` for `min`, and the other way round."""
-    if isinstance(node, ast.Name) and node.id in ("max", "min"):
-        yield ast.Name("min" if node.id == "max" else "max", node.ctx)
-
-
-def no_minus(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`x` for `-x`, and `x` for `not x`."""
+def unwrap(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `x` for `-x`, `not x`, `abs(x)` and any other call with one argument."""
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
         yield node.operand
-
-
-def no_call(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`x` for `abs(x)` and for any other function of one thing."""
     if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
         yield node.args[0]
 
 
-def arguments_swapped(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`f(y, x)` for `f(x, y)`, neighbour by neighbour; a tuple's items likewise."""
+def swap_arguments(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Swap neighbours among the arguments of a call or the items of a tuple."""
     if isinstance(node, ast.Call):
         if isinstance(node.func, ast.Name) and node.func.id in ANY_ORDER:
             return
-        for items in neighbours_swapped(node.args):
+        for items in swap_neighbours(node.args):
             yield ast.Call(node.func, items, node.keywords)
     if isinstance(node, ast.Tuple) and isinstance(node.ctx, ast.Load):
-        for items in neighbours_swapped(node.elts):
+        for items in swap_neighbours(node.elts):
             yield ast.Tuple(items, node.ctx)
 
 
-def neighbours_swapped(items: list[ast.expr]) -> Iterator[list[ast.expr]]:
+def swap_neighbours(items: list[ast.expr]) -> Iterator[list[ast.expr]]:
     for first in range(len(items) - 1):
         yield [*items[:first], items[first + 1], items[first], *items[first + 2 :]]
 
 
-def other_update(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """`-=` or plain `=` for `+=`, and so on."""
+def change_update(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `-=` or plain `=` for `+=`, and so on."""
     if isinstance(node, ast.AugAssign):
         if type(node.op) in ARITHMETIC:
             yield ast.AugAssign(node.target, ARITHMETIC[type(node.op)](), node.value)
         yield ast.Assign([node.target], node.value)
 
 
-def other_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """The opposite condition; and `if` for `while`."""
+def change_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Negate a condition, or put `if` for `while`."""
     if isinstance(node, ast.If):
         yield ast.If(ast.UnaryOp(ast.Not(), node.test), node.body, node.orelse)
     if isinstance(node, ast.While):
@@ -216,31 +232,60 @@ def other_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
         yield ast.IfExp(node.test, node.orelse, node.body)
 
 
-def no_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """A statement left out; of an `if`, also the condition alone."""
+def change_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Leave out a statement or only its condition, run it twice, or return before it."""
     if isinstance(node, ast.stmt):
         yield []
     if isinstance(node, ast.If) and not node.orelse:
         yield node.body
-
-
-def early_return(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """A bare return before a statement."""
     if isinstance(node, ast.stmt) and not isinstance(node, ast.Return):
         yield [ast.Return(None), node]
+    if isinstance(node, ast.AugAssign | ast.Expr):
+        yield [node, node]
+
+
+def cut_loop_short(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Leave out the first or the last item of a loop, or stop after one pass or a few."""
+    if isinstance(node, ast.While):
+        yield ast.While(node.test, [*node.body, ast.Break()], node.orelse)
+    if isinstance(node, ast.For):
+        yield ast.For(node.target, node.iter, [*node.body, ast.Break()], node.orelse)
+        for part in ("[1:]", "[:-1]", "[:20]"):
+            items = parse_expression(f"list({ast.unparse(node.iter)}){part}")
+            yield ast.For(node.target, items, node.body, node.orelse)
+
+
+def change_in_place(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """`low = b.pos; low -= half`, which moves b: change a vector itself instead of a copy."""
+    if isinstance(node, ast.Assign | ast.AugAssign | ast.Return | ast.Expr):
+        for operation in find_operations(node):
+            left, sign = ast.unparse(operation.left), SIGNS[type(operation.op)]
+            update = parse_code(f"{left} {sign}= {ast.unparse(operation.right)}")
+            rest = Replacer(ast.unparse(operation), left).visit(copy.deepcopy(node))
+            yield [*update, rest]
+
+
+def find_operations(statement: ast.stmt) -> Iterator[ast.BinOp]:
+    """Yield each `u + v` in a statement where u is a variable or field, and no inner loop's."""
+    inner = [each for each in ast.walk(statement) if isinstance(each, ast.Lambda | ast.ListComp)]
+    hidden = {id(node) for each in inner for node in ast.walk(each)}
+    for node in ast.walk(statement):
+        match node:
+            case ast.BinOp(ast.Name() | ast.Attribute(), op) if type(op) in SIGNS:
+                if id(node) not in hidden:
+                    yield node
 
 
 OPERATORS: tuple[Operator, ...] = (
-    other_arithmetic,
-    other_comparison,
-    other_constant,
-    other_name,
-    max_for_min,
-    no_minus,
-    no_call,
-    arguments_swapped,
-    other_update,
-    other_condition,
-    no_statement,
-    early_return,
+    change_arithmetic,
+    change_comparison,
+    change_constant,
+    change_name,
+    unwrap,
+    swap_arguments,
+    change_update,
+    change_condition,
+    change_statement,
+    cut_loop_short,
+    change_in_place,
 )

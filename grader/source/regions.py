@@ -1,4 +1,4 @@
-"""The marked regions of the student's files: `# TODO 4: …` to `# END TODO 4`."""
+"""Read the marked regions of the student's files: `# TODO 4: …` to `# END TODO 4`."""
 
 import ast
 import re
@@ -14,8 +14,13 @@ MAX_SOURCE = 128 * 1024  # bytes of a file
 MAX_SHAPE = 32 * 1024  # characters of a region or function of which more is kept than the text
 # Fifty names with dots between them: in an import, Python's parser keeps each beginning of these.
 CHAIN = re.compile(r"(?:\.[\s\\]*+\w++[\s\\]*+){50}")
-START = re.compile(r"^(?P<indent>[ \t]*)# TODO (?P<id>[0-9]+[a-d]?|B[0-9]): (?P<task>\S.*)$")
-END = re.compile(r"^[ \t]*# END TODO (?P<id>[0-9]+[a-d]?|B[0-9])\s{0,80}$")
+TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, here and nowhere else
+START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
+END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
+# What is meant for a marker: an id with a colon, or at the end.
+MEANT = re.compile(
+    r"[ \t]*# ?(?:TODO ?\w*[0-9]\w*:|END ?TODO ?\w*[0-9]\w*\s{0,80}$)", re.IGNORECASE
+)
 
 
 class RegionError(ValueError):
@@ -34,12 +39,12 @@ class Region:
 
     @property
     def shape(self) -> str:
-        """What the region says, comments and layout aside; its text where it is no Python."""
+        """Return the region's code without comments and layout; its text if no Python."""
         return shape_of("\n".join(self.lines))
 
 
 def shape_of(source: str) -> str:
-    """A text that is equal for two pieces of code exactly if they differ in layout alone."""
+    """Return a text that is equal for two pieces of code if they differ in layout alone."""
     text = textwrap.dedent(source)
     tree = parsed(text, MAX_SHAPE)
     with suppress(ValueError, RecursionError, MemoryError):
@@ -48,7 +53,7 @@ def shape_of(source: str) -> str:
 
 
 def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
-    """The tree of a source text; None where it is no Python, or longer than any program's.
+    """Return the tree of a source text; None where it is no Python, or longer than any program's.
 
     The judge parses what students wrote here and nowhere else.
     """
@@ -61,41 +66,50 @@ def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
         return None
 
 
-def regions_in(text: str) -> list[Region]:
-    """The regions of a file in order; raises RegionError for unpaired, nested or double markers."""
-    found: list[Region] = []
-    lines = text.splitlines() if "TODO" in text else []
-    open_at: int | None = None
-    for number, line in enumerate(lines):
-        start, end = START.match(line), END.match(line)
-        if start:
-            if open_at is not None:
-                raise RegionError(f"line {number + 1}: a TODO begins inside another one: {line}")
-            open_at = number
-        elif end:
-            opened = START.match(lines[open_at]) if open_at is not None else None
-            if open_at is None or opened is None or opened["id"] != end["id"]:
-                raise RegionError(f"line {number + 1}: nothing was opened for: {line.strip()}")
-            found.append(
-                Region(
-                    end["id"],
-                    opened["task"].rstrip(),
-                    open_at,
-                    number,
-                    tuple(lines[open_at + 1 : number]),
-                )
-            )
-            open_at = None
-    if open_at is not None:
-        raise RegionError(f"line {open_at + 1}: never ended: {lines[open_at].strip()}")
-    ids = [region.id for region in found]
-    if len(ids) != len(set(ids)):
-        raise RegionError(f"a TODO id stands twice: {ids}")
+def regions_in(text: str, file: str = "") -> list[Region]:
+    """Return the regions of a file in order.
+
+    Raises RegionError, which names the file and the line, for markers that do not pair up, that
+    are nested, or that are not written as markers are.
+    """
+    found, wrong = read_regions(text)
+    if wrong:
+        line, why = wrong[0]
+        raise RegionError(f"{file}:{line}: {why}" if file else f"line {line}: {why}")
     return found
 
 
+def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
+    """Return the regions of a file that pair up, and by line what is wrong with other markers."""
+    found: dict[str, Region] = {}
+    wrong: list[tuple[int, str]] = []
+    lines = text.splitlines() if "TODO" in text else []
+    opened: tuple[int, str, str] | None = None  # the index, id and task of the last start
+    for number, line in enumerate(lines):
+        start, end = START.match(line), END.match(line)
+        if start:
+            if opened is not None:
+                wrong.append((number + 1, f"a TODO begins inside another one: {line.strip()}"))
+            opened = number, start["id"], start["task"].rstrip()
+        elif end:
+            if opened is None or opened[1] != end["id"]:
+                wrong.append((number + 1, f"nothing was opened for: {line.strip()}"))
+            elif end["id"] in found:
+                wrong.append((number + 1, f"TODO {end['id']} is there twice"))
+            else:
+                between = tuple(lines[opened[0] + 1 : number])
+                found[end["id"]] = Region(end["id"], opened[2], opened[0], number, between)
+            opened = None
+        elif MEANT.match(line):
+            form = "write `# TODO 4: what to do`, and `# END TODO 4` below it"
+            wrong.append((number + 1, f"`{line.strip()}` is no marker: {form}"))
+    if opened is not None:
+        wrong.append((opened[0] + 1, f"never ended: {lines[opened[0]].strip()}"))
+    return list(found.values()), wrong
+
+
 def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
-    """`text` with the lines of each region named in `contents` put in place of its own."""
+    """Put lines in the place of those of each region that is named in `contents`."""
     lines = text.splitlines(keepends=True)
     for region in reversed(regions_in(text)):
         if region.id in contents:
@@ -104,7 +118,7 @@ def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
 
 
 def python_files(tree: Path) -> Iterator[Path]:
-    """A tree's Python files in a fixed order; links, hidden folders and giants are left out."""
+    """Yield a tree's Python files in a fixed order, without links, hidden ones and giants."""
     for path in sorted(tree.rglob("*.py")):
         parts = path.relative_to(tree).parts
         if path.is_symlink() or not path.is_file() or any(p.startswith(".") for p in parts):
@@ -114,5 +128,5 @@ def python_files(tree: Path) -> Iterator[Path]:
 
 
 def read_source(path: Path) -> str:
-    """A submission's file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
+    """Return a file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
     return path.read_bytes().decode("utf-8-sig", "replace").replace("\r\n", "\n")

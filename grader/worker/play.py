@@ -10,17 +10,21 @@ import sys
 import zlib
 from collections.abc import Callable
 from contextlib import nullcontext
+from functools import partial
 from types import FunctionType
 from typing import Any, Literal
 
 import pygame
 import pymunk
+from pymunk.constraints import PinJoint
 
 from grader.protocol import (
     MAX_LINES,
+    MAX_PHOTO,
     MAX_TEXT,
     RUNAWAY,
     ContactRow,
+    Photo,
     Play,
     Played,
     Returned,
@@ -29,11 +33,11 @@ from grader.protocol import (
     SpaceBody,
     cut,
 )
-from grader.worker import film
+from grader.worker import recorder as recorders
 from grader.worker import subject as subjects
-from grader.worker.film import Camera, lesson_state
 from grader.worker.lines import OpcodeCounter, codes_of
 from grader.worker.output import Output
+from grader.worker.recorder import Recorder, lesson_state
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.start import start
@@ -60,6 +64,7 @@ class StepCounter:
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
+        self.on_step: Callable[[], None] = lambda: None  # called when a step has run
         self.inside = False  # a derived class may call the step that it overrides
         self.in_advance = False
         for function in steps_of(owner):
@@ -101,6 +106,7 @@ class StepCounter:
             result = run()
         finally:
             self.inside = False
+        self.on_step()
         if self.trail_every and self.total % self.trail_every == 0:
             self.trail.append(moving_state(world))
         if self.in_frame >= RUNAWAY:
@@ -143,7 +149,7 @@ def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Retu
 
 
 def play(
-    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
+    subject: Subject, clock: ScriptedClock, output: Output, recorder: Recorder, request: Play
 ) -> Played:
     """Run a program on a scripted clock, and tell what it did in each frame.
 
@@ -154,6 +160,7 @@ def play(
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
+    counter.on_step = partial(clock.pass_time, request.step_ms)
     advance = advance_of(subject, request.module)
     if advance is not None:
         counter.watch_advance(advance)
@@ -162,16 +169,16 @@ def play(
 
     def frame_over() -> None:
         steps.append(counter.in_frame)
-        times.append(clock.elapsed)
+        times.append(clock.elapsed - request.step_ms * counter.in_frame)  # before its steps
         counter.in_frame = 0
-        window.record_checksum()
-        camera.record(clock.elapsed / 1000, counter.total)
+        window.record(len(steps) - 1, clock.flips)
+        recorder.record(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
-    window = Window(request.pictures)
-    camera.watch_worlds(owner, len(request.frames) + 1)
+    window = Window(request.pictures, request.photos)
+    recorder.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
         start(subject, request.module, steps, len(request.frames))
@@ -184,7 +191,7 @@ def play(
     finally:
         window.restore()
     frame_over()
-    camera.stop_watching()
+    recorder.stop_watching()
     return Played(
         steps=steps,
         clock=times,
@@ -195,6 +202,7 @@ def play(
         rods=rod_lengths(counter.last),
         trail=counter.trail,
         pictures=window.pictures,
+        photos=window.photos,
         paced=advance is not None and counter.elsewhere == 0 < counter.total,
     )
 
@@ -205,27 +213,39 @@ class Window:
     pygame.quit() takes long and the process ends soon, so meanwhile it closes the window only.
     """
 
-    def __init__(self, pictures: bool) -> None:
-        self.wanted = pictures
+    def __init__(self, pictures: bool, photos: list[int]) -> None:
+        self.wanted, self.frames = pictures, photos
         self.pictures: list[int] = []
+        self.photos: list[Photo] = []
+        self.flips = 0
         self.real_quit, self.real_mode = pygame.quit, pygame.display.set_mode
         pygame.quit, pygame.display.set_mode = self._quit, self._set_mode
 
     def _set_mode(self, *args: Any, **kwargs: Any) -> pygame.Surface:
         """Open the window, clipped to one pixel unless pictures are wanted: drawing is slow."""
         surface = self.real_mode(*args, **kwargs)
-        if not self.wanted:
+        if not self.wanted and not self.frames:
             surface.set_clip((0, 0, 1, 1))
         return surface
 
     def _quit(self) -> None:
         pygame.display.quit()  # the rest ends with this process, which is much quicker
 
-    def record_checksum(self) -> None:
-        """Note a checksum of the picture at the end of a frame."""
+    def record(self, frame: int, flips: int) -> None:
+        """Note a checksum of the picture at the end of a frame, and a photo of it if wanted."""
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
-        if self.wanted and surface is not None:
+        if surface is None:
+            return
+        if self.wanted:
             self.pictures.append(zlib.crc32(surface.get_buffer().raw))
+        if frame in self.frames and flips > self.flips:
+            self._photograph(surface, frame)
+        self.flips = flips
+
+    def _photograph(self, surface: pygame.Surface, frame: int) -> None:
+        colours = zlib.compress(pygame.image.tobytes(surface, "RGB"), 1)
+        if len(colours) <= MAX_PHOTO:
+            self.photos.append(Photo(frame, *surface.get_size(), colours))
 
     def restore(self) -> None:
         """Give pygame its own functions back, and close the window if it is still open."""
@@ -258,7 +278,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
-            if isinstance(joint, pymunk.PinJoint):
+            if isinstance(joint, PinJoint):
                 begin = joint.a.local_to_world(joint.anchor_a)
                 end = joint.b.local_to_world(joint.anchor_b)
                 found.append(((end - begin).length, joint.distance))
@@ -271,7 +291,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     return found
 
 
-def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
+def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
     """Step a world, and record the watched bodies (and contacts) after every so many steps.
 
     The watched bodies are read one by one, not through the world, whose own list may be wrong.
@@ -281,11 +301,11 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
     frames: list[list[float]] = []
     contacts: list[list[ContactRow]] = []
     counter = OpcodeCounter(OURS) if request.priced else None
-    camera.expect(request.steps)
+    recorder.expect(request.steps)
     with counter or nullcontext():
         for number in range(1, request.steps + 1):
             world.step(request.dt)
-            camera.record(number * request.dt, number)
+            recorder.record(number * request.dt, number)
             if number % request.every:
                 continue
             row: list[float] = []
@@ -321,4 +341,6 @@ def contact_row(subject: Subject, contact: Any) -> ContactRow:
     )
 
 
-OURS = codes_of(film, subjects, sys.modules[__name__])  # what reads a world, beside what steps it
+OURS = codes_of(
+    recorders, subjects, sys.modules[__name__]
+)  # what reads a world, beside what steps it

@@ -75,6 +75,7 @@ class ScriptedClock:
                 "update": self._ending_frames(pygame.display.update),
             },
             datetime: {"datetime": self._datetime_type()},
+            pygame.event: {"wait": self._wait_for_event},
             time: {"sleep": lambda seconds: self.sleep(seconds * 1000)},
         }
         for name in ("time", "monotonic", "perf_counter", "process_time"):
@@ -95,7 +96,13 @@ class ScriptedClock:
             def now(cls, tz: datetime.tzinfo | None = None) -> "ScriptedDatetime":
                 return cls.fromtimestamp(clock.read() / 1000, tz)
 
-            today = utcnow = now
+            @classmethod
+            def today(cls) -> "ScriptedDatetime":
+                return cls.now()
+
+            @classmethod
+            def utcnow(cls) -> "ScriptedDatetime":
+                return cls.now()
 
         return ScriptedDatetime
 
@@ -116,6 +123,10 @@ class ScriptedClock:
         if self.reads > BUSY_READS:
             self.now += 0.1
         return self.now
+
+    def pass_time(self, milliseconds: float) -> None:
+        """Let the program's work take some time."""
+        self.now += milliseconds
 
     def sleep(self, milliseconds: float) -> None:
         """Let time pass; a negative length counts as 0."""
@@ -149,6 +160,15 @@ class ScriptedClock:
         """pygame.time.wait and delay."""
         self.sleep(milliseconds)
         return int(milliseconds)
+
+    def _wait_for_event(self, timeout: float = 0) -> pygame.event.Event:
+        """pygame.event.wait, in which frames go by until there is an event."""
+        began = self.now
+        while not pygame.event.peek():
+            if timeout and self.now - began >= timeout:
+                return pygame.event.Event(pygame.NOEVENT)
+            self.end_frame()
+        return pygame.event.poll()
 
     def _clock_type(self) -> type:
         """pygame's Clock, tied to this script. A class, for programs may inherit from it."""

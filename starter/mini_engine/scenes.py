@@ -11,7 +11,7 @@ GREY = (84, 90, 104)
 def ball(rng, pos):
     """A ball of random size and colour at pos; rng is a random.Random."""
     radius = rng.randint(10, 22)
-    color = (rng.randint(90, 240), rng.randint(90, 240), rng.randint(90, 240))
+    color = (rng.randint(90, 255), rng.randint(90, 255), rng.randint(90, 255))
     mass = radius**2 / 100  # kg
     return Body(Circle(radius), pos, mass, restitution=0.4, friction=0.6, color=color)
 

@@ -4,22 +4,22 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from grader.bench.greedy import (
+from greedy import (
     CLASS,
     GREEDY,
     MOST_CPU,
     MOST_MORE,
     compare,
-    least,
+    least_cpu,
     make_greedy,
 )
+
 from grader.protocol import Limits
 from grader.source.regions import python_files, read_source, regions_in
 
 pytestmark = pytest.mark.skipif(
     not sys.platform.startswith("linux"),
-    reason="processor time of all descendants is told by Linux",
+    reason="only Linux tells the processor time of all descendants",
 )
 
 
@@ -46,4 +46,4 @@ def test_the_others_of_a_class_pay_a_tenth_more_at_most():
             assert max(each.points for each in costs) <= 5
         else:
             assert {each.points for each in costs} == {100}
-            assert least(costs) <= MOST_MORE * least(without[name])
+            assert least_cpu(costs) <= MOST_MORE * least_cpu(without[name])

@@ -18,8 +18,9 @@ from check_jsonschema.builtin_schemas import get_builtin_schema
 from jsonschema.validators import validator_for
 from ruamel.yaml import YAML
 
-from grader.bank.members import patch
-from grader.cli.main import finish
+from grader.bank.members import make_mistake
+from grader.cli.main import Output, finish
+from grader.errors import Stop
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
 from grader.release.build import build
@@ -204,7 +205,7 @@ def test_the_starter_is_red_and_nothing_is_held_against_it(tmp_path: Path):
 
 def test_a_mistake_is_annotated_on_its_line(tmp_path: Path):
     checkout = with_integrators(checkout_of("starter", tmp_path))
-    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
+    make_mistake("8c-equal-weights", checkout)
     run = in_agreement(run_workflow(checkout, tmp_path / "runner"))
     assert run.status == 1
     ((kind, held, message),) = run.annotations
@@ -231,7 +232,7 @@ def test_the_release_runs_its_own_workflow(tmp_path: Path):
     solution = in_agreement(run_workflow(tree, tmp_path / "solution", python))
     assert solution.status == 0 and solution.outputs["points"] == starter.outputs["max-points"]
     shutil.rmtree(tree / "report")
-    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", tree)
+    make_mistake("8c-equal-weights", tree)
     wrong = in_agreement(run_workflow(tree, tmp_path / "wrong", python))
     assert wrong.status == 1 and len(wrong.annotations) == 1
 
@@ -356,7 +357,7 @@ def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
 
 def test_a_folder_of_the_repository_is_named_in_the_annotations(tmp_path: Path):
     checkout = checkout_of("solution", tmp_path)
-    patch(KIT / "tests" / "bank" / "wrong" / "8c-equal-weights.py", checkout)
+    make_mistake("8c-equal-weights", checkout)
     done = grade(
         *(checkout, "--ci", tmp_path / "report", "--todo", "8c"),
         GITHUB_ACTIONS="true",
@@ -373,9 +374,9 @@ def test_a_folder_of_the_repository_is_named_in_the_annotations(tmp_path: Path):
 def test_the_course_says_from_how_many_points_on_a_run_is_green(
     points: int, at_least: int | None, status: int
 ):
-    with pytest.raises(typer.Exit) as ended:
-        finish(Result(1, "ann", points, 100, 0, [], []), None, None, at_least)
-    assert ended.value.exit_code == status
+    with pytest.raises((typer.Exit, Stop)) as ended:
+        finish(Result(1, "ann", points, 100, 0, [], []), Output(at_least=at_least))
+    assert getattr(ended.value, "exit_code", Stop.status) == status
 
 
 def test_the_policy_is_an_option_of_grade():

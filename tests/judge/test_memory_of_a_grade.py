@@ -14,8 +14,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
+from greedy import make_greedy
 
-from grader.bench.greedy import make_greedy
 from grader.judge.grade import KIT
 
 GROUPS = Path("/sys/fs/cgroup")

@@ -139,16 +139,66 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
     }
 
 
-def test_a_todo_is_not_blamed_for_what_given_code_does(hand_in):
+def passed(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
+    """The checks of a TODO, all of which have passed, that say something all the same."""
+    options = Options(reference=reference, only=frozenset({todo}), trusted=True)
+    (result,) = grade(tree, options, shared_worker()).todos
+    assert result.state == "passed" and result.points == result.max_points
+    return [check for check in result.checks if check.meaning]
+
+
+def test_a_todo_keeps_its_points_where_given_code_is_to_blame(hand_in):
     tree = hand_in("solution")
     change(tree, *DOUBLED)
     change(tree, CONSTANTS, "MAX_BALLS = 40", "MAX_BALLS = 50")  # this does nothing here
-    failed = told(tree, "4")["4"]
-    assert len(failed) >= 4
-    for each in failed:
-        assert "`c.jn += total`, was `c.jn = total`" in each["Meaning"]
-        assert "check --restore solve_normal" in each["Meaning"] and "50" not in each["Meaning"]
-        assert each["Look at"] == "mini_engine/solver.py:69"
+    mended = passed(tree, "4")
+    assert len(mended) >= 4
+    for each in mended:
+        assert "`c.jn += total`, was `c.jn = total`" in each.meaning
+        assert "check --restore solve_normal" in each.meaning and "50" not in each.meaning
+        assert (each.where.file, each.where.line) == (SOLVER, 69)
+
+
+BODY = "mini_engine/body.py"
+
+
+def test_changed_given_code_costs_the_whole_alone(hand_in):
+    tree = hand_in("solution")
+    change(tree, BODY, "1 / (0.5 * mass * shape", "1 / (mass * shape")  # a ring
+    only = frozenset({"2", "4", "whole"})
+    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
+    assert {todo.id: todo.points < todo.max_points for todo in result.todos} == {
+        "2": False,
+        "4": False,
+        "whole": True,
+    }
+    whole = next(todo for todo in result.todos if todo.id == "whole")
+    assert all("check --restore" in check.meaning for check in whole.failed)
+    assert all(check.where.file == BODY for check in whole.failed)
+
+
+def test_an_import_that_is_not_allowed_costs_the_whole_alone(hand_in):
+    tree = hand_in("solution")
+    change(tree, SOLVER, "import math\n", "import math\nimport scipy\n")
+    only = frozenset({"2", "8a", "whole"})
+    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
+    assert {todo.id for todo in result.todos if todo.state == "passed"} == {"2", "8a"}
+    whole = next(todo for todo in result.todos if todo.id == "whole")
+    assert all("`import scipy`, was not there" in each.meaning for each in whole.failed)
+    assert whole.points <= 3  # of the other program
+
+
+def test_a_todo_that_is_done_in_given_code_earns_nothing_by_what_is_put_back(hand_in):
+    """The region does nothing, and the damping of the step is in the code around it."""
+    tree = hand_in("solution")
+    world = "mini_engine/world.py"
+    text = (tree / world).read_text(encoding="utf-8")
+    empty = "        keep_vel = 1.0 + 0.0\n        keep_omega = 1.0 - 0.0".splitlines()
+    (tree / world).write_text(replaced(text, {"5": tuple(empty)}), encoding="utf-8")
+    change(tree, world, "        self.move(dt)\n", "        self.move(dt * 1.01)\n")
+    only = frozenset({"5"})
+    (todo,) = grade(tree, Options(shipped_reference(), only=only), shared_worker()).todos
+    assert todo.points == 0
 
 
 EULER = "return x + v * dt, v + accel(x) * dt"
@@ -166,9 +216,9 @@ def integrators(tree: Path, region: str, given: str) -> None:
 def test_an_instructor_reads_the_same(hand_in):
     tree = hand_in("solution")
     integrators(tree, RIGHT, "return x + v * dt, v - accel(x) * dt")
-    failed = told(tree, "8a", reference=shipped_reference())["8a"]
     words = "check --restore explicit_euler puts it back, and this passes"
-    assert failed and all(words in each["Meaning"] for each in failed)
+    mended = passed(tree, "8a", reference=shipped_reference())
+    assert mended and all(words in each.meaning for each in mended)
 
 
 def test_a_mistake_beside_changed_given_code_is_told_as_well(hand_in):
@@ -194,8 +244,8 @@ def test_given_code_that_has_nothing_to_do_with_it_is_not_named(hand_in):
 def test_an_import_that_went_away_is_told_where_nothing_runs(hand_in):
     tree = hand_in("solution")
     change(tree, "mini_engine/joints.py", "from .constants import BETA\n", "")
-    failed = told(tree, "3")["3"]
-    assert failed and all("`from .constants import BETA` is gone" in e["Meaning"] for e in failed)
+    mended = passed(tree, "3")
+    assert mended and all("`from .constants import BETA` is gone" in e.meaning for e in mended)
 
 
 def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
@@ -218,6 +268,7 @@ def test_many_changes_and_many_failures_are_asked_again_so_often_and_no_more():
     blame = Blame(five, lambda undone: undone, again)
     blame.look_into(failed)
     assert blame.asked == MOST_ASKED and blame.found.keys() == failed.keys()
+    assert blame.seen.keys() == failed.keys()
     assert all(each.mended and each.changes == tuple(five) for each in blame.found.values())
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.source.regions import RegionError, regions_in, replaced, shape_of
+from grader.source.regions import RegionError, read_regions, regions_in, replaced, shape_of
 
 TEXT = """def f():
     # TODO 4: clamp
@@ -31,6 +31,27 @@ def test_a_region_is_found_with_its_task_and_lines():
 def test_markers_that_do_not_pair_up_are_refused(text: str):
     with pytest.raises(RegionError):
         regions_in(text)
+
+
+@pytest.mark.parametrize(
+    "marker",
+    ["# TODO 8E: x", "# TODO b1: x", "#TODO 4: x", "# TODO4: x", "# END TODO 4x4", "# ENDTODO 4"],
+)
+def test_a_marker_that_is_written_otherwise_is_an_error_with_its_line(marker: str):
+    with pytest.raises(RegionError, match=r"solver\.py:6: .* is no marker"):
+        regions_in(f"{TEXT}    {marker}\n", "solver.py")
+    ids = {region.id for region in read_regions(f"{TEXT}    {marker}\n")[0]}
+    assert ids == {"4"}  # of a student's file the others count
+
+
+@pytest.mark.parametrize("id", ["8e", "12", "10b", "B10"])
+def test_an_id_is_a_number_with_a_letter_or_a_bonus_number(id: str):
+    assert [each.id for each in regions_in(f"# TODO {id}: x\n# END TODO {id}\n")] == [id]
+
+
+@pytest.mark.parametrize("line", ["# TODO: tidy", "# TODO 4 is done", "x = 1  # TODO 5: later"])
+def test_a_comment_is_no_marker(line: str):
+    assert len(regions_in(f"{TEXT}    {line}\n")) == 1
 
 
 def test_a_region_can_be_replaced_and_the_rest_stays():

@@ -9,8 +9,11 @@ from conftest import HandIn
 
 from grader.bank.verify import shared_worker
 from grader.judge.failures import REMEMBERS
-from grader.judge.grade import Options, grade, shipped_reference, untouched, with_memory
+from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.meaning import Evidence, explain
 from grader.judge.result import CheckResult
+from grader.judge.rubric import load_rubric
+from grader.source.definitions import Program
 from grader.worker.memory import Memory
 
 KEEPER = """
@@ -105,8 +108,30 @@ def test_what_a_call_may_not_change_is_nothing_that_is_remembered(hand_in: HandI
     assert failed and not any(REMEMBERS in check.meaning for check in failed)
 
 
-def test_what_given_code_keeps_is_nobodys_mistake():
-    assert untouched() >= {"lab_runtime.py"} and "integrators.py" not in untouched()
+PROGRAM = """
+memo, other = {}, {}
+
+def helper(x):
+    return memo.setdefault(x, x)
+
+def stranger(x):
+    other[x] = x
+
+class World:
+    table = []
+    def grow(self, dt):
+        self.widen(dt)
+        return helper(dt)
+    def widen(self, dt):
+        World.table.append(dt)
+"""
+
+
+def test_only_what_the_code_of_a_todo_runs_is_named():
+    used = Program({Path("engine.py"): PROGRAM}).names_used("engine", "World.grow")
+    assert used >= {"memo", "helper", "table", "widen", "grow"}
+    assert not used & {"other", "stranger"}
+    evidence = Evidence(load_rubric().todos[0], kept={"id": ["engine.memo"]})
     failed = CheckResult("id", "title", "unit", "not yet", 0, 1, meaning="So.")
-    assert with_memory(failed, ["lab_runtime.frames_left"]) == failed
-    assert "in last:" in with_memory(failed, ["integrators.last"]).meaning
+    (told,) = explain(evidence, [failed], {"id"})
+    assert told.meaning.startswith("So. ") and "in memo:" in told.meaning

@@ -230,7 +230,7 @@ def regions(size: Size, share: float) -> Iterator[Pair]:
         yield sx * (hx - least / 2), sy * (hy - 39 / 64 * least)
         for across, down in (
             (5 / 8, 3 / 4 * share),
-            (CLOSE, 0.5),
+            (CLOSE, 1 / 2),
             (3 / 4, 3 / 4),
             (3 / 8, 5 / 8),
         ):

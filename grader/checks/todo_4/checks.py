@@ -267,7 +267,8 @@ def any_two_bodies_rub_within_their_limit(
     for n, (kind, weight) in enumerate(product(KINDS, WEIGHTS)):
         normal = nearly if n == 4 else NORMALS[n % 7]
         mass_a, mass_b = (weight * m * each for m, each in zip(mass, kind, strict=True))
-        discs = Discs((mu, mu[::-1], (1.5, 3.0))[n % 3], (mass_a, mass_b), normal, radius, drift)
+        rough = (mu, (mu[1], mu[0]), (1.5, 3.0))[n % 3]
+        discs = Discs(rough, (mass_a, mass_b), normal, radius, drift)
         if n % 2:
             discs = discs._replace(drift=(slow, -slow))
         for number, slip in enumerate(slips(discs, closing)):

@@ -231,11 +231,10 @@ def damping_keeps_the_direction_and_leaves_statics_alone(
             may = {world: "contacts", **changes}
             lab.tell(world, "step", step, changes=may, sees=[*may, still])
             keep = exact.damped(linear, step), exact.damped(angular, step)
+            times = 1 + max(linear, angular) * step  # the exponent is rounded as well
             meant = [stepped(each, pull, keep, step) for each in meant]
             for ball, right in zip(balls, meant, strict=True):
-                want_moment(
-                    lab, moment(lab.state(ball)), right, step, 1 + max(linear, angular) * step
-                )
+                want_moment(lab, moment(lab.state(ball)), right, step, times)
             meant = [moment(lab.state(ball)) for ball in balls]
     want_unmoved(lab, still, belt)
 

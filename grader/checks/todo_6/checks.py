@@ -3,8 +3,10 @@
 import re
 
 from grader.checks.pacing import (
+    LONGEST_UNCUT,
     MAX_STEPS,
     STEP_MS,
+    STEP_TAKES,
     Pace,
     ever_longer_frames,
     fixed,
@@ -22,6 +24,7 @@ from grader.checks.strategies import (
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
+STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
 
 
@@ -36,8 +39,11 @@ def paced_with_a_hiccup(lab: Lab, seconds: int) -> Pace:
 def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     """As much is simulated at 30, 60 and 144 frames a second"""
     seconds = 0.3 + lab.whole(0, 3) / 30
-    lab.ran(f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second")
-    paces = {rate: pace(lab, frames_at(rate, seconds)) for rate in (30, 60, 144)}
+    lab.ran(
+        f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second, where each step "
+        f"takes {STEP_TAKES} ms"
+    )
+    paces = {rate: pace(lab, frames_at(rate, seconds), STEP_TAKES) for rate in (30, 60, 144)}
     # Up to one step, and up to what a program has not seen yet that is a frame behind.
     lab.want(
         all(-STEP_MS - p.waiting <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
@@ -83,6 +89,22 @@ def a_slow_frame_runs_eight_steps(lab: Lab) -> None:
         MAX_STEPS - 1 <= most <= MAX_STEPS,
         f"{MAX_STEPS} steps for the slow frame, and fewer for all others",
         f"{most} in the frame with the most of them",
+    )
+    want_eight_in_turn(lab)
+
+
+def want_eight_in_turn(lab: Lab) -> None:
+    """Frames just below the cap lose next to nothing: they owe nearly eight steps each.
+
+    A program that cuts its accumulator instead of the frame may lose a part of a step.
+    """
+    frames = [LONGEST_UNCUT - abs(lab.whole(0, 2))] * STEADY
+    lab.ran(f"the lab scene with {STEADY} frames of {frames[0]} ms")
+    paced = pace(lab, frames)
+    lab.want(
+        sum(paced.steps) >= LEAST_IN_TURN * STEADY,
+        f"{paced.time / STEP_MS:.0f} steps, 8 in most frames",
+        f"{sum(paced.steps)} steps, up to {max(paced.steps)} in a frame",
     )
 
 

@@ -25,6 +25,7 @@ AFTER_A_HIT, AFTER_A_SPIN = "after the hit", "when a ball that spins has touched
 ANOTHER_HIT = "when another one is hit, far away"
 FLOOR_GONE, CARRIED_AWAY = "when its floor is gone", "when the ball below is gone"
 ONE_OF_TWO_GONE = "when one of the two boxes it lies on is gone"
+IN_TURN = "after its neighbours have come to rest one after another, and 3 s"
 CHEAP = "a pile that sleeps costs next to nothing"
 
 STEPS = (1 / 60, 1 / 120, 1 / 165, 1 / 480)  # s, steps in which gravity adds 2 to 16 px/s
@@ -236,8 +237,22 @@ def stay_awake(lab: Lab, world: Thing, body: Thing, why: str) -> None:
 def a_sleeper_wakes_when_it_is_hit_or_loses_its_support(lab: Lab) -> None:
     """A sleeper wakes when a moving body hits it, and when what it lies on goes away"""
     a_hit_wakes(lab)
+    what_comes_to_rest_in_turn_sleeps(lab)
     what_has_lost_its_support_falls(lab)
     going_to_sleep_changes_nothing_else(lab)
+
+
+def what_comes_to_rest_in_turn_sleeps(lab: Lab) -> None:
+    """A neighbour that lies still is not moving, though it is awake."""
+    lab.ran("three balls that lie side by side; the second comes 0.3 s after the first, and so on")
+    row = [ball(lab, 2 * RADIUS * number - 0.1 * number) for number in range(3)]
+    world = room(lab, floor(lab), row[0])
+    for late in row[1:]:
+        run(lab, world, lab.about(0.3, 0.1))
+        lab.tell(world, "add", late)
+    run(lab, world, 3.0)
+    for each in row:
+        want(lab, True, each, IN_TURN)
 
 
 def a_hit_wakes(lab: Lab) -> None:

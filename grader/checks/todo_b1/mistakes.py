@@ -16,6 +16,7 @@ from grader.checks.todo_b1.checks import (
     CREEPING,
     FLOOR_GONE,
     FLYING,
+    IN_TURN,
     LONG_AT_REST,
     ON_A_ROD,
     ON_A_SPRING,
@@ -28,7 +29,7 @@ from grader.judge.misconceptions import Undecided, mistake, truth
 HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
 HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
 AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
-ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, CHEAP)
+ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, IN_TURN, CHEAP)
 RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
 truth("sleep", RIGHT.__getitem__)
@@ -91,4 +92,10 @@ known(
     "stands-still-without-sleeping",
     "The body stands still but is computed on: fall_asleep() makes it static for the while.",
     wrong_at(CHEAP, unsure=(*HIT, *LEFT)),
+)
+known(
+    "an-awake-neighbour-wakes",
+    "A neighbour that is awake wakes it, though it lies still: a pile in which bodies come to rest "
+    "one after another never sleeps. Only a body that moves wakes another one.",
+    wrong_at(IN_TURN),
 )

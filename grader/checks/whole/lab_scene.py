@@ -1,11 +1,12 @@
 """The lab scene as the lesson describes it, part by part, for the mini engine and for pymunk.
 
-The lesson draws each ball's colour after its radius and says no more of colours. So of the radii
-that come from a random.Random only the first is known.
+A ball's colour is drawn after its radius, in whatever way. So of the radii that come from a
+random.Random only the first is known.
 """
 
 import math
 import random
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from grader.judge.decode import Pair
@@ -14,6 +15,9 @@ from grader.protocol import BodyValue, Played, Rng, SpaceBody, SpaceValue
 
 SEED = 12
 RADII = range(10, 23)  # px
+
+
+Bounds = tuple[float, float, float, float]  # left, least y, right, largest y; px
 
 
 class Part(NamedTuple):
@@ -44,6 +48,18 @@ FIXED = [
     Part(HOOK, (6,)),
 ]
 BOB = Part((840, 90), (24,), 6, 0.2)
+LEFT, TOP, RIGHT, BOTTOM = range(4)  # of Bounds; y grows down
+FAR, ROUND = 10_000.0, 10.0  # px
+FACES = {  # where the sides of a segment are that stands for a box, px
+    FIXED[0]: {TOP: (557, 563), LEFT: (-FAR, 3), RIGHT: (897, FAR)},
+    FIXED[1]: {RIGHT: (-3, 3), TOP: (-FAR, 3), BOTTOM: (557, FAR)},
+    FIXED[2]: {LEFT: (897, 903), TOP: (-FAR, 3), BOTTOM: (557, FAR)},
+    FIXED[3]: {
+        TOP: (247, 253),
+        LEFT: (50 - ROUND, 50 + ROUND),
+        RIGHT: (350 - ROUND, 350 + ROUND),
+    },
+}
 STACK = [
     Part((760, 542 - 36 * level), (25, 18), 1.8, 0.1, 0.7, 1.8 * (50**2 + 36**2) / 12)
     for level in range(4)
@@ -60,7 +76,7 @@ def turning_as_a_disc(part: Part) -> Part:
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
 
 
-def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int = SEED) -> None:
+def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> None:
     """Insist on these parts, on eight balls drawn by this seed, and on nothing else."""
     first = random.Random(seed).randint(10, 22)  # px
     for part in expected:
@@ -101,14 +117,14 @@ def want_part(lab: Lab, found: list[Part], part: Part) -> None:
 NUMBERS = ("mass", "restitution", "friction", "moment")
 
 
-def close(first: Pair, second: Pair) -> bool:
+def close(first: Sequence[float], second: Sequence[float]) -> bool:
     return math.dist(first, second) <= 1e-6
 
 
 # ---------------------------------------------------------------- what the submission has
 
 
-def world_parts(lab: Lab, seed: int = SEED) -> list[Part]:
+def world_parts(lab: Lab, seed: int) -> list[Part]:
     """The bodies that make_world(random.Random(12)) puts into the mini engine's world."""
     world = lab.thing(lab.call("make_world", Rng(seed)), "a World")
     bodies = lab.items(lab.get(world, "bodies"), "the bodies of the scene")
@@ -130,7 +146,7 @@ def body_part(lab: Lab, body: BodyValue) -> Part:
     )
 
 
-def pymunk_scene(lab: Lab, seed: int = SEED) -> tuple[SpaceValue, list[Thing]]:
+def pymunk_scene(lab: Lab, seed: int) -> tuple[SpaceValue, list[Thing]]:
     """The space that make_space(random.Random(12)) returns, and the boxes of its stack."""
     items = lab.items(lab.call("make_space", Rng(seed)), "what make_space returns")
     lab.want(len(items) == 2, "make_space to return (space, stack)", f"{len(items)} things")
@@ -139,21 +155,43 @@ def pymunk_scene(lab: Lab, seed: int = SEED) -> tuple[SpaceValue, list[Thing]]:
 
 
 def space_parts(space: SpaceValue) -> list[Part]:
-    """Each moving body with its shape, and each static shape."""
-    return [part for body in space.bodies for part in shapes_of(body)]
+    """Return each moving body with its shape, and each static shape but a disc at the hook."""
+    parts = [part for body in space.bodies for part in shapes_of(body)]
+    return [part for part in parts if part.mass or not close(part.pos, HOOK)]
 
 
 def shapes_of(body: SpaceBody) -> list[Part]:
     parts = []
     for shape in body.shapes:
         left, low, right, high = shape.box
-        size = (shape.radius,) if shape.kind == "Circle" else ((right - left) / 2, (high - low) / 2)
+        place: Pair = ((left + right) / 2, (low + high) / 2)
+        size: tuple[float, ...] = ((right - left) / 2, (high - low) / 2)
         rest = (shape.elasticity, shape.friction, body.moment)
-        parts.append(Part(((left + right) / 2, (low + high) / 2), size, body.mass, *rest))
+        if shape.kind == "Circle":
+            size = (shape.radius,)
+        elif shape.radius and not body.mass:  # a segment, or a polygon with a rim
+            place, size = as_box(shape.box) or (place, size)
+        parts.append(Part(place, size, body.mass, *rest))
     return parts
 
 
+def as_box(bounds: Bounds) -> tuple[Pair, tuple[float, ...]] | None:
+    """Return place and half extents of the lesson's box that a segment stands for, or None.
+
+    A segment may be as thick as it likes, and rounded, if what balls meet is where the box has it.
+    """
+    for part, faces in FACES.items():
+        if all(low <= bounds[side] <= high for side, (low, high) in faces.items()):
+            return part.pos, part.shape
+    return None
+
+
 def moving_parts(played: Played) -> set[tuple[float, ...]]:
-    """Place, size and mass of what can move when a program of the mini engine ends."""
+    """Return place, size and mass of all that can move when a program of the mini engine ends."""
     bodies = [body for body in played.bodies if isinstance(body, BodyValue)]
     return {(*body.pos, body.radius, 1 / body.inv_mass) for body in bodies if body.inv_mass}
+
+
+def is_a_ball(size: float, mass: float) -> bool:
+    """Return whether some random number gives a ball of this radius and mass."""
+    return size in RADII and math.isclose(mass, size**2 / 100, rel_tol=1e-6)

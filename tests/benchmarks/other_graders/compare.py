@@ -25,7 +25,6 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from grader.bench.classes import megabytes
 from grader.judge.grade import KIT
 
 HERE = Path(__file__).parent
@@ -246,6 +245,15 @@ def pace() -> float:
 
 
 took: list[float] = []  # s of processor time, of every loop so far
+
+
+def megabytes(process: psutil.Process) -> float:
+    """Return the memory of a process and of all it has started."""
+    try:
+        family = [process, *process.children(recursive=True)]
+        return sum(each.memory_info().rss for each in family) / 1e6
+    except psutil.Error:
+        return 0.0
 
 
 def used_by(process: psutil.Process) -> float:

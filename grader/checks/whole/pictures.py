@@ -1,0 +1,195 @@
+"""What the window shows at a few moments: every disc where it is, its spoke, and nothing else.
+
+A program may draw as it likes, and with what colours it likes. So a pixel is compared with the same
+one of another moment: where a disc is, it differs from the one where nothing is. The picture may
+be a frame late, or between two steps.
+"""
+
+import math
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from grader.checks.whole.lab_scene import HOOK
+from grader.checks.whole.movers import Mover
+from grader.judge.decode import Pair
+from grader.judge.lab import Lab
+from grader.protocol import Photo, Played
+
+SIZE = (900, 600)  # px
+LATE = 8  # steps: how old what a picture shows may be
+APART = 16  # of 255: colours that differ by more in a channel are different
+MARGIN = 6.0  # px around a disc or a rod
+TEXT, FLOOR = 58, 558  # px: above and below there may be text
+SHOWN = 0.25  # share of the points of a disc that differ from the background
+CLEARED = 0.9  # share of the points where discs have been
+TURNED = 0.4  # rad
+SPOKE = 2  # samples of a ring in which two pictures of a spoke differ
+SAMPLES = 48  # of a ring
+
+
+@dataclass
+class Disc:
+    """A disc at one moment."""
+
+    place: Pair
+    radius: float
+    angle: float
+    is_bob: bool
+
+    def ring(self, share: float, count: int) -> list[Pair]:
+        """Return points around its centre at a share of its radius."""
+        x, y = self.place
+        turns = (2 * math.pi * number / count for number in range(count))
+        reach = share * self.radius
+        return [(x + reach * math.cos(turn), y + reach * math.sin(turn)) for turn in turns]
+
+    def is_near(self, point: Pair) -> bool:
+        """Return whether it, or the rod it hangs on, may have coloured a point."""
+        if math.dist(point, self.place) <= self.radius + MARGIN:
+            return True
+        return self.is_bob and from_line(point, HOOK, self.place) <= MARGIN
+
+
+class Picture:
+    """A photo of the window, and the discs in the steps that it may show."""
+
+    def __init__(self, photo: Photo, moments: list[list[Disc]]) -> None:
+        self.colours = decompressed(photo)
+        self.moments = moments
+        self.discs = moments[-1]  # until it is known which of them it shows
+
+    def __getitem__(self, point: Pair) -> tuple[int, ...]:
+        """Return the colour at a point."""
+        start = 3 * (SIZE[0] * round(point[1]) + round(point[0]))
+        return tuple(self.colours[start : start + 3])
+
+    def is_free(self, point: Pair) -> bool:
+        """Return whether nothing that moves is near a point."""
+        return not any(disc.is_near(point) for discs in self.moments for disc in discs)
+
+
+def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Sequence[int]) -> None:
+    """Insist that the window shows at the end of these frames what the program has simulated."""
+    photos = [each for each in played.photos if decompressed(each)]
+    lab.want(
+        [each.frame for each in photos] == list(frames),
+        "a window of 900 x 600 px that shows a new picture in each frame",
+        f"{len(photos)} such pictures in {len(frames)} frames",
+    )
+    shown = [Picture(each, moments_of(played, movers, each.frame)) for each in photos]
+    for picture in shown:
+        want_discs_where_they_are(lab, picture, [each for each in shown if each is not picture])
+    want_a_cleared_window(lab, movers, shown[0], shown[-1])
+    want_turning_spokes(lab, shown)
+
+
+def decompressed(photo: Photo) -> bytes:
+    """Return the colours of a photo, or nothing where it is not one of the whole window."""
+    length = 3 * SIZE[0] * SIZE[1]
+    if (photo.width, photo.height) != SIZE:
+        return b""
+    try:
+        colours = zlib.decompressobj().decompress(photo.colours, length)
+    except zlib.error:
+        return b""
+    return colours if len(colours) == length else b""
+
+
+def moments_of(played: Played, movers: Sequence[Mover], frame: int) -> list[list[Disc]]:
+    """Return the discs in each step that a picture at the end of a frame may show."""
+    last = sum(played.steps[: frame + 1])
+    return [
+        [
+            Disc((m.trail[step].x, m.trail[step].y), m.radius, m.trail[step].angle, m.is_bob)
+            for m in movers
+        ]
+        for step in range(max(last - 1 - LATE, 0), last)
+    ]
+
+
+def want_discs_where_they_are(lab: Lab, picture: Picture, others: list[Picture]) -> None:
+    """Insist that all discs are shown in one of the steps that the picture may be of."""
+    hidden = [
+        [disc for disc in discs if not is_shown(disc, picture, others)] for discs in picture.moments
+    ]
+    least = min(hidden, key=len)
+    picture.discs = picture.moments[hidden.index(least)]
+    lab.want(
+        not least,
+        "a picture with every ball where it is",
+        f"{len(least)} that cannot be seen, one of them at "
+        f"({least[0].place[0]:.0f}, {least[0].place[1]:.0f})"
+        if least
+        else "",
+    )
+
+
+def is_shown(disc: Disc, picture: Picture, others: list[Picture]) -> bool:
+    """Return whether a disc is seen, or cannot be told from what is near it."""
+    points = [each for each in (*disc.ring(0.55, 12), *disc.ring(0.9, 12)) if is_clear(each)]
+    known = [
+        differ(picture[point], other[point])
+        for point in points
+        for other in [each for each in others if each.is_free(point)][:1]
+    ]
+    return not known or sum(known) >= SHOWN * len(known)
+
+
+def want_a_cleared_window(lab: Lab, movers: Sequence[Mover], first: Picture, last: Picture) -> None:
+    """Insist that nothing is left of the discs where they have been."""
+    points = [
+        (moment.x, moment.y)
+        for mover in movers
+        for moment in mover.trail[::6]
+        if is_clear((moment.x, moment.y))
+    ]
+    known = [each for each in points if first.is_free(each) and last.is_free(each)]
+    left = [each for each in known if differ(first[each], last[each])]
+    lab.want(
+        len(left) <= (1 - CLEARED) * len(known),
+        "a window that is cleared in each frame",
+        f"traces of the balls, for instance at ({left[0][0]:.0f}, {left[0][1]:.0f})"
+        if left
+        else "",
+    )
+
+
+def want_turning_spokes(lab: Lab, shown: list[Picture]) -> None:
+    """Insist on a disc that looks different once it has turned."""
+    both = [pair for one, other in pairwise(shown) for pair in turned(one, other)]
+    lab.want(bool(both), "balls that turn", "none that has turned")
+    lab.want(
+        any(sum(map(differ, *each)) >= SPOKE for each in both),
+        "a spoke on each ball that shows how it turns",
+        "balls that look the same however they turn",
+    )
+
+
+def turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]], ...]]:
+    """Give the rings of each disc that has turned from one picture to the other."""
+    for before, after in zip(one.discs, other.discs, strict=True):
+        angle = (after.angle - before.angle) % (2 * math.pi)
+        rings = before.ring(0.6, SAMPLES), after.ring(0.6, SAMPLES)
+        if TURNED < angle < 2 * math.pi - TURNED and all(map(is_clear, (*rings[0], *rings[1]))):
+            yield [one[point] for point in rings[0]], [other[point] for point in rings[1]]
+
+
+def is_clear(point: Pair) -> bool:
+    """Return whether a point is in the window, and text is not expected there."""
+    return 1 < point[0] < SIZE[0] - 2 and TEXT < point[1] < FLOOR
+
+
+def differ(one: Sequence[int], other: Sequence[int]) -> bool:
+    return any(abs(a - b) > APART for a, b in zip(one, other, strict=True))
+
+
+def from_line(point: Pair, start: Pair, end: Pair) -> float:
+    """Return the distance of a point from a line between two others, px."""
+    along = end[0] - start[0], end[1] - start[1]
+    from_start = point[0] - start[0], point[1] - start[1]
+    square = along[0] ** 2 + along[1] ** 2 or 1.0
+    share = (along[0] * from_start[0] + along[1] * from_start[1]) / square
+    share = min(max(share, 0.0), 1.0)
+    return math.dist(from_start, (share * along[0], share * along[1]))

@@ -1,0 +1,313 @@
+"""Puts something else in the place of the code that Python refuses, so that the rest can run.
+
+A file with one missing bracket is no Python at all, and neither is a program that imports it. So
+parts of it are replaced until it parses: TODO regions by what was handed out, one at a time and
+then several; other functions by the given ones; then all of the file but its regions. Lines keep
+their numbers wherever that is possible.
+"""
+
+import ast
+import re
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import combinations, islice, pairwise
+
+from grader.source.definitions import statements
+from grader.source.flaws import UNDECODED, Flaw, find_flaw
+from grader.source.given import given_pieces, pieces, with_regions
+from grader.source.regions import parsed, read_regions, regions_in, replaced
+
+MAX_READ = 4 * 1024 * 1024  # characters that are parsed to mend one submission
+MAX_FUNCTIONS = 200  # of a file that are looked at
+NEAREST = 8  # parts of a file that are replaced in pairs
+REFUSED = "\0"  # no file of Python may have one
+OUTSIDE = ""  # in the place of a TODO's id: the flaw is in no TODO
+
+MAIN = 'if __name__ == "__main__":'
+CLASS = re.compile(r"class[ \t]+(\w+)")
+DEF = re.compile(r"(?P<indent>[ \t]*)(?:async[ \t]+)?def[ \t]+(?P<name>\w+)")
+NEXT = re.compile(r"(?P<indent>[ \t]*)(?:async |def |class |@|if __name__|# (?:END )?TODO )")
+CLOSES = re.compile(r"[ \t]*[)\]}]")
+
+
+@dataclass(frozen=True)
+class HandedOut:
+    """What students were given: files by name, and stubs by the ids of TODOs.
+
+    `stubs` has the region of a TODO under its id, and the function around it under `def ID`.
+    `functions` has the path of each TODO's function, such as World.apply_damping.
+    """
+
+    files: Mapping[str, str]
+    stubs: Mapping[str, str]
+    functions: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Lines that can stand in the place of some lines of a file."""
+
+    start: int
+    stop: int
+    lines: tuple[str, ...]
+    todo: str = OUTSIDE  # whose code is replaced
+    invented: bool = False  # it was never handed out
+
+    def distance(self, line: int) -> tuple[bool, int]:
+        """Return how far its end is from a line; what begins behind that line is far."""
+        index = line - 1
+        return self.start > index, 0 if self.start <= index < self.stop else abs(index - self.stop)
+
+
+@dataclass(frozen=True)
+class Mended:
+    """A file's text that Python accepts, and what was wrong with it, by the ids of TODOs."""
+
+    text: str
+    flaws: Mapping[str, Flaw]
+
+
+@dataclass
+class Mender:
+    """Mends the files of one submission; it parses no more than MAX_READ characters for that."""
+
+    given: HandedOut
+    read: int = field(default=0, init=False)
+
+    def mend(self, flaw: Flaw, text: str) -> Mended | None:
+        """Return the file with as little replaced as possible; None where nothing helps."""
+        file = flaw.file
+        patches = [*self._patches(file, text), *line_patches(text, flaw)]
+        original = self.given.files.get(file)
+        if flaw.undecoded:
+            text = text.replace(UNDECODED, REFUSED)
+            mended = self._by_patches(text, flaw, [each for each in patches if each.todo], None)
+            if mended is None and self._flaw(plain := text.replace(REFUSED, "?")) is None:
+                mended = Mended(plain, {OUTSIDE: flaw})
+        else:
+            mended = self._by_patches(text, flaw, patches, original)
+        if mended is None and original is not None:
+            mended = self._by_given_file(text, flaw, original)
+        if mended is None:
+            return None
+        return Mended(mended.text, {todo: f.in_file(file) for todo, f in mended.flaws.items()})
+
+    def _by_given_file(self, text: str, flaw: Flaw, original: str) -> Mended | None:
+        """Keep only the regions; a TODO that has none any more is handed out anew."""
+        regions = {region.id: region.lines for region in read_regions(text)[0]}
+        base = replaced(original, regions)
+        lost = {region.id: flaw for region in regions_in(original) if region.id not in regions}
+        again = self._flaw(base)
+        if again is None:
+            return Mended(base, {OUTSIDE: flaw} | lost)
+        patches = [each for each in self._region_patches(base) if each.todo in regions]
+        mended = self._by_patches(base, again, patches, None)
+        if mended is None:
+            return None
+        moved = {todo: flaw_in(text, todo) or each for todo, each in mended.flaws.items()}
+        return Mended(mended.text, {OUTSIDE: flaw} | lost | moved)
+
+    def _by_patches(
+        self, text: str, flaw: Flaw, patches: list[Patch], original: str | None
+    ) -> Mended | None:
+        for chosen in choices(text, flaw, patches):
+            if self.read > MAX_READ:
+                break
+            mended = patched(text, chosen)
+            if self._flaw(mended) is not None or lacks_given(mended, chosen, original):
+                continue
+            flaws = {}
+            for each in chosen:
+                others = [other for other in chosen if other is not each]
+                left = self._flaw(patched(text, others)) if others else flaw
+                flaws[each.todo] = within(each, text, left or flaw)
+            return Mended(mended, flaws)
+        return None
+
+    def _flaw(self, text: str) -> Flaw | None:
+        self.read += len(text)
+        return find_flaw(text)
+
+    # ------------------------------------------------------------ what can be replaced
+
+    def _patches(self, file: str, text: str) -> Iterator[Patch]:
+        """Yield the parts of a file that can be replaced, regions first."""
+        yield from self._region_patches(text)
+        marked = {region.id for region in read_regions(text)[0]}
+        module = file.partition("/")[0].removesuffix(".py")
+        for path, start, stop in islice(functions_in(text.splitlines()), MAX_FUNCTIONS):
+            todo = next((t for t, p in self.given.functions.items() if p == f"{module}:{path}"), "")
+            lines = text.splitlines()[start:stop]
+            if todo and todo not in marked:
+                stub = ast.unparse(without_docstring(self.given.stubs[f"def {todo}"]))
+                yield Patch(start, stop, fitted(indented(stub, lines[0]), stop - start), todo)
+            elif (wanted := self._given_function(file, module, path, lines)) is not None:
+                yield Patch(start, stop, fitted(indented(wanted, lines[0]), stop - start))
+            else:
+                name = path.rpartition(".")[2]
+                refuses = f"def {name}(*_, **__): raise SyntaxError('{name} is no Python')"
+                new = fitted(indented(refuses, lines[0]), stop - start)
+                yield Patch(start, stop, new, invented=True)
+
+    def _region_patches(self, text: str) -> Iterator[Patch]:
+        lines = text.splitlines()
+        for region in read_regions(text)[0]:
+            if region.id in self.given.stubs and region.lines:
+                stub = one_line(self.given.stubs[region.id])
+                new = fitted(indented(stub, lines[region.start]), len(region.lines))
+                yield Patch(region.start + 1, region.stop, new, region.id)
+
+    def _given_function(
+        self, file: str, module: str, path: str, theirs: Sequence[str]
+    ) -> str | None:
+        """Return a given function with their regions in it; a single file has those of all."""
+        own = file in self.given.files
+        for name, text in self.given.files.items():
+            if name != file and (own or name.partition("/")[0] != module):
+                continue
+            piece = given_pieces(text).get(path)
+            if piece is not None and not piece.constant and not piece.whole_class:
+                lines = tuple(text.splitlines()[piece.start : piece.stop])
+                kept = with_regions(lines, [*theirs, ""])
+                return textwrap.dedent("\n".join(kept)) if kept else None
+        return None
+
+
+def choices(text: str, flaw: Flaw, patches: list[Patch]) -> Iterator[list[Patch]]:
+    """Yield which parts to replace together, the likely ones first."""
+    near = sorted(patches, key=lambda each: (each.todo == OUTSIDE, each.distance(flaw.line)))
+    lines = text.splitlines()
+    bad = [p for p in near if p.todo and is_no_code(lines[p.start : p.stop])]
+    if bad:
+        yield bad
+    yield from ([each] for each in near)
+    if bad:
+        yield from ([*bad, each] for each in near if each not in bad and apart([*bad, each]))
+    closest = [each for each in near if each.todo][:NEAREST]
+    yield from (list(pair) for pair in combinations(closest, 2) if apart(pair))
+    regions = [each for each in near if each.todo]
+    if len(regions) > 2 and apart(regions):
+        yield regions
+
+
+def is_no_code(lines: Sequence[str]) -> bool:
+    """Return whether lines do not even parse by themselves."""
+    text = textwrap.dedent("\n".join(lines))
+    return bool(text.strip()) and parsed(text) is None
+
+
+def apart(patches: Sequence[Patch]) -> bool:
+    """Return whether no patch reaches into another one."""
+    order = sorted(patches, key=lambda each: each.start)
+    return all(a.stop <= b.start for a, b in pairwise(order))
+
+
+def patched(text: str, patches: Sequence[Patch]) -> str:
+    lines = text.splitlines()
+    for each in sorted(patches, key=lambda patch: -patch.start):
+        lines[each.start : each.stop] = each.lines
+    return "\n".join(lines) + "\n"
+
+
+def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> bool:
+    """Return whether an invented function leaves a given file without some of its names."""
+    if original is None or not any(each.invented for each in chosen):
+        return False
+    return not given_pieces(original).keys() <= pieces(statements(text)).keys()
+
+
+def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
+    """Return the flaw at a line of what was replaced: Python may notice it further down."""
+    if patch.start < flaw.line <= patch.stop or not patch.todo:
+        return flaw
+    lines = text.splitlines()
+    said = (n for n in range(patch.start, patch.stop) if lines[n].strip().strip("#"))
+    line = next(said, patch.start) + 1
+    message = f"{flaw.message}, which Python notices in line {flaw.line}"
+    return Flaw(line, message, lines[line - 1].strip()[:80])
+
+
+def flaw_in(text: str, todo: str) -> Flaw | None:
+    """Return what is wrong in a region by itself, at its line in the file."""
+    for region in read_regions(text)[0]:
+        if region.id == todo:
+            own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")
+            flaw = find_flaw(f"def region():\n{own}\n")
+            return flaw and replace(flaw, line=flaw.line + region.start)
+    return None
+
+
+def line_patches(text: str, flaw: Flaw) -> Iterator[Patch]:
+    """Yield patches of a single line: the one that Python complains of, and the first one."""
+    lines = text.splitlines()
+    for index in dict.fromkeys((flaw.line - 1, 0)):
+        line = lines[index]
+        head = CLASS.match(line)
+        new = f"class {head[1]}:" if head else MAIN if line.startswith("if __name__") else "pass"
+        yield Patch(index, index + 1, (indented(new, line),), invented=True)
+
+
+# ---------------------------------------------------------------- reading what is no Python
+
+
+def functions_in(lines: Sequence[str]) -> Iterator[tuple[str, int, int]]:
+    """Yield each function's path and the indices of its lines, as far as the layout tells.
+
+    A function ends where the next one begins, or where a line stands further to the left. A line
+    of it may do so by mistake, so each is found twice where these differ.
+    """
+    owner, inside = "", -1
+    for number, line in enumerate(lines):
+        if found := CLASS.match(line):
+            owner = found[1]
+        found = DEF.match(line)
+        if not found or number < inside:
+            continue
+        indent = len(found["indent"])
+        path = f"{owner}.{found['name']}" if indent and owner else found["name"]
+        rest = range(number + 1, len(lines))
+        further = next((n for n in rest if begins_next(lines[n], indent)), len(lines))
+        near = next((n for n in rest if n < further and stands_left(lines[n], indent)), further)
+        inside = near
+        for stop in dict.fromkeys((near, further)):
+            while stop > number + 1 and not lines[stop - 1].strip():
+                stop -= 1
+            yield path, number, stop
+
+
+def begins_next(line: str, indent: int) -> bool:
+    found = NEXT.match(line)
+    return found is not None and len(found["indent"]) <= indent
+
+
+def stands_left(line: str, indent: int) -> bool:
+    text = line.strip()
+    return bool(text) and len(line) - len(line.lstrip()) <= indent and not CLOSES.match(line)
+
+
+# ---------------------------------------------------------------- what stands in
+
+
+def without_docstring(source: str) -> ast.stmt:
+    (node,) = statements(textwrap.dedent(source))
+    assert isinstance(node, ast.FunctionDef)
+    if ast.get_docstring(node) is not None:
+        node.body = node.body[1:] or [ast.Pass()]
+    return node
+
+
+def one_line(source: str) -> str:
+    """Return a stub's statements in one line, without its comments."""
+    return "; ".join(map(ast.unparse, statements(textwrap.dedent(source)))) or "pass"
+
+
+def indented(source: str, like: str) -> str:
+    """Return source that begins as far to the right as a line."""
+    return textwrap.indent(source, like[: len(like) - len(like.lstrip())])
+
+
+def fitted(source: str, count: int) -> tuple[str, ...]:
+    """Return the lines of a source with empty ones behind them, so that there are as many."""
+    lines = source.splitlines()
+    return (*lines, *[""] * (count - len(lines)))

@@ -1,0 +1,248 @@
+"""Record the bodies while a request is answered: for replays, made after all marks are decided.
+
+A moment is one recorded state of the bodies. Lengths are px, speeds px/s, angles rad, in the
+coordinates of the screen (y down).
+"""
+
+import math
+from collections.abc import Callable
+from contextlib import suppress
+from itertools import islice
+from typing import Any
+
+import msgspec
+import pymunk
+
+from grader.protocol import (
+    MAX_BODIES,
+    MAX_RODS,
+    MAX_TOUCHES,
+    BodyLook,
+    BodyRow,
+    Call,
+    Moment,
+    Record,
+    Reply,
+    ShapeLook,
+    TouchRow,
+    WithMoments,
+)
+from grader.worker.subject import Subject, field, field_number, field_pair, refs_in, shape_order
+
+MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
+
+Ends = tuple[float, float, float, float]
+
+
+def lesson_state(body: Any) -> list[float]:
+    """x, y, vx, vy, angle, omega of a body of the lesson's engine."""
+    pos, vel = field_pair(body, "pos"), field_pair(body, "vel")
+    turning = field_number(body, "angle"), field_number(body, "omega")
+    return [pos.x, pos.y, vel.x, vel.y, *turning]
+
+
+class Recorder:
+    """Records moments of the submission's bodies while a request is answered.
+
+    A submission may have made anything of its objects, so a thing that cannot be described is left
+    out, and everything has an upper bound.
+    """
+
+    def __init__(self, subject: Subject) -> None:
+        self.subject = subject
+        self.recording: Record | None = None
+        self.bodies: dict[int, Any] = {}  # the bodies by number
+        self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
+        self.hidden = 0  # so many objects belong to an earlier scene
+        self.given: list[int] = []  # the objects that the request is about
+        self.world: Any = None  # of the program that runs, if one does
+        self.owner: type | None = None
+        self._reset(None)
+
+    # ------------------------------------------------------------ one request
+
+    def start(self, recording: Record) -> None:
+        """Get ready to record one request."""
+        self.given = refs_in(recording.request) if isinstance(recording.request, Call) else []
+        if recording.cut:
+            self.hidden = len(self.subject.objects)
+            self.bodies.clear()
+            self.numbers.clear()
+        self._reset(recording)
+
+    def _reset(self, recording: Record | None) -> None:
+        """Forget the moments; bodies keep their numbers as long as the scene goes on."""
+        self.recording = recording
+        self.moments: list[Moment] = []
+        self.looks: dict[int, BodyLook] = {}
+        self.every = self.total = 1
+        self.states = 0
+
+    def expect(self, states: int) -> None:
+        """Say how many states a run has, so that the moments are spread over all of it."""
+        self.total = states
+        self.every = math.ceil(states / self.recording.most) if self.recording else 1
+
+    def record(self, time: float, steps: int) -> None:
+        """Note a state of a run, at `time` in s. One in so many, and the last, becomes a moment."""
+        self.states += 1
+        if self.recording and (self.states % self.every == 0 or self.states == self.total):
+            self._add_moment(time, steps)
+
+    def finish(self, reply: Reply) -> WithMoments:
+        """Return the reply with its moments: at least the one of how it ended."""
+        if not self.moments:
+            self._add_moment(0.0, 0)
+        answer = WithMoments(reply, self.looks, self.moments)
+        self._reset(None)
+        return answer
+
+    # ------------------------------------------------------------ a program's world
+
+    def watch_worlds(self, owner: type, states: int) -> None:
+        """Record the latest World or Space that the program makes.
+
+        A program keeps its world in a local variable of main(), so we learn of it as it is made.
+        """
+        self.expect(states)
+        if self.recording is None:
+            return
+        self.owner, self.real = owner, owner.__init__  # type: ignore[misc]
+
+        def init(world: Any, *args: Any, **kwargs: Any) -> None:
+            self.world = world
+            self.real(world, *args, **kwargs)
+
+        owner.__init__ = init  # type: ignore[misc]
+
+    def stop_watching(self) -> None:
+        """Give the class its own __init__ back."""
+        if self.owner is not None:
+            self.owner.__init__ = self.real  # type: ignore[misc]
+            self.owner = None
+
+    # ------------------------------------------------------------ a moment
+
+    def _add_moment(self, time: float, steps: int) -> None:
+        """Add a moment with all that can be described; with an error, with what came before it."""
+        moment = Moment(float(time), steps, [], [], [])
+        with suppress(Exception):
+            for thing in self._visible():
+                self._add_visible(thing, moment)
+        self.moments.append(moment)
+
+    def _visible(self) -> list[Any]:
+        """Return what to show: the running program's world, or what this scene has made and is
+        given.
+        """
+        if self.world is not None:
+            return [self.world]
+        given = [self.subject.objects[ref] for ref in self.given if ref in self.subject.objects]
+        return [*given, *list(self.subject.objects.values())[self.hidden :]]
+
+    def _add_visible(self, thing: Any, moment: Moment) -> None:
+        """Add a world or space with all in it, or one thing alone."""
+        if isinstance(thing, pymunk.Space):
+            for body in (thing.static_body, *thing.bodies):
+                self._append(moment.bodies, MAX_BODIES, self._body, body)
+            for joint in thing.constraints:
+                self._append(moment.rods, MAX_RODS, pymunk_rod, joint)
+        elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
+            for name in ("bodies", "joints", "springs", "contacts"):
+                for each in islice(getattr(thing, name, ()), MAX_TOUCHES):
+                    self._add_thing(each, moment)
+        else:
+            self._add_thing(thing, moment)
+
+    def _add_thing(self, thing: Any, moment: Moment) -> None:
+        """Add a body, contact, rod or spring; which it is shows by its attributes."""
+        if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
+            self._append(moment.bodies, MAX_BODIES, self._body, thing)
+        elif hasattr(thing, "normal"):
+            self._append(moment.touches, MAX_TOUCHES, touch, thing)
+        elif hasattr(thing, "length") and hasattr(thing, "a"):
+            self._append(moment.rods, MAX_RODS, lesson_rod, thing)
+
+    def _append(
+        self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any
+    ) -> None:
+        """Add a row unless there are `most` of them, it is there already, or it fails."""
+        with suppress(Exception):
+            row = describe(thing)
+            if len(rows) < most and row not in rows:
+                rows.append(row)
+
+    def _body(self, body: Any) -> BodyRow:
+        """Return where a body is now.
+
+        A new one gets a number, and what never changes is noted once.
+        """
+        number = self.numbers.get(id(body))
+        if number is None:
+            number = len(self.bodies) + 1
+            look = self._look_of(body)
+            self.numbers[id(body)], self.bodies[number] = number, body
+            self.looks[number] = look
+        if isinstance(body, pymunk.Body):
+            state = [*body.position, *body.velocity, body.angle, body.angular_velocity]
+        else:
+            state = lesson_state(body)
+        return BodyRow(number, *state)
+
+    def _look_of(self, body: Any) -> BodyLook:
+        """Return what does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
+        ref = self.subject.refs.get(id(body), 0)
+        if isinstance(body, pymunk.Body):
+            shapes = sorted(body.shapes, key=shape_order)[:MAX_SHAPES]
+            moves = body.body_type == pymunk.Body.DYNAMIC
+            weight = (body.mass, body.moment) if moves else (None, None)
+            return BodyLook(ref, [pymunk_shape(each) for each in shapes], *weight)
+        weights = (field_number(body, name) for name in ("inv_mass", "inv_inertia"))
+        return BodyLook(
+            ref, [lesson_shape(field(body, "shape"))], *(1 / w if w else None for w in weights)
+        )
+
+
+def lesson_shape(shape: Any) -> ShapeLook:
+    """Return a circle or box of the lesson's engine."""
+    if hasattr(shape, "radius"):
+        return ShapeLook([(0.0, 0.0)], field_number(shape, "radius"))
+    x, y = field_pair(shape, "half")
+    return ShapeLook([(-x, -y), (x, -y), (x, y), (-x, y)], 0.0)
+
+
+def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
+    """Return a shape of pymunk's, in the coordinates of its body; no points for an unknown kind."""
+    match shape:
+        case pymunk.Circle():
+            points = [shape.offset]
+        case pymunk.Segment():
+            points = [shape.a, shape.b]
+        case pymunk.Poly():
+            points = shape.get_vertices()[:MAX_CORNERS]
+        case _:
+            points = []
+    return ShapeLook([(x, y) for x, y in points], float(getattr(shape, "radius", 0.0)))
+
+
+def touch(contact: Any) -> TouchRow:
+    """Return a contact of the lesson's engine."""
+    point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
+    rest = (field_number(contact, name) for name in ("depth", "jn", "jt"))
+    row = TouchRow(point.x, point.y, normal.x, normal.y, *rest)
+    with suppress(Exception):  # what two surfaces have is not always there
+        ends = field(contact, "a"), field(contact, "b")
+        friction = math.sqrt(math.prod(field_number(each, "friction") for each in ends))
+        row = msgspec.structs.replace(row, limit=friction * row.jn)
+    return row
+
+
+def lesson_rod(joint: Any) -> Ends:
+    """Return the two ends of a joint or spring of the lesson's engine, px."""
+    a, b = (field_pair(field(joint, end), "pos") for end in ("a", "b"))
+    return a.x, a.y, b.x, b.y
+
+
+def pymunk_rod(joint: Any) -> Ends:
+    """Return the two ends of a pymunk constraint with anchors, px."""
+    return *joint.a.local_to_world(joint.anchor_a), *joint.b.local_to_world(joint.anchor_b)

@@ -1,5 +1,0 @@
-"""Adds nothing."""
-
-# TODO 2: add the spin terms
-pass
-# END TODO 2

@@ -1,5 +1,0 @@
-"""As it should be."""
-
-# TODO 7c: a pin joint for the rod
-space.add(pymunk.PinJoint(space.static_body, bob, (700, 90), (0, 0)))
-# END TODO 7c

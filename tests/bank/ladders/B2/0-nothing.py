@@ -1,5 +1,0 @@
-"""As handed out."""
-
-# TODO B2: pull the ends together
-# Nothing pulls yet.
-# END TODO B2

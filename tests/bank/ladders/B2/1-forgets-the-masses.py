@@ -1,8 +1,0 @@
-"""Both ends get the same change of speed."""
-
-# TODO B2: pull the ends together
-speed = (self.b.vel - self.a.vel).dot(axis)
-force = self.stiffness * (distance - self.length) + self.damping * speed
-self.a.vel += axis * (force * dt)
-self.b.vel -= axis * (force * dt)
-# END TODO B2

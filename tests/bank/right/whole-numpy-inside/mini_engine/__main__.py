@@ -1,3 +1,0 @@
-from .window import main
-
-main()

@@ -1,8 +1,0 @@
-"""Writes the formula's division although inv_inertia is the inverse already."""
-
-# TODO 2: add the spin terms
-if a.inv_inertia > 0:
-    total += cross(ra, axis) ** 2 / a.inv_inertia
-if b.inv_inertia > 0:
-    total += cross(rb, axis) ** 2 / b.inv_inertia
-# END TODO 2

@@ -1,8 +1,0 @@
-"""Does not ask whether anything can move at all."""
-
-# TODO 3: hold the rod's length
-speed = (self.b.vel - self.a.vel).dot(self.axis)
-impulse = self.axis * ((self.bias - speed) / self.k)
-self.a.vel -= impulse * self.a.inv_mass
-self.b.vel += impulse * self.b.inv_mass
-# END TODO 3

@@ -1,6 +1,0 @@
-"""Writes down the usual step instead of using dt."""
-
-# TODO 5: damp by a rate per second
-keep_vel = math.exp(-self.linear_damping / 120)
-keep_omega = math.exp(-self.angular_damping / 120)
-# END TODO 5

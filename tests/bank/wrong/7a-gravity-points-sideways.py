@@ -1,5 +1,0 @@
-"""Mixes up the two components."""
-
-# TODO 7a: gravity
-space.gravity = (980, 0)
-# END TODO 7a

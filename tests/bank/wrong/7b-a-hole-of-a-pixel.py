@@ -1,5 +1,0 @@
-"""Inner radius 1."""
-
-# TODO 7b: the ball's moment of inertia
-moment = pymunk.moment_for_circle(mass, 1, radius)
-# END TODO 7b

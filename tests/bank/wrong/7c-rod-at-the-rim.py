@@ -1,5 +1,0 @@
-"""Ties the rod to the bob's edge instead of its centre."""
-
-# TODO 7c: a pin joint for the rod
-space.add(pymunk.PinJoint(space.static_body, bob, (700, 90), (-24, 0)))
-# END TODO 7c

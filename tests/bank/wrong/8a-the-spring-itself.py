@@ -1,6 +1,0 @@
-"""Uses the lesson's spring instead of accel."""
-
-# TODO 8a: semi-implicit Euler
-v = v + -(OMEGA**2) * x * dt
-return x + v * dt, v
-# END TODO 8a

@@ -1,7 +1,0 @@
-"""Leaves the first body alone."""
-
-# TODO B2: pull the ends together
-speed = (self.b.vel - self.a.vel).dot(axis)
-force = self.stiffness * (distance - self.length) + self.damping * speed
-self.b.vel -= axis * (force * dt * self.b.inv_mass)
-# END TODO B2

@@ -1,9 +1,0 @@
-"""Moves b as well by the velocity change."""
-
-# TODO B2: pull the ends together
-speed = (self.b.vel - self.a.vel).dot(axis)
-force = self.stiffness * (distance - self.length) + self.damping * speed
-self.a.vel += axis * (force * dt * self.a.inv_mass)
-self.b.vel -= axis * (force * dt * self.b.inv_mass)
-self.b.pos -= axis * (force * dt * dt * self.b.inv_mass)
-# END TODO B2

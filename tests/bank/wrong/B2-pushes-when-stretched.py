@@ -1,8 +1,0 @@
-"""Takes the stretch the other way round."""
-
-# TODO B2: pull the ends together
-speed = (self.b.vel - self.a.vel).dot(axis)
-force = self.stiffness * (self.length - distance) - self.damping * speed
-self.a.vel += axis * (force * dt * self.a.inv_mass)
-self.b.vel -= axis * (force * dt * self.b.inv_mass)
-# END TODO B2

@@ -1,8 +1,0 @@
-"""Counts balls that hit balls."""
-
-# TODO B4: count the hits
-def begin(arbiter, space, data):
-    data["hits"] += 1
-
-space.on_collision(BALL, BALL, begin=begin, data=data)
-# END TODO B4

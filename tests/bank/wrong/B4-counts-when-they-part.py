@@ -1,8 +1,0 @@
-"""Counts the end of each touch."""
-
-# TODO B4: count the hits
-def parted(arbiter, space, data):
-    data["hits"] += 1
-
-space.on_collision(BALL, PEG, separate=parted, data=data)
-# END TODO B4

@@ -1,6 +1,0 @@
-"""Draws every body in the middle of its step: as late as needs be, and just as jerky."""
-
-# TODO B5: draw between steps
-pos, angle = body.before
-return (pos + body.pos) / 2, (angle + body.angle) / 2
-# END TODO B5

@@ -1,6 +1,0 @@
-"""Draws a body ahead of where it is, into whatever it will hit next."""
-
-# TODO B5: draw between steps
-pos, angle = body.before
-return body.pos + (body.pos - pos) * share, body.angle + (body.angle - angle) * share
-# END TODO B5

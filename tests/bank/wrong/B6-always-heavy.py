@@ -1,5 +1,0 @@
-"""Makes every ball heavy: the constant for Shift is always true."""
-
-# TODO B6: heavier balls with Shift
-return 10 if pygame.KMOD_SHIFT else 1
-# END TODO B6

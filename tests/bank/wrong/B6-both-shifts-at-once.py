@@ -1,5 +1,0 @@
-"""Compares with KMOD_SHIFT, which is both keys at once, where it should mask."""
-
-# TODO B6: heavier balls with Shift
-return 10 if pygame.key.get_mods() == pygame.KMOD_SHIFT else 1
-# END TODO B6

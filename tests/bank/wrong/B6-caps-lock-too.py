@@ -1,5 +1,0 @@
-"""Caps Lock counts as Shift."""
-
-# TODO B6: heavier balls with Shift
-return 10 if pygame.key.get_mods() & (pygame.KMOD_SHIFT | pygame.KMOD_CAPS) else 1
-# END TODO B6

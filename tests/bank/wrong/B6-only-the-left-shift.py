@@ -1,5 +1,0 @@
-"""Asks for the left Shift only."""
-
-# TODO B6: heavier balls with Shift
-return 10 if pygame.key.get_mods() & pygame.KMOD_LSHIFT else 1
-# END TODO B6

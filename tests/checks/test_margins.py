@@ -1,0 +1,76 @@
+"""Scenes of the whole program hold with other balls and at other times: no mark is by chance."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from grader.bank.members import lay_over
+from grader.checks.whole import checks
+from grader.judge.grade import KIT, opened
+from grader.judge.lab import Lab
+
+LESSON = KIT / "tests" / "bank" / "right" / "lesson-as-printed"
+SCENES: dict[str, list[Callable[[Lab], None]]] = {
+    "mini_engine": [
+        checks.the_rod_swings_alike_at_any_frame_rate,
+        checks.balls_bounce_come_to_rest_and_roll,
+        checks.the_picture_shows_where_the_balls_are,
+        checks.clicks_drop_balls_and_r_resets,
+    ],
+    "pymunk_scene": [
+        checks.the_pymunk_stack_stands_and_its_rod_holds,
+        checks.the_pymunk_stack_falls_when_it_is_knocked_over,
+        checks.clicks_b_and_r_work_in_pymunk,
+    ],
+}
+SEEDS, TIMES = (1, 7, 30, 46, 99), (0.9, 1.0, 1.1)
+CASES = [
+    (module, scene, seed, times)
+    for module, scenes in SCENES.items()
+    for scene in scenes
+    for seed in SEEDS
+    for times in TIMES
+]
+FEW = CASES[4::23]  # another scene, seed and time each
+
+
+def named(value: Any) -> str:
+    return getattr(value, "__name__", str(value))
+
+
+def run_scene(
+    module: str, scene: Callable[[Lab], None], seed: int, times: float, folder: Path
+) -> None:
+    """Ask the lesson's program for a scene, with balls and a length of its own."""
+    lay_over(LESSON, folder)
+    for path in folder.glob("*.py"):
+        text = path.read_text(encoding="utf-8").replace("Random(12)", f"Random({seed})")
+        path.write_text(text, encoding="utf-8")
+    real, photographed = checks.run, [round(times * each) for each in checks.PHOTOGRAPHED]
+
+    def run(lab: Lab, seconds: float, *rest: Any, **more: Any) -> Any:
+        return real(lab, times * seconds, *rest, **more)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(checks, "SEED", seed)
+        patch.setattr(checks, "run", run)
+        patch.setattr(checks, "PHOTOGRAPHED", photographed)
+        with opened(folder) as children, Lab(module, lambda: children(20), []).opened() as lab:
+            scene(lab)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("module", "scene", "seed", "times"), CASES, ids=named)
+def test_a_scene_holds_with_other_balls_and_at_other_times(
+    module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
+):
+    run_scene(module, scene, seed, times, tmp_path / "lesson")
+
+
+@pytest.mark.parametrize(("module", "scene", "seed", "times"), FEW, ids=named)
+def test_so_it_is_for_some(
+    module: str, scene: Callable[[Lab], None], seed: int, times: float, tmp_path: Path
+):
+    run_scene(module, scene, seed, times, tmp_path / "lesson")

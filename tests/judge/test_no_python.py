@@ -1,0 +1,213 @@
+"""Code that Python refuses costs its own TODO, or the program as a whole, and no other one."""
+
+import random
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from grader.bank.verify import shared_worker
+from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import Submission, take_in
+from grader.source.flaws import find_flaw
+from grader.source.mending import MAX_READ, HandedOut, Mender
+from grader.source.regions import read_source, regions_in
+
+SOLVER, CONTACTS = "mini_engine/solver.py", "mini_engine/contacts.py"
+SPRINGS, POISON = "mini_engine/bonus/springs.py", b"    # caf\xe9\n"
+SIGNS = '()[]{}:"'
+Edit = tuple[str, str, str]  # a file, what stands there, and what stands there instead
+
+
+def take(tree: Path, copy: Path) -> Submission:
+    return take_in(tree, copy, load_rubric(), load_stubs())
+
+
+def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
+    """The TODOs and the programs in which something is no Python, and see that the rest is."""
+    taken = take(tree, copy)
+    for path in copy.rglob("*.py"):
+        compile(path.read_bytes(), path.name, "exec")
+    return set(taken.flaws), set(taken.outside)
+
+
+def edited(tree: Path, file: str, old: str, new: str) -> Path:
+    path = tree / file
+    text = path.read_text(encoding="utf-8")
+    assert text.count(old) >= 1
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return tree
+
+
+@pytest.fixture
+def programs(tmp_path: Path) -> Callable[[], Path]:
+    """Make copies of the solution's programs."""
+
+    def make() -> Path:
+        tree = tmp_path / "programs"
+        shutil.rmtree(tree, ignore_errors=True)
+        shutil.copytree(KIT / "solution" / "mini_engine", tree / "mini_engine")
+        for name in ("pymunk_scene.py", "integrators.py", "lab_runtime.py"):
+            shutil.copyfile(KIT / "solution" / name, tree / name)
+        return tree
+
+    return make
+
+
+HEAD_2, END_2 = "    # TODO 2: add the spin terms\n", "    # END TODO 2\n"
+IN_2, LATER = "total += cross(ra, axis) ** 2", "    return total\n"
+
+
+@pytest.mark.parametrize(
+    ("edit", "todos", "outside"),
+    [
+        ((SOLVER, IN_2, "total += cross(ra, axis ** 2"), {"2"}, False),
+        ((SOLVER, f"    {IN_2}", IN_2), {"2"}, False),
+        ((SOLVER, HEAD_2, f"{HEAD_2}    '''half a text\n"), {"2"}, False),
+        ((SOLVER, END_2, f"return total\n{END_2}"), {"2"}, False),
+        ((SOLVER, HEAD_2, f"{HEAD_2}    type X = int\n"), {"2"}, False),
+        (
+            (SPRINGS, "        # END TODO B2", "        x = (1\n        # END TODO B2"),
+            {"B2"},
+            False,
+        ),
+        ((SOLVER, "slip = relative_velocity(a, b, ra, rb)", "slip = (a"), set(), True),
+        ((SOLVER, LATER, "return total\n"), set(), True),
+        ((SOLVER, "import math", "import math)"), set(), True),
+        ((SOLVER, END_2, "    x = (1\n"), {"2"}, False),
+        ((CONTACTS, "class Contact:", "class Contact(:"), set(), True),
+    ],
+)
+def test_what_is_no_python_is_found_where_it_is(programs, tmp_path, edit, todos, outside):
+    tree = edited(programs(), *edit)
+    assert refused(tree, tmp_path / "copy") == (todos, {"mini_engine"} if outside else set())
+
+
+def test_two_broken_todos_and_a_broken_line_cost_what_they_are(programs, tmp_path: Path):
+    tree = edited(programs(), SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    edited(tree, SOLVER, "limit = friction_limit(c)", "limit = friction_limit(c")
+    edited(tree, SOLVER, "c.jn = total", "c.jn = (total")
+    taken = take(tree, tmp_path / "copy")
+    lines = (tree / SOLVER).read_text(encoding="utf-8").splitlines()
+    assert taken.flaws.keys() == {"2", "4"} and taken.outside.keys() == {"mini_engine"}
+    assert "cross(ra, axis **" in lines[taken.flaws["2"].line - 1]
+    assert "friction_limit(c" in lines[taken.flaws["4"].line - 1]
+
+
+@pytest.mark.parametrize(("inside", "todos"), [(True, {"1"}), (False, set())])
+def test_bytes_that_are_no_text_cost_where_they_stand(programs, tmp_path, inside, todos):
+    path = programs() / CONTACTS
+    data = path.read_bytes()
+    at = data.index(b"\n", data.index(b"# TODO 1:")) + 1 if inside else 0
+    path.write_bytes(data[:at] + POISON + data[at:])
+    taken = take(path.parents[1], tmp_path / "copy")
+    assert taken.flaws.keys() == todos and bool(taken.outside) != inside
+    flaw = next(iter({**taken.flaws, **taken.outside}.values()))
+    assert flaw.line == data[:at].count(b"\n") + 1 and "UTF-8" in flaw.advice
+
+
+def test_an_encoding_that_is_declared_is_no_flaw(programs, tmp_path: Path):
+    path = programs() / CONTACTS
+    path.write_bytes(b"# coding: latin-1\n" + POISON.strip() + b"\n" + path.read_bytes())
+    taken = take(path.parents[1], tmp_path / "copy")
+    assert not taken.flaws and not taken.outside
+
+
+@pytest.mark.parametrize("single", [False, True], ids=["package", "single file"])
+def test_a_missing_sign_costs_the_place_it_is_missing_from(programs, tmp_path: Path, single: bool):
+    """Signs drawn from all files: `make soak` need not try them all, since each is one place."""
+    tree = programs()
+    if single:
+        shutil.rmtree(tree / "mini_engine")
+        source = KIT / "tests" / "bank" / "single_file" / "mini_engine.py"
+        shutil.copyfile(source, tree / "mini_engine.py")
+    places = [
+        (path, at)
+        for path in sorted(tree.rglob("*.py"))
+        for at, sign in enumerate(read_source(path))
+        if sign in SIGNS and path.name != "lab_runtime.py"
+    ]
+    tried = 0
+    for number, (path, at) in enumerate(random.Random(3).sample(places, 14)):
+        text = read_source(path)
+        broken = text[:at] + text[at + 1 :]
+        if find_flaw(broken) is None:
+            continue
+        line = text[:at].count("\n")
+        own = {region.id for region in regions_in(text) if region.start < line < region.stop}
+        path.write_text(broken, encoding="utf-8")
+        todos, outside = refused(tree, tmp_path / f"copy-{number}")
+        path.write_text(text, encoding="utf-8")
+        where = f"{path.name}:{line + 1}"
+        assert todos == own if own else outside, where
+        tried += 1
+    assert tried >= 10
+
+
+def test_a_todo_without_markers_is_found_by_its_function(programs, tmp_path: Path):
+    tree = programs()
+    for path in tree.rglob("*.py"):
+        lines = read_source(path).splitlines(keepends=True)
+        kept = [line for line in lines if not line.strip().startswith(("# TODO", "# END TODO"))]
+        path.write_text("".join(kept), encoding="utf-8")
+    edited(tree, "mini_engine/joints.py", "self.length", "self.(length")
+    edited(tree, SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    todos, outside = refused(tree, tmp_path / "copy")
+    assert todos == {"2"} and outside == {"mini_engine"}
+
+
+@pytest.mark.parametrize(
+    ("line", "version"),
+    [
+        ("type X = int", "3.12"),
+        ("def f[T](x): pass", "3.12"),
+        ("print(f'{a['x']}')", "3.12"),
+        ("try: pass\nexcept A, B: pass", "3.14"),
+        ("t'{x}'", "3.14"),
+    ],
+)
+def test_syntax_of_a_newer_python_is_said_to_be_so(line: str, version: str):
+    flaw = find_flaw(line)
+    if flaw is None:
+        pytest.skip("the Python that runs the tests has it")
+    assert f"needs Python {version}" in flaw.advice and "Python 3." in flaw.advice.split("marks")[0]
+    assert "needs Python" not in find_flaw("x = ('t' 'f'").advice
+
+
+def test_a_file_made_to_be_read_for_long_is_given_up():
+    text = "".join(f"def f{n}(:\n    x\n" for n in range(6000))
+    mender = Mender(HandedOut({}, {}, {}))
+    assert mender.mend(find_flaw(text).in_file("mini_engine.py"), text) is None
+    assert mender.read < MAX_READ + len(text)
+
+
+# ---------------------------------------------------------------- the marks
+
+
+@pytest.mark.parametrize("reference", [shipped_reference(), None], ids=["grade", "check"])
+def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
+    tree = edited(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
+    options = Options(reference, only=frozenset("245"), trusted=True)
+    result = grade(tree, options, shared_worker())
+    assert {todo.id: todo.state for todo in result.todos} == {
+        "2": "error",
+        "4": "passed",
+        "5": "passed",
+    }
+    broken = result.todos[0].checks
+    assert {check.points for check in broken} == {0} and len({check.got for check in broken}) == 1
+    assert "'(' was never closed" in broken[0].got and "Add the bracket" in broken[0].meaning
+    assert (broken[0].where.file, broken[0].where.line) == (SOLVER, 30)
+    assert "friction" not in broken[0].meaning and "inv_inertia\n" not in broken[0].got
+
+
+def test_code_outside_of_all_todos_costs_the_whole_alone(hand_in):
+    tree = edited(hand_in("solution"), SOLVER, "slip = relative_velocity(a, b, ra, rb)", "slip = (")
+    only = frozenset({"4", "8a", "whole"})
+    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
+    assert {todo.id for todo in result.todos if todo.state == "passed"} == {"4", "8a"}
+    whole = next(todo for todo in result.todos if todo.id == "whole")
+    assert 0 < whole.points < whole.max_points
+    assert all(check.where and check.meaning for check in whole.failed)

@@ -1,0 +1,64 @@
+"""A mistake costs once: the program as a whole runs with right versions of what failed."""
+
+from pathlib import Path
+
+import pytest
+
+from grader.bank.verify import shared_worker
+from grader.judge.grade import Options, grade, shipped_reference
+from grader.judge.result import Result, TodoResult
+from grader.source.regions import read_source, replaced
+
+WORLD, SOLVER = "mini_engine/world.py", "mini_engine/solver.py"
+NO_DAMPING = {"5": ("        keep_vel = 1.0 - 0.9", "        keep_omega = 1.0 - 0.9")}
+NO_SPIN = {"2": ("    total += 0.0 * cross(ra, axis)",)}
+
+
+def with_regions(tree: Path, file: str, regions: dict[str, tuple[str, ...]]) -> Path:
+    text = replaced(read_source(tree / file), regions)
+    (tree / file).write_text(text, encoding="utf-8")
+    return tree
+
+
+def graded(tree: Path, *todos: str, reference: Path | None = None) -> Result:
+    options = Options(reference, only=frozenset(todos), trusted=True)
+    return grade(tree, options, shared_worker())
+
+
+def whole(result: Result) -> TodoResult:
+    return next(todo for todo in result.todos if todo.id == "whole")
+
+
+@pytest.mark.parametrize(("file", "regions"), [(WORLD, NO_DAMPING), (SOLVER, NO_SPIN)])
+def test_a_mistake_in_a_todo_costs_nothing_in_the_whole(hand_in, file, regions):
+    tree = with_regions(hand_in("solution"), file, regions)
+    result = graded(tree, "2", "5", "whole", reference=shipped_reference())
+    assert {todo.id for todo in result.todos if todo.state != "passed"} == set(regions)
+
+
+def test_where_all_that_was_begun_is_wrong_nothing_stands_in(hand_in):
+    """Else a line in each TODO would earn the points of the whole."""
+    tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
+    result = graded(tree, "5", "whole", reference=shipped_reference())
+    assert result.points == 0
+
+
+def test_without_the_reference_the_whole_names_the_todo(hand_in):
+    tree = with_regions(hand_in("solution"), WORLD, NO_DAMPING)
+    failed = whole(graded(tree, "5", "whole")).failed
+    needs_it = [check for check in failed if "TODO 5 is not right yet" in check.got]
+    assert needs_it and all("finish it first" in check.meaning for check in needs_it)
+    assert all(check.meaning and check.where for check in failed)
+
+
+def test_what_is_wrong_outside_of_all_todos_is_said_to_be_there(hand_in):
+    """A program of one's own, with no given code in it that could be put back."""
+    source = Path(__file__).parents[1] / "bank" / "single_file" / "mini_engine.py"
+    text = read_source(source)
+    assert text.count("pygame.K_r") == 1
+    tree = hand_in(mini_engine_py=text.replace("pygame.K_r", "pygame.K_q"))
+    failed = whole(graded(tree, "2", "whole", reference=shipped_reference())).failed
+    wrong = next(check for check in failed if check.id == "clicks_drop_balls_and_r_resets")
+    assert wrong.where.file == "mini_engine.py" and "code around them" in wrong.meaning
+    missing = next(check for check in failed if check.id == "clicks_b_and_r_work_in_pymunk")
+    assert "hand it in" in missing.meaning

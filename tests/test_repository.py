@@ -1,0 +1,69 @@
+"""The files that a visitor of the repository and its services read agree with the kit."""
+
+import re
+import tomllib
+from itertools import chain
+from typing import Any
+
+import pytest
+from check_jsonschema.builtin_schemas import get_builtin_schema
+from conftest import KIT
+from jsonschema.validators import validator_for
+from ruamel.yaml import YAML
+
+import grader
+
+PROJECT = tomllib.loads((KIT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+WORKFLOWS = sorted(KIT.glob("*/.github/workflows/*.yml")) + sorted(KIT.glob(".github/*/*.yml"))
+
+
+def read(name: str) -> Any:
+    return YAML(typ="safe").load(KIT / name)
+
+
+@pytest.mark.parametrize(
+    ("schema", "name"),
+    [
+        ("vendor.citation-file-format", "CITATION.cff"),
+        ("vendor.dependabot", ".github/dependabot.yml"),
+    ],
+)
+def test_the_file_keeps_its_published_schema(schema: str, name: str):
+    published = get_builtin_schema(schema)
+    check = validator_for(published)(published)
+    assert [error.message for error in check.iter_errors(read(name))] == []
+    assert list(check.iter_errors({**read(name), "no-such-key": 1}))
+
+
+def test_the_citation_is_of_this_version():
+    citation = read("CITATION.cff")
+    assert citation["version"] == grader.__version__
+    assert (citation["license"], citation["keywords"]) == (PROJECT["license"], PROJECT["keywords"])
+
+
+def test_the_badges_say_what_the_project_says():
+    badge = (KIT / "handouts" / "front" / "python.svg").read_text(encoding="utf-8")
+    versions = re.findall(r":: (3\.\d+)$", "\n".join(PROJECT["classifiers"]), re.M)
+    assert f">{' | '.join(versions)}<" in badge
+    licence = (KIT / "handouts" / "front" / "licence.svg").read_text(encoding="utf-8")
+    assert f">{PROJECT['license']}<" in licence
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.relative_to(KIT).as_posix())
+def test_every_action_is_pinned_by_its_hash(path):
+    used = re.findall(r"uses: (\S+)", path.read_text(encoding="utf-8"))
+    assert used
+    assert not [action for action in used if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40}", action)]
+
+
+def test_a_commit_is_held_to_what_ci_runs():
+    (hook,) = read(".pre-commit-config.yaml")["repos"][0]["hooks"]
+    steps = read(".github/workflows/ci.yml")["jobs"]["lint"]["steps"]
+    assert hook["entry"] in [step.get("run") for step in steps]
+
+
+def test_every_dependency_has_a_reason():
+    rows = (KIT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("\n| package |")[2]
+    named = set(re.findall(r"[\w-]+", " ".join(re.findall(r"^\| ([^|]+) \|", rows, re.M))))
+    wanted = chain(PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
+    assert {re.split("[<>=]", each)[0] for each in wanted} <= named
