@@ -335,7 +335,7 @@ class CheckLoop:
         return self._result(
             job,
             "error",
-            ran=f"import {flaw.file}",
+            ran=f"reading {flaw.file}",
             expected="code that Python accepts",
             got=flaw.words,
             meaning=f"{what} no Python, so none of it runs. {flaw.advice} {INSTEAD}",
