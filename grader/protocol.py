@@ -17,7 +17,7 @@ from msgspec import Meta, Struct
 
 MAX_MESSAGE = 1024 * 1024  # bytes; a longer one is refused unread; usual are up to 250 KB
 RUNAWAY = 2000  # steps in one frame at which a program is stopped
-MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one shot of a film
+MAX_BODIES, MAX_TOUCHES, MAX_RODS = 80, 120, 20  # in one moment
 HEADER = struct.Struct(">I")
 
 # What every child finds in its environment, whatever stood in ours: a window that nobody sees,
@@ -301,11 +301,11 @@ Request = (
 )
 
 
-class Film(Struct, frozen=True, tag="film"):
-    """Answer a request and show what it does to the bodies: for replays, once marks are decided."""
+class Record(Struct, frozen=True, tag="record"):
+    """Answer a request and record the bodies meanwhile: for replays, once marks are decided."""
 
     request: Request
-    most: int  # shots; of more steps or frames only some are taken
+    most: int  # moments; of more steps or frames only some are taken
     cut: bool = False  # a new scene: what was made before is not shown any more
 
 
@@ -439,8 +439,8 @@ class TouchRow(Struct, frozen=True, array_like=True):
     limit: float = 0.0
 
 
-class Shot(Struct, frozen=True, array_like=True):
-    """All that is to be seen at one moment."""
+class Moment(Struct, frozen=True, array_like=True):
+    """One recorded state of the bodies."""
 
     time: float  # s, since the request began
     steps: int  # that have run since then
@@ -449,23 +449,23 @@ class Shot(Struct, frozen=True, array_like=True):
     rods: list[tuple[float, float, float, float]]  # from x, y to x, y
 
 
-class Filmed(Struct, frozen=True, tag="filmed"):
-    """The reply to a filmed request, and the shots: the last one shows how it ended."""
+class WithMoments(Struct, frozen=True, tag="with-moments"):
+    """The reply to a recorded request, and its moments: the last one shows how it ended."""
 
     reply: Reply
     looks: dict[int, BodyLook]  # by number, of the bodies that are new
-    shots: list[Shot]
+    moments: list[Moment]
 
 
 class Asked(Struct, frozen=True):
     number: int
-    request: Request | Film
+    request: Request | Record
     first: list[Setup] = []  # to be done before it; what fails there is the answer
 
 
 class Answered(Struct, frozen=True):
     number: int
-    reply: Reply | Filmed
+    reply: Reply | WithMoments
     output: Printed = ""  # what the submission printed since the last answer, cut to a bound
 
 

@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 
 from grader.judge.course import FULL
-from grader.release.handouts import with_examples
+from grader.release.handouts import choose_examples
 
 HERE = Path(__file__).resolve().parent
 CHECKS = HERE.parent / "grader" / "checks"
@@ -63,7 +63,7 @@ def page(course=FULL):
     hints = read("hints.toml")
     todos = [todo for todo in course.rubric.todos if todo.function]
     text = "\n".join([HEAD, *(section(todo, hints[todo.id]) for todo in todos)])
-    return with_examples(text, course)
+    return choose_examples(text, course)
 
 
 def main():

@@ -21,7 +21,7 @@ from make_hints import page as hints_page
 
 from grader.judge.course import FULL, WrongCourse, read_course
 from grader.release.formulas import typeset
-from grader.release.handouts import handouts_of
+from grader.release.handouts import make_handouts
 from grader.release.pages import lay_out_touch
 
 HERE = Path(__file__).resolve().parent
@@ -36,7 +36,7 @@ def sources(folder, instructors, course):
     """Lay out what zensical needs: its settings, and the pages and figures."""
     pages = folder / "docs"
     pages.mkdir()
-    texts = handouts_of(HERE, course)
+    texts = make_handouts(HERE, course)
     texts["hints.md"] = hints_page(course)
     for name, text in texts.items():
         (pages / name).write_text(typeset(text), encoding="utf-8")

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
 from grader.judge.grade import Options, grade, opened, shipped_reference
 from grader.judge.result import Result
@@ -47,7 +47,7 @@ def pytest_collection_finish() -> None:
 def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A student's folder in which nothing is done yet: the starter, and what is laid in."""
     folder = tmp_path_factory.mktemp("handed-out")
-    for name, path in students_files(KIT).items():
+    for name, path in list_students_files(KIT).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, folder / name)
     return folder

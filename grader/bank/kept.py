@@ -1,7 +1,6 @@
-"""What `verify` keeps of each member that got the marks it must, in build/verify.
+"""Store the results of members that got the marks they must, in build/verify.
 
-Each file says what it was made from. One that was made from something else, or that is not as it
-was written, is no more than one that is not there.
+Each file says what it was made from. It is ignored if any of that changed, or if it was damaged.
 """
 
 import hashlib
@@ -37,17 +36,17 @@ class Record(Struct, frozen=True):
     result: Result
 
 
-class Kept:
-    """The results in a folder; those of other versions of a member make room for the newest."""
+class StoredResults:
+    """The results in a folder; a new version of a member replaces the older ones."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.keys: dict[Member, str] = {}
 
     def key(self, member: Member) -> str:
-        """As it was when first asked for: before grading, though files may change meanwhile."""
+        """Return the key as it was when first asked for: files may change while it is graded."""
         if member not in self.keys:
-            self.keys[member] = key_of(member)
+            self.keys[member] = make_key(member)
         return self.keys[member]
 
     def read(self, member: Member) -> tuple[Result, float] | None:
@@ -68,28 +67,28 @@ class Kept:
         return self.folder / member.kind / f"{member.name} as {member.form}.json"
 
 
-def key_of(member: Member) -> str:
-    """The hash of all that decides about the member's marks, and about this machine."""
+def make_key(member: Member) -> str:
+    """Hash all that decides about the member's marks, and this machine."""
     todos, judges = member.course.rubric.todos, member.judged_by
     asked = [todo for todo in todos if not judges or todo.id in judges]
     line = [*member.lineage]
     sources = [each.source for each in line if each.source and each.source.suffix != ".toml"]
-    files = [row for source in sources for row in contents(source, "__pycache__")]
+    files = [row for source in sources for row in hash_contents(source, "__pycache__")]
     entry = [member.kind, member.name, member.form, [each.entry for each in line], asked]
-    return hash_of([everything_else(), msgspec.json.encode(entry).decode(), *files])
+    return hash_lines([hash_surroundings(), msgspec.json.encode(entry).decode(), *files])
 
 
 @cache
-def everything_else() -> str:
-    """The hash of the judge, its libraries and Python, both trees, and the rules of the bank."""
-    rules = [line for name in DECIDING for line in contents(KIT / "grader" / "bank" / name)]
+def hash_surroundings() -> str:
+    """Hash the judge, its libraries and Python, both trees, and the rules of the bank."""
+    rules = [line for name in DECIDING for line in hash_contents(KIT / "grader" / "bank" / name)]
     trees = (KIT / "solution", KIT / "starter", KIT / "tests" / "bank" / "single_file")
-    files = [line for tree in trees for line in contents(tree, *BESIDES)]
-    return hash_of([fingerprint(), sys.version, platform.platform(), *rules, *files])
+    files = [line for tree in trees for line in hash_contents(tree, *BESIDES)]
+    return hash_lines([fingerprint(), sys.version, platform.platform(), *rules, *files])
 
 
-def contents(path: Path, *left_out: str) -> list[str]:
-    """The names and hashes of a file, or of those in a folder whose names fit no pattern."""
+def hash_contents(path: Path, *left_out: str) -> list[str]:
+    """Return names and hashes of a file, or of files in a folder whose names fit no pattern."""
     rows = []
     for each in [path] if path.is_file() else sorted(path.rglob("*")):
         name = each.relative_to(path.parent)
@@ -98,5 +97,5 @@ def contents(path: Path, *left_out: str) -> list[str]:
     return rows
 
 
-def hash_of(lines: list[str]) -> str:
+def hash_lines(lines: list[str]) -> str:
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()

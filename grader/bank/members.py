@@ -135,7 +135,7 @@ class Member:
             return regions_of(self.source)
         if self.entry.code or self.entry.change or self.is_rung:
             todo = self.name.partition("-")[0]
-            return {todo: tuple(self.entry.rewrite(solution_code()[todo]).splitlines())}
+            return {todo: tuple(self.entry.rewrite(solution_code()[todo]).split("\n"))}
         return {}
 
     @property

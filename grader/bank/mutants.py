@@ -22,7 +22,7 @@ from rich.table import Table
 
 from grader.bank.members import Entry, Member
 from grader.bank.slips import SCOPES, make_slips
-from grader.bank.verify import each_of, shared_worker
+from grader.bank.verify import run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
 from grader.judge.lab import Observation
@@ -260,7 +260,8 @@ def name_holds(submission: Path, todo: str, name: str) -> bool:
 def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> bool:
     """Return whether a model gives every answer that it is about, and all others are right."""
     misconceptions.load_known(todo)
-    models = [each for each in misconceptions.known if (each.todo, each.id) == (todo, name)]
+    known = misconceptions.known_mistakes
+    models = [each for each in known if (each.todo, each.id) == (todo, name)]
     return any(
         misconceptions.explains(model, answers)
         and all(is_right(each) for each in answers if each.about != model.about)
@@ -270,10 +271,10 @@ def foretells_answers(todo: str, name: str, answers: Sequence[Observation]) -> b
 
 def is_right(answer: Observation) -> bool:
     try:
-        right = misconceptions.right[answer.about](*answer.inputs)
+        right = misconceptions.right_models[answer.about](*answer.inputs)
     except Undecided:
         return True
-    return misconceptions.alike(right, answer.answer)
+    return misconceptions.are_close(right, answer.answer)
 
 
 # ---------------------------------------------------------------- all of them
@@ -285,7 +286,7 @@ def run_mutants(
     """Grade the mutants; print each complaint, and a table."""
     outcomes: list[Outcome] = []
     with Counter("grading mutants", len(mutants), console) as counter:
-        for outcome in each_of(partial(grade_mutant, alone=alone), mutants, jobs):
+        for outcome in run_in_processes(partial(grade_mutant, alone=alone), mutants, jobs):
             outcomes.append(outcome)
             counter.reached(len(outcomes))
             if outcome.complaint:

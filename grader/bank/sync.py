@@ -1,9 +1,9 @@
-"""Keeping the two trees one: the solution's files everywhere, the starter's stubs in the regions.
+"""Keep the two trees in step: the solution's files everywhere, the starter's stubs in the regions.
 
-Each tree owns what stands inside its TODO regions; everything else is written in `solution/` and
-carried over. What students get to use and not to work on stands in `solution/` alone, and is laid
-in with the starter wherever they get it. The stubs are also kept with the checks, which must know
-an untouched TODO, and so is what a submission may lack.
+Each tree owns the inside of its TODO regions; everything else is written in `solution/` and carried
+over. Files that students use and do not edit are in `solution/` alone, and are laid in wherever
+students get the starter. The checks keep the stubs too, to recognize an untouched TODO, and the
+given code, to supply what a submission lacks.
 """
 
 import json
@@ -31,48 +31,51 @@ class OutOfStep(Stop):
 
 
 def sync(solution: Path, starter: Path, write: bool) -> list[str]:
-    """Carry the solution over into the starter; returns what was done, one line each.
+    """Carry the solution over into the starter; return what was done, one line each.
 
     Without `write` nothing is done, and the lines say what differs.
     """
     wanted = {
-        name: wanted_text(solution / name, starter / name)
-        for name in given_files(solution)
-        if not laid_in(name)
+        name: merge_regions(solution / name, starter / name)
+        for name in list_given_files(solution)
+        if not is_laid_in(name)
     }
     lines = []
     for name, content in wanted.items():
-        if renewed(starter / name, content, write):
+        if renew(starter / name, content, write):
             differs = f"{name} differs from the solution outside its TODO regions"
             lines.append(f"carried {name} over" if write else differs)
-    for name in given_files(starter):
+    for name in list_given_files(starter):
         if name not in wanted:
             differs = f"{name} does not belong in the starter"
             lines.append(f"removed {name} from the starter" if write else differs)
             if write:
                 (starter / name).unlink()
     texts = {name: content.decode() for name, content in wanted.items() if name.endswith(".py")}
-    for name, sources in (("stubs", stub_sources(texts)), ("given", given_sources(texts))):
+    for name, sources in (
+        ("stubs", read_stub_sources(texts)),
+        ("given", read_given_sources(texts)),
+    ):
         text = json.dumps(sources, indent=1) + "\n"
         known = CHECKS / f"{name}.json"
         before = known.read_bytes() if known.exists() else b"{}"
-        if renewed(CHECKS / f"{name}.json", text.encode(), write):
+        if renew(CHECKS / f"{name}.json", text.encode(), write):
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
             lines.append(f"renewed {name}.json for the checks" if write else differs)
-            lines += new_todos(before, sources) if write and name == "stubs" else []
+            lines += list_new_todos(before, sources) if write and name == "stubs" else []
     return lines
 
 
-def new_todos(before: bytes, stubs: dict[str, str]) -> list[str]:
-    """A line for each TODO that the checks did not know, or know no more."""
+def list_new_todos(before: bytes, stubs: dict[str, str]) -> list[str]:
+    """Return a line for each TODO that is new to the checks, or gone."""
     known = {id for id in json.loads(before) if not id.startswith("def ")}
     now = {id for id in stubs if not id.startswith("def ")}
     lines = [f"TODO {id} is new" for id in sorted(now - known)]
     return lines + [f"TODO {id} is gone" for id in sorted(known - now)]
 
 
-def renewed(path: Path, content: bytes, write: bool) -> bool:
-    """Whether a file does not hold this yet; with `write` it holds it from now on."""
+def renew(path: Path, content: bytes, write: bool) -> bool:
+    """Return whether a file differs from `content`; with `write`, write it."""
     if path.exists() and path.read_bytes() == content:
         return False
     if write:
@@ -81,7 +84,7 @@ def renewed(path: Path, content: bytes, write: bool) -> bool:
     return True
 
 
-def given_files(tree: Path) -> list[str]:
+def list_given_files(tree: Path) -> list[str]:
     return [
         path.relative_to(tree).as_posix()
         for path in sorted(tree.rglob("*"))
@@ -89,19 +92,19 @@ def given_files(tree: Path) -> list[str]:
     ]
 
 
-def laid_in(name: str) -> bool:
+def is_laid_in(name: str) -> bool:
     return name.partition("/")[0] in LAID_IN
 
 
-def students_files(kit: Path) -> dict[str, Path]:
-    """Where each file stands that students get, by its name there; notebooks left out."""
+def list_students_files(kit: Path) -> dict[str, Path]:
+    """Return the path of each file that students get, by its name there, without notebooks."""
     solution, starter = kit / "solution", kit / "starter"
-    extra = {name: solution / name for name in given_files(solution) if laid_in(name)}
-    return extra | {name: starter / name for name in given_files(starter)}
+    extra = {name: solution / name for name in list_given_files(solution) if is_laid_in(name)}
+    return extra | {name: starter / name for name in list_given_files(starter)}
 
 
-def wanted_text(source: Path, target: Path) -> bytes:
-    """The solution's file with the starter's regions in place of its own."""
+def merge_regions(source: Path, target: Path) -> bytes:
+    """Return the solution's file with the starter's regions in place of its own."""
     if source.suffix != ".py":
         return source.read_bytes()
     text = source.read_text(encoding="utf-8")
@@ -115,8 +118,8 @@ def wanted_text(source: Path, target: Path) -> bytes:
     return replaced(text, stubs).encode()
 
 
-def stub_sources(starter: dict[str, str]) -> dict[str, str]:
-    """What the starter holds for each TODO: its region, and the whole function around it."""
+def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:
+    """Return the starter's stub of each TODO: its region, and the whole function around it."""
     stubs = {}
     functions = {todo.function.partition(":")[2]: todo.id for todo in load_rubric().todos}
     for text in starter.values():
@@ -131,8 +134,8 @@ def stub_sources(starter: dict[str, str]) -> dict[str, str]:
     return dict(sorted(stubs.items()))
 
 
-def given_sources(starter: dict[str, str]) -> dict[str, str]:
-    """What students are given: to supply what a submission lacks, and to see what was changed."""
+def read_given_sources(starter: dict[str, str]) -> dict[str, str]:
+    """Return the given files: to supply missing ones, and to see what was changed."""
     programs = {todo.module for todo in load_rubric().todos}
     return {
         name: text

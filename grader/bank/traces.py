@@ -1,12 +1,12 @@
-"""What a grade leaves behind on the machine: processes, open descriptors, files. Nothing, it must.
+"""Find what a grade leaves behind on the machine: processes, open descriptors, files.
 
-Other programs write files meanwhile, also into the home folder and shared memory. None of them can
-be told by a look at a folder, so only what is the grade's for sure counts:
+Other programs write files meanwhile, also into the home folder and shared memory, and a look at a
+folder cannot tell them apart. So only what is certainly of the grade counts:
 
 - all in a folder that is its temporary and its home folder while it runs;
-- what this very process, the judge's, makes elsewhere: Python tells it of each file;
-- what bears the submission's name where every account may write. A submission of the bank that
-  tries to leave a file there names it after itself.
+- what the judge's own process makes elsewhere: Python reports each file;
+- what has the submission's name in its own where every account may write. A submission of the bank
+  that tries to leave a file there names it after itself.
 """
 
 import os
@@ -20,6 +20,8 @@ from pathlib import Path
 from typing import Any
 
 import psutil
+
+from grader.judge.drawing import CACHE
 
 OWN_FOLDER = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
 OPEN_TO_ALL = ("/dev/shm", "/tmp", "/var/tmp")
@@ -39,30 +41,32 @@ class Traces:
 
 
 @contextmanager
-def watched(own: Path, name: str) -> Iterator[Traces]:
-    """Let what runs inside use the folder `own`, and see what it leaves there and elsewhere.
+def watch_traces(own: Path, name: str) -> Iterator[Traces]:
+    """Let the grade use the folder `own`, and find what it leaves there and elsewhere.
 
-    With a `name`, files that bear it are looked for as well.
+    With a `name`, files that have it in their names are looked for as well.
     """
     own.mkdir()
     traces = Traces()
     shared = [Path.home(), *map(Path, OPEN_TO_ALL)]
-    files, processes, descriptors = named(name, shared), descendants(), open_descriptors()
-    with at_home_in(own), noted() as made:
+    files, processes = find_named(name, shared), list_descendants()
+    descriptors = count_descriptors()
+    with redirect_home(own), note_new_files() as made:
         yield traces
-    left = {*own.rglob("*"), *made} | {path for path, _ in named(name, shared) - files}
+    left = {*own.rglob("*"), *made} | {path for path, _ in find_named(name, shared) - files}
+    left = {path for path in left if CACHE not in (path, *path.parents)}  # the judge's own
     kept = sorted(path for path in left if os.path.lexists(path))
     traces.left += [f"the file {path}" for path in kept[:3]]
-    for process in descendants() - processes:
+    for process in list_descendants() - processes:
         with suppress(psutil.NoSuchProcess):
             traces.left.append(f"the process {process.name()}")
-    if (more := open_descriptors() - descriptors) > 0:
+    if (more := count_descriptors() - descriptors) > 0:
         traces.left.append(f"{more} open files or sockets")
 
 
 @contextmanager
-def at_home_in(folder: Path) -> Iterator[None]:
-    """This process and those it starts take `folder` for their temporary and home folder."""
+def redirect_home(folder: Path) -> Iterator[None]:
+    """Make `folder` the temporary and home folder of this process and those it starts."""
     usual, names = tempfile.tempdir, {name: os.environ.get(name) for name in OWN_FOLDER}
     tempfile.tempdir = str(folder)
     os.environ.update(dict.fromkeys(OWN_FOLDER, str(folder)))
@@ -78,9 +82,9 @@ def at_home_in(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def noted() -> Iterator[set[Path]]:
-    """The files and folders that this process makes meanwhile, except Python's bytecode."""
-    listen()
+def note_new_files() -> Iterator[set[Path]]:
+    """Note the files and folders that this process makes, except Python's bytecode."""
+    listen_to_audits()
     made: set[Path] = set()
     LISTENERS.append(made)
     try:
@@ -90,12 +94,12 @@ def noted() -> Iterator[set[Path]]:
 
 
 @cache
-def listen() -> None:
-    """Once and for good: there is no way to take an audit hook back."""
-    sys.addaudithook(note)
+def listen_to_audits() -> None:
+    """Listen once and for good: an audit hook cannot be removed."""
+    sys.addaudithook(note_file)
 
 
-def note(event: str, arguments: tuple[Any, ...]) -> None:
+def note_file(event: str, arguments: tuple[Any, ...]) -> None:
     if not LISTENERS or event not in MAKES:
         return
     name = arguments[MAKES[event]]
@@ -106,8 +110,8 @@ def note(event: str, arguments: tuple[Any, ...]) -> None:
         LISTENERS[-1].add(path)
 
 
-def named(name: str, folders: list[Path]) -> set[tuple[Path, int]]:
-    """What bears this name in the folders, each with the time of its last change."""
+def find_named(name: str, folders: list[Path]) -> set[tuple[Path, int]]:
+    """Return what has this name in the folders, each with the time of its last change."""
     found = set()
     for folder in folders if name else ():
         with suppress(OSError):
@@ -118,10 +122,10 @@ def named(name: str, folders: list[Path]) -> set[tuple[Path, int]]:
     return found
 
 
-def descendants() -> set[psutil.Process]:
+def list_descendants() -> set[psutil.Process]:
     return set(psutil.Process().children(recursive=True))
 
 
-def open_descriptors() -> int:
+def count_descriptors() -> int:
     me = psutil.Process()
     return me.num_fds() if hasattr(me, "num_fds") else 0  # Windows has no such number

@@ -1,7 +1,7 @@
-"""The grader is graded: the trees, the rubric and every member of the bank.
+"""Grade the grader: both trees, the rubric, every member of the bank and every half-way state.
 
 A member that got the marks it must is not graded again until something changes that decides about
-them, so a run that was stopped goes on where it was.
+them. So a run that was stopped resumes.
 """
 
 import os
@@ -20,11 +20,11 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.halfway import Halfway, graded, halfway
-from grader.bank.kept import Kept
+from grader.bank.kept import StoredResults
 from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.sync import sync
-from grader.bank.traces import watched
+from grader.bank.traces import watch_traces
 from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -35,13 +35,15 @@ from grader.report.progress import Counter
 
 One = TypeVar("One")
 Found = TypeVar("Found")
+Judged = TypeVar("Judged", "Verdict", "HalfwayVerdict")
 
-KEPT = KIT / "build" / "verify"
+RESULTS = KIT / "build" / "verify"
+MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong
 
 
 @dataclass
 class Verdict:
-    """A member of the bank, and what came of grading it."""
+    """The result of a member of the bank, and what is wrong with it."""
 
     member: Member
     result: Result | None
@@ -49,22 +51,27 @@ class Verdict:
     complaint: str
     earlier: bool = False  # graded by an earlier run
 
+    @property
+    def name(self) -> str:
+        return self.member.name
+
+    @property
+    def is_rung(self) -> bool:
+        return self.member.kind == "ladder" and self.member.is_rung
+
 
 @dataclass
-class Told:
-    """A student half way, and what the first failure says that it must not, or does not say."""
+class HalfwayVerdict:
+    """A half-way state, and what its first failure says wrongly or does not say."""
 
-    state: Halfway
+    name: str
     complaint: str
-
-
-ENOUGH = 0.95  # of the states half way, whose first failure must say what is wrong
 
 
 @dataclass
 class Report:
     verdicts: list[Verdict] = field(default_factory=list)
-    told: list[Told] = field(default_factory=list)
+    halfway: list[HalfwayVerdict] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)  # about the kit itself
 
     @property
@@ -74,74 +81,80 @@ class Report:
     @property
     def sound(self) -> bool:
         of_members = [each.complaint for each in self.verdicts]
-        found = [*self.complaints, *of_members, *(each.complaint for each in self.ladders)]
-        return not any([*found, self.untold])
+        of_ladders = [each.complaint for each in self.ladders]
+        return not any([*self.complaints, *of_members, *of_ladders, self.halfway_complaint])
 
     @property
-    def untold(self) -> str:
-        """What is wrong with what students half way are told; empty where nothing is."""
-        wrong = [each for each in self.told if each.complaint.startswith("says ")]
-        right = sum(not each.complaint for each in self.told)
+    def halfway_complaint(self) -> str:
+        """Say what is wrong with the words for half-way states; empty if nothing is."""
+        wrong = sum(each.complaint.startswith("says ") for each in self.halfway)
+        helped = sum(not each.complaint for each in self.halfway)
         if wrong:
-            return f"{len(wrong)} students half way are told what is wrong"
-        if right < ENOUGH * len(self.told):
-            return f"only {right} of {len(self.told)} students half way are told what they need"
+            return f"{wrong} are told something wrong"
+        if helped < MIN_HELPED * len(self.halfway):
+            return f"only {helped} of {len(self.halfway)} are told what is wrong"
         return ""
 
 
 def verify(
     jobs: int, only: str, console: Console, fresh: bool = False, course: Course = FULL
 ) -> Report:
-    """Grade what a course has of the bank, as far as its names contain `only`; prints a table.
+    """Grade the bank of a course, as far as its names contain `only`; print a table.
 
-    What an earlier run found sound still is, unless all is to be graded `fresh`. Points are those
-    of the rubric: a course may give a check none, and still it must tell right from wrong.
+    Sound results of an earlier run are reused unless `fresh`. Points are those of the rubric: a
+    course may give a check none, and it must still tell right from wrong.
     """
     course = course.as_rated
-    report = Report(complaints=list(kit_complaints()))
+    report = Report(complaints=list(check_kit()))
     chosen = [
         each
-        for each in [*trees(course), *members(KIT, course)]
+        for each in [*list_trees(course), *members(KIT, course)]
         if only in f"{each.kind}/{each.name}"
     ]
-    with Counter("grading the bank", len(chosen), console) as counter:
-        for verdict in verdicts(chosen, jobs, Kept(KEPT), fresh):
-            report.verdicts.append(verdict)
-            counter.reached(len(report.verdicts))
-            if verdict.complaint:
-                console.print(f"{verdict.member.name}: {verdict.complaint}")
-    asked = {todo.id for todo in course.rubric.todos}
-    states = [each for each in halfway() if each.todo in asked and only in f"halfway/{each.name}"]
-    with Counter("asking for students half way", len(states), console) as counter:
-        for told in ask_all(states, jobs):
-            report.told.append(told)
-            counter.reached(len(report.told))
-            if told.complaint:
-                console.print(f"{told.state.name}: {told.complaint}")
+    verdicts = judge_members(chosen, jobs, StoredResults(RESULTS), fresh)
+    report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
+    todos = {todo.id for todo in course.rubric.todos}
+    states = [each for each in halfway() if each.todo in todos and only in f"halfway/{each.name}"]
+    judged = run_in_processes(judge_halfway, states, jobs)
+    report.halfway = collect("grading half-way states", judged, len(states), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)
     return report
 
 
-def verdicts(chosen: list[Member], jobs: int, kept: Kept, fresh: bool) -> Iterator[Verdict]:
-    """On each member, those of an earlier run first; only sound ones are kept for the next run."""
-    anew = []
+def collect(what: str, judged: Iterable[Judged], total: int, console: Console) -> list[Judged]:
+    """Collect what was judged, with its progress; print each complaint."""
+    found: list[Judged] = []
+    with Counter(what, total, console) as counter:
+        for each in judged:
+            found.append(each)
+            counter.reached(len(found))
+            if each.complaint:
+                console.print(f"{each.name}: {each.complaint}")
+    return found
+
+
+def judge_members(
+    chosen: list[Member], jobs: int, results: StoredResults, fresh: bool
+) -> Iterator[Verdict]:
+    """Yield a verdict on each member, earlier ones first; store the sound ones."""
+    to_grade = []
     for member in chosen:
-        kept.key(member)  # before anything is graded
-        found = None if fresh else kept.read(member)
-        if found is None or complaint_of(member, *found):
-            anew.append(member)
+        results.key(member)  # before anything is graded
+        found = None if fresh else results.read(member)
+        if found is None or find_complaint(member, *found):
+            to_grade.append(member)
         else:
             yield Verdict(member, *found, "", earlier=True)
-    for verdict in grade_all(anew, jobs):
+    for verdict in grade_all(to_grade, jobs):
         if verdict.result is not None and not verdict.complaint:
-            kept.write(verdict.member, verdict.result, verdict.seconds)
+            results.write(verdict.member, verdict.result, verdict.seconds)
         yield verdict
 
 
-def trees(course: Course = FULL) -> list[Member]:
-    """The shipped trees themselves: everything, and nothing."""
+def list_trees(course: Course = FULL) -> list[Member]:
+    """Return the shipped trees as members: all points, and none."""
     nothing = Entry(base="starter", points=0)
     return [
         Member("right", "solution", "package", Entry(), None, course),
@@ -149,24 +162,25 @@ def trees(course: Course = FULL) -> list[Member]:
     ]
 
 
-def kit_complaints() -> Iterator[str]:
-    """What is wrong with the kit before anything is graded."""
+def check_kit() -> Iterator[str]:
+    """Yield what is wrong with the kit before anything is graded."""
     yield from sync(KIT / "solution", KIT / "starter", write=False)
     points = load_rubric().max_points
     if points != 100:
         yield f"the rubric adds up to {points} points instead of 100"
 
 
+# ---------------------------------------------------------------- grading
+
+
 def grade_all(chosen: Iterable[Member], jobs: int) -> Iterator[Verdict]:
-    yield from each_of(grade_member, chosen, jobs)
+    yield from run_in_processes(grade_member, chosen, jobs)
 
 
-def ask_all(states: Iterable[Halfway], jobs: int) -> Iterator[Told]:
-    yield from each_of(graded_halfway, states, jobs)
-
-
-def each_of(function: Callable[[One], Found], chosen: Iterable[One], jobs: int) -> Iterator[Found]:
-    """What a function makes of each, in processes of their own, in the order in which they end."""
+def run_in_processes(
+    function: Callable[[One], Found], chosen: Iterable[One], jobs: int
+) -> Iterator[Found]:
+    """Yield the results of a function, run in processes of their own, as they end."""
     todo = list(chosen)
     if not todo:
         return
@@ -176,7 +190,7 @@ def each_of(function: Callable[[One], Found], chosen: Iterable[One], jobs: int) 
         try:
             for future in as_completed(futures):
                 yield future.result()
-        except BaseException:  # somebody is tired of waiting
+        except BaseException:  # such as Ctrl-C
             pool.shutdown(wait=False, cancel_futures=True)
             for process in active_children():
                 process.kill()
@@ -193,7 +207,7 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
         start = time.monotonic()
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose
-            with watched(Path(folder, "temporary"), name) as traces:
+            with watch_traces(Path(folder, "temporary"), name) as traces:
                 # One without fork keeps processes ahead, as if left behind: not to be shared.
                 shared = worker if isinstance(worker, WarmWorker) else None
                 result = grade(submission, options, shared)
@@ -201,20 +215,21 @@ def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
             text = f"the judge fell over: {type(error).__name__}: {error}"
             return Verdict(member, None, time.monotonic() - start, text)
         seconds = time.monotonic() - start
-        complaint = complaint_of(member, result, seconds) or traces.complaint
+        complaint = find_complaint(member, result, seconds) or traces.complaint
         return Verdict(member, result, seconds, complaint)
 
 
-def graded_halfway(state: Halfway) -> Told:
-    """What the first failure says of a state; like `grade_member`, with a worker of the process."""
+def judge_halfway(state: Halfway) -> HalfwayVerdict:
+    """Grade a half-way state, with a worker of this process, and read its first failure."""
     worker = shared_worker()
     shared = worker if isinstance(worker, WarmWorker) else None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
-        return Told(state, state.complaint(graded(state, Path(folder).resolve(), shared)))
+        result = graded(state, Path(folder).resolve(), shared)
+        return HalfwayVerdict(state.name, state.complaint(result))
 
 
-def complaint_of(member: Member, result: Result, seconds: float) -> str:
-    """What is wrong with its marks, or with the name that its mistake was given."""
+def find_complaint(member: Member, result: Result, seconds: float) -> str:
+    """Say what is wrong with its marks, or with the name of its mistake."""
     if complaint := member.complaint(result, seconds):
         return complaint
     if member.kind == "wrong" and member.misnamed(result) == "wrong":
@@ -232,65 +247,31 @@ def shared_worker() -> Worker:
     return worker
 
 
+# ---------------------------------------------------------------- showing
+
+
 def show(report: Report, console: Console) -> None:
     table = Table("member", "form", "points", "lost in", "named", "s", "verdict")
     for each in report.verdicts:
-        if not is_rung(each) or each.complaint:
-            table.add_row(*row(each))
+        if not each.is_rung or each.complaint:
+            table.add_row(*make_row(each))
     for ladder in report.ladders:
         points = " ".join(map(str, ladder.points.values()))
         verdict = ladder.complaint or "as it must"
         table.add_row(f"ladder/{ladder.name}", "package", points, "", "", "", verdict)
     console.print(table)
-    for line in summary(report.verdicts):
+    for line in summarize(report):
         console.print(line)
-    right = sum(not each.complaint for each in report.told)
-    if report.told:
-        console.print(f"students half way: {len(report.told)}, told what is wrong: {right}")
-    if report.untold:
-        console.print(f"students half way: {report.untold}")
-    for complaint in report.complaints:
-        console.print(f"the kit: {complaint}")
 
 
-def is_rung(verdict: Verdict) -> bool:
-    return verdict.member.kind == "ladder" and verdict.member.is_patch
-
-
-def summary(verdicts: list[Verdict]) -> Iterator[str]:
-    """How many of each kind there were, how many are as they must, and what was not graded now.
-
-    A ladder counts as one, whatever the number of its rungs.
-    """
-    single = [(each.member.kind, each.complaint) for each in verdicts if not is_rung(each)]
-    rungs = [each for each in verdicts if is_rung(each)]
-    single += [("ladder", each.complaint) for each in rungs if each.result is None]
-    single += [("ladder", each.complaint) for each in ladders((r.member, r.result) for r in rungs)]
-    all_of = Count(kind for kind, _ in single)
-    bad = Count(kind for kind, complaint in single if complaint)
-    for kind, count in all_of.items():
-        yield f"{kind}: {count}, of which {bad[kind]} with a complaint"
-    named = Count(
-        each.member.misnamed(each.result)
-        for each in verdicts
-        if each.member.kind == "wrong" and each.result is not None
-    )
-    yield (
-        f"mistakes named rightly: {named['right']}, not named: {named['none']}, "
-        f"named wrongly: {named['wrong']}"
-    )
-    earlier = sum(each.earlier for each in verdicts)
-    now = len(verdicts) - earlier
-    yield f"{len(verdicts)} members: {now} graded now, {earlier} taken from an earlier run"
-
-
-def row(verdict: Verdict) -> list[str]:
+def make_row(verdict: Verdict) -> list[str]:
     member, result = verdict.member, verdict.result
+    name = f"{member.kind}/{member.name}"
     if result is None:
-        return [f"{member.kind}/{member.name}", member.form, "", "", "", "", verdict.complaint]
+        return [name, member.form, "", "", "", "", verdict.complaint]
     lost = [f"{t.id} (-{t.max_points - t.points})" for t in result.todos if t.points < t.max_points]
     return [
-        f"{member.kind}/{member.name}",
+        name,
         member.form,
         str(result.points),
         ", ".join(lost) if len(lost) < 6 else f"{len(lost)} TODOs",
@@ -298,3 +279,34 @@ def row(verdict: Verdict) -> list[str]:
         f"{verdict.seconds:.1f}",
         verdict.complaint or "as it must",
     ]
+
+
+def summarize(report: Report) -> Iterator[str]:
+    """Count the members of each kind, the names of mistakes, and the complaints.
+
+    A ladder counts as one, whatever the number of its rungs.
+    """
+    rungs = [each for each in report.verdicts if each.is_rung]
+    counted = [(each.member.kind, each.complaint) for each in report.verdicts if not each.is_rung]
+    counted += [("ladder", each.complaint) for each in rungs if each.result is None]
+    counted += [("ladder", each.complaint) for each in report.ladders]
+    for kind, count in Count(kind for kind, _ in counted).items():
+        bad = sum(bool(complaint) for each, complaint in counted if each == kind)
+        yield f"{kind}: {count}, of which {bad} with a complaint"
+    named = Count(
+        each.member.misnamed(each.result)
+        for each in report.verdicts
+        if each.member.kind == "wrong" and each.result is not None
+    )
+    yield (
+        f"mistakes named rightly: {named['right']}, not named: {named['none']}, "
+        f"named wrongly: {named['wrong']}"
+    )
+    count, earlier = len(report.verdicts), sum(each.earlier for each in report.verdicts)
+    yield f"{count} members: {count - earlier} graded now, {earlier} taken from an earlier run"
+    if report.halfway:
+        helped = sum(not each.complaint for each in report.halfway)
+        yield f"half-way states: {len(report.halfway)}, told what is wrong: {helped}"
+    if report.halfway_complaint:
+        yield f"half-way states: {report.halfway_complaint}"
+    yield from (f"the kit: {complaint}" for complaint in report.complaints)

@@ -13,10 +13,10 @@ import pymunk
 
 from grader.judge.children import Child, clean_environment, start_worker
 from grader.judge.grade import KIT, Options, grading, shipped_reference
-from grader.protocol import Answered, ChildSetup, Film, Ready, Request
+from grader.protocol import Answered, ChildSetup, Ready, Record, Request
 from grader.worker.child import answer
-from grader.worker.film import Camera
 from grader.worker.output import Output
+from grader.worker.recorder import Recorder
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import Subject
 
@@ -36,10 +36,10 @@ class InsideChild(Child):
         self.output.install()
         self.subject = Subject(Path(setup.submission))
 
-    def ask(self, request: Request | Film) -> Answered:
-        assert not isinstance(request, Film)  # nothing is recorded here
-        camera = Camera(self.subject)
-        return Answered(0, answer(self.subject, self.clock, self.output, camera, request))
+    def ask(self, request: Request | Record) -> Answered:
+        assert not isinstance(request, Record)  # nothing is recorded here
+        recorder = Recorder(self.subject)
+        return Answered(0, answer(self.subject, self.clock, self.output, recorder, request))
 
     def end(self) -> None:
         sys.stdout, sys.stderr = self.streams

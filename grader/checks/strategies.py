@@ -79,6 +79,7 @@ velocities = st.tuples(speeds, speeds)
 
 # TODO 4 and 5: from hardly moving to very fast, from a feather to a ship.
 low_speeds = st.integers(-64, 64).map(lambda n: n / 128)  # px/s
+crawls = st.integers(1, 64).map(lambda n: n / 128)  # px/s or rad/s, never at rest
 any_speeds = speeds | low_speeds | st.sampled_from([-2e4, 2e4])
 wide_velocities = st.tuples(any_speeds, any_speeds) | st.tuples(low_speeds, low_speeds)
 some_frictions = st.integers(1, 16).map(lambda n: n / 16)

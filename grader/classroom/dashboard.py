@@ -25,9 +25,9 @@ from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
 from grader.judge.result import Result, State, TodoResult
-from grader.judge.wording import told
+from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
-from grader.player.page import filled, one_line
+from grader.player.page import clean_line, fill_template
 from grader.player.replay import grade_with_replays
 from grader.report.files import write_whole
 from grader.report.html import Standing, write_report, write_standing
@@ -223,7 +223,7 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
         if entry.result is None:
             write_standing(standing, report)
         else:
-            write_report(told(entry.result, course), report, standing=standing)
+            write_report(withhold_reasons(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
     write_whole(render_class(folder, entries).encode("utf-8"), path)
     return path
@@ -255,7 +255,7 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
     points = [each.outcome.final for each in marked]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
     style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
-    return filled(
+    return fill_template(
         TEMPLATES / "dashboard.html",
         style,
         script,
@@ -275,7 +275,7 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
         bonus=any(each.outcome.bonus for each in marked),
         marks=MARKS,
         notes=list_notes,
-        clean=one_line,
+        clean=clean_line,
         quote=quote,
         script=Markup(script),
     )

@@ -48,6 +48,7 @@ class Executor(Protocol):
 
     def capacity(self) -> int:
         """Return how many submissions to have under way."""
+        ...
 
     def submit(self, package: Package) -> "Future[Graded]": ...
 
@@ -56,6 +57,7 @@ class Executor(Protocol):
 
     def run_alone(self, package: Package) -> Graded:
         """Grade one of those that were under way then, with nothing beside it."""
+        ...
 
 
 class ExecutorFailed(Stop):

@@ -18,7 +18,7 @@ from grader.intake.lms import PAGE, Lms, Page
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
-from grader.judge.wording import reasons, told
+from grader.judge.wording import reasons, withhold_reasons
 from grader.report.files import put_in
 from grader.text import clean, format_csv
 
@@ -70,7 +70,7 @@ def answer_export(
             made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
             continue
         if entry.result is not None:
-            entry = replace(entry, result=told(entry.result, graded.course))
+            entry = replace(entry, result=withhold_reasons(entry.result, graded.course))
         page = make_page(found, entry, path.read_bytes(), people)
         works.setdefault(found.sources, []).append(page)
     for sources, pages in works.items():

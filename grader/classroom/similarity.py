@@ -30,7 +30,7 @@ from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
-from grader.player.page import filled
+from grader.player.page import fill_template
 from grader.report.files import write_whole
 from grader.source.regions import python_files
 from grader.text import format_csv, printable
@@ -245,7 +245,7 @@ def write_pairs(
 ) -> Path:
     """Write the pairs as a page, a table and for the class page; `found` has them all by name."""
     path = locate_pairs(results, "html")
-    page = filled(
+    page = fill_template(
         TEMPLATES / "alike.html",
         (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
         title=results.name,

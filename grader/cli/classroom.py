@@ -61,9 +61,9 @@ def course_command(
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     require_checkout("nbgrader course")
     from grader.classroom.nbgrader.submissions import ASSIGNMENT
-    from grader.release.nbgrader_course import make_course, newest_release
+    from grader.release.nbgrader_course import find_newest_release, make_course
 
-    release = None if without_checks else release or newest_release(KIT / "build" / "release")
+    release = None if without_checks else release or find_newest_release(KIT / "build" / "release")
     if release is None and not without_checks:
         raise Stop("there is no release in build/release, which has the checks: make release")
     files = make_course(course, renew, release, read_course(taken))
@@ -128,7 +128,7 @@ def release_command() -> None:
     require_checkout("nbgrader release")
     from grader.release import nbgrader_notebooks as notebooks
 
-    console.print(f"renewed {', '.join(notebooks.release(KIT)) or 'nothing'}")
+    console.print(f"renewed {', '.join(notebooks.renew_notebooks(KIT)) or 'nothing'}")
 
 
 @course_app.command("roster")

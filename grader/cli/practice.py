@@ -15,11 +15,11 @@ from grader.cli.shared import CourseFile, console, print_note, print_notes
 from grader.cli.student import find_tree, make_options
 from grader.errors import Stop
 from grader.judge.course import read_course
-from grader.questions.page import page
+from grader.questions.page import make_page
 from grader.questions.practice import load_practice
-from grader.questions.program import askable, opened_program
+from grader.questions.program import list_askable, open_program
 from grader.questions.question import Sheet
-from grader.questions.sheet import sheet_of
+from grader.questions.sheet import make_sheet
 from grader.report.files import write_whole
 from grader.text import plural
 
@@ -51,12 +51,12 @@ def questions_command(
     try:
         with (
             console.status("looking at your program: ten seconds or so"),
-            opened_program(folder, make_options(askable(taken), taken)) as program,
+            open_program(folder, make_options(list_askable(taken), taken)) as program,
         ):
             program = replace(program, given=practice.given)
-            sheet = sheet_of(program, "practice", drawn, practice.asked, practice.cases)
+            sheet = make_sheet(program, "practice", drawn, practice.asked, practice.cases)
         target = out or folder / "build" / "questions.html"
-        write_whole(page(sheet, taken.title, "practice").encode(), target)
+        write_whole(make_page(sheet, taken.title, "practice").encode(), target)
     except KeyboardInterrupt:
         raise Stop("stopped before there was a page") from None
     print_sheet(sheet, target)

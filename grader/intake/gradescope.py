@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import yaml
@@ -16,10 +16,10 @@ from grader.intake.lms import Lms
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList
 
-try:
+if TYPE_CHECKING or not yaml.__with_libyaml__:  # both loaders have the same types
+    from yaml import SafeLoader
+else:
     from yaml import CSafeLoader as SafeLoader
-except ImportError:  # a PyYAML without its C library
-    from yaml import SafeLoader  # type: ignore[assignment]
 
 METADATA = "submission_metadata.yml"
 

@@ -31,7 +31,7 @@ class Blamed:
 
     @property
     def is_all(self) -> bool:
-        """Whether nothing else needs to be told; a name that is gone may have a new one."""
+        """Return whether nothing else needs to be told; a name that is gone may have a new one."""
         return self.mended and all(each.theirs for each in self.changes)
 
     def place(self, check: CheckResult) -> Where:
@@ -109,7 +109,7 @@ def first_alike(failed: Mapping[Key, CheckResult], key: Key) -> Key:
 
 
 def makes_a_difference(lab: Lab, check: CheckResult) -> bool:
-    """Whether a check passes now, or got something else; not where the reference took part."""
+    """Return whether a check passes now, or got something else without the reference."""
     failure = lab.failure
     if failure is None:
         return True

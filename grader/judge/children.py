@@ -27,13 +27,13 @@ from grader.protocol import (
     ChildSetup,
     End,
     Ended,
-    Film,
     Get,
     MakeBody,
     MakeWorld,
     Open,
     ProtocolError,
     Ready,
+    Record,
     Request,
     Returned,
     Set,
@@ -99,7 +99,7 @@ class Child:
         except (ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE) as error:
             raise ChildEnded(f"the worker could not start a child: {error}") from error
 
-    def ask(self, request: Request | Film) -> Answered:
+    def ask(self, request: Request | Record) -> Answered:
         """Return the one answer to this request, or ChildEnded: anything else ends the child for
         good.
 
@@ -125,7 +125,7 @@ class Child:
                 self.seen = {}
         return answered
 
-    def _ask(self, request: Request | Film) -> Answered:
+    def _ask(self, request: Request | Record) -> Answered:
         try:
             if self.channel.wait(0):
                 raise ProtocolError("an answer came before its question")

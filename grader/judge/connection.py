@@ -8,7 +8,6 @@ from grader.judge.children import Child, ChildEnded
 from grader.judge.failures import Broke, NotYet
 from grader.protocol import (
     Answered,
-    Filmed,
     Import,
     Missing,
     Piece,
@@ -18,11 +17,12 @@ from grader.protocol import (
     Request,
     Returned,
     Simulated,
+    WithMoments,
 )
 
 MAX_OUTPUT = 65536  # characters kept of what a submission prints during one check
 
-Answer = Returned | Simulated | Played | Filmed
+Answer = Returned | Simulated | Played | WithMoments
 Send = Callable[[Child, Request], Answered]
 
 
@@ -35,8 +35,8 @@ def ask_child(child: Child, request: Request) -> Answered:
 class Connection:
     """Asks a child that it opens when first needed, and that has imported the submission then.
 
-    All requests and answers pass through `send`; filming puts a recorder there. `ran` describes the
-    experiment that a request belongs to, and becomes the line *We ran* of a failure.
+    All requests and answers pass through `send`; a replay puts a recorder there. `ran` describes
+    the experiment that a request belongs to, and becomes the line *We ran* of a failure.
     """
 
     module: str  # what is imported

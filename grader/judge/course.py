@@ -1,4 +1,4 @@
-"""What a course takes of the kit: which TODOs, for how many points, until when.
+"""Read what a course takes of the kit: which TODOs, for how many points, until when.
 
 `course.toml` at the top of the kit says it, and is read here alone. What is wrong in it is said in
 one sentence, before anything is graded.
@@ -31,8 +31,8 @@ ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day en
 Read = TypeVar("Read", bound=Struct)
 Kind = Literal["number", "film", "line", "why"]
 Count = Annotated[int, Meta(ge=0)]
-Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
 Share = Annotated[str, Meta(pattern=r"^\d+%$")]
+Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
 
 
 class WrongCourse(Stop):
@@ -51,7 +51,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:
-        """The points that so many days take off `points`; a begun point of a share is kept."""
+        """Return the points that so many days take off; a begun point of a share is kept."""
         if isinstance(self.per_day, str):
             share = min(days * int(self.per_day.removesuffix("%")), 100)
             return min(points * share // 100, self.at_most)
@@ -68,7 +68,7 @@ class Asked(Struct, frozen=True, forbid_unknown_fields=True):
     points: dict[Kind, Annotated[int, Meta(ge=1, le=100)]] = {}  # of one question; see WORTH
 
     def worth(self, kind: Kind) -> int:
-        """The points of one question of a kind."""
+        """Return the points of one question of a kind."""
         return self.points.get(kind, WORTH[kind])
 
 
@@ -99,7 +99,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def rubric(self) -> Rubric:
-        """The rubric of this course."""
+        """Return the rubric of this course."""
         todos = self.todos
         if self.bonus == "left out":
             known = [todo.id for todo in load_rubric().todos] if todos is None else todos
@@ -108,27 +108,27 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def given(self) -> list[Todo]:
-        """The TODOs with a region that it leaves out: their code is handed out done."""
+        """Return the TODOs with a region that it leaves out: their code is handed out done."""
         asked = {todo.id for todo in self.rubric.todos}
         return [todo for todo in load_rubric().todos if todo.function and todo.id not in asked]
 
     @property
     def modules(self) -> list[str]:
-        """The programs with a TODO, in the order of the rubric: what is to be handed in."""
+        """Return the programs with a TODO, in the order of the rubric: what is to be handed in."""
         return list(dict.fromkeys(todo.module for todo in self.rubric.todos if todo.function))
 
     @property
     def as_rated(self) -> "Course":
-        """The same with the rubric's points, of which each check has at least one."""
+        """Return the same with the rubric's points, of which each check has at least one."""
         return structs.replace(self, points={})
 
     def added(self, bonus: int) -> int:
-        """How many points of a bonus count with the others."""
+        """Return how many points of a bonus count with the others."""
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
 
     @property
     def most(self) -> int:
-        """The most points that a mark can have, with as much of the bonus as counts."""
+        """Return the most points that a mark can have, with as much of the bonus as counts."""
         bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
         return self.rubric.max_points + self.added(bonus)
 
@@ -141,7 +141,7 @@ FULL = Course()
 
 @cache
 def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -> Rubric:
-    """The rubric with these TODOs alone, in its own order, and with these points where it says so.
+    """Return the rubric with these TODOs alone, in its own order, and with these points.
 
     The whole program is asked by those of its checks that run a program with a TODO; one that needs
     none of the TODOs counts only once another one passes.
@@ -159,7 +159,7 @@ def chosen(todos: tuple[str, ...] | None, points: tuple[tuple[str, int], ...]) -
 
 
 def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check]:
-    """The checks of the whole program that a course with these programs and TODOs has."""
+    """Return the checks of the whole program that a course with these programs and TODOs has."""
     return [
         structs.replace(
             check,
@@ -172,14 +172,14 @@ def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check
 
 
 def with_points(todo: Todo, points: int) -> Todo:
-    """The TODO worth so many points, its checks in the proportion that they had."""
+    """Return the TODO worth so many points, its checks in the proportion that they had."""
     shares = spread(points, [check.points for check in todo.checks])
     pairs = zip(todo.checks, shares, strict=True)
     return structs.replace(todo, checks=[structs.replace(c, points=p) for c, p in pairs])
 
 
 def spread(points: int, weights: Sequence[int]) -> list[int]:
-    """Whole numbers that add up to `points`, by the largest remainder.
+    """Return whole numbers that add up to `points`, by the largest remainder.
 
     None of them is 0, unless there are fewer points than weights.
     """
@@ -198,7 +198,7 @@ def spread(points: int, weights: Sequence[int]) -> list[int]:
 
 
 def read_course(path: Path | None = None) -> Course:
-    """The course in this file, or else the kit's own; raises WrongCourse where it cannot be so.
+    """Read the course in this file, or else the kit's own; may raise WrongCourse.
 
     Where there is no kit around the grader, as with students, there is nothing but what they have.
     """
@@ -255,7 +255,7 @@ MUST = {
 }
 
 
-def convert(document: Any, kind: type[Read], around: str = "") -> Read:
+def convert(document: Any, kind: type[Read]) -> Read:
     """Return a table of the file as a struct; raises WrongCourse with a sentence.
 
     msgspec names the place of what is wrong, but not the key in a table of numbers.
@@ -264,7 +264,7 @@ def convert(document: Any, kind: type[Read], around: str = "") -> Read:
         return msgspec.convert(document, kind)
     except msgspec.ValidationError as error:
         place = re.search(r"`\$\.?([\w.]*)(?:\[.*)?`$", str(error))
-        names = [*filter(None, [around, *(place[1].split(".") if place else [])])]
+        names = [name for name in place[1].split(".") if name] if place else []
         if unknown := re.search(r"unknown field `(.*?)`", str(error)):
             owner = {"late": Late, "questions": Asked}.get(names[-1] if names else "", Course)
             known = ", ".join(
@@ -274,7 +274,7 @@ def convert(document: Any, kind: type[Read], around: str = "") -> Read:
                 f"{': '.join([*names, ''])}there is no key {unknown[1]}; there are {known}"
             ) from None
         value = document
-        for name in names[bool(around) :]:
+        for name in names:
             value = value[name]
         if isinstance(value, dict) and names[-1] == "points":
             names, value = next(
@@ -341,11 +341,3 @@ def faults_between(course: Course) -> Iterator[str]:
     if course.due is not None and course.visible is not None and course.visible < course.due:
         visible = f"visible = {course.visible} is before due = {course.due}"
         yield f"{visible}: students could still hand in"
-
-
-def wrong_late(late: dict[str, Any]) -> Iterator[str]:
-    """Yield what is wrong with rules for late work; their date aside."""
-    try:
-        convert(late, Late, "late")
-    except WrongCourse as wrong:
-        yield str(wrong)

@@ -23,14 +23,18 @@ BASE = 100  # hypothesis takes no integer from a loaded module that is smaller
 Example = Callable[..., None]  # a property with all that was drawn for it; takes a lab
 Property = Callable[..., None]
 
-# What hypothesis keeps of the modules it reads, so that it litters no folder of a teacher's.
-set_hypothesis_home_dir(Path(__file__).parents[2] / "build" / "hypothesis")
+# What hypothesis keeps of the modules it reads: 0.4 s of reading in each process, if it kept none.
+CACHE = Path(__file__).parents[2] / "build" / "hypothesis"
+set_hypothesis_home_dir(CACHE)
 
 
 def given(
-    examples: int = EXAMPLES, shrinks: bool = True, **strategies: st.SearchStrategy[Any]
+    examples: int = EXAMPLES, **strategies: st.SearchStrategy[Any]
 ) -> Callable[[Property], Property]:
-    """Make a check a property: hypothesis' own `given`, under the judge's settings."""
+    """Make a check a property: hypothesis' own `given`, under the judge's settings.
+
+    The first example is the simplest there is. With one more, or none, nothing is worth shrinking.
+    """
     phases = [Phase.explicit, Phase.generate, Phase.shrink]
     settings = hypothesis.settings(
         deadline=None,
@@ -38,8 +42,8 @@ def given(
         max_examples=examples,
         report_multiple_bugs=False,
         print_blob=False,
-        phases=phases if shrinks else phases[:2],
-        suppress_health_check=list(HealthCheck),
+        phases=phases if examples > 2 else phases[:2],
+        suppress_health_check=list(HealthCheck),  # pyright: ignore[reportArgumentType]
     )
     return lambda function: settings(hypothesis.given(**strategies)(function))
 

@@ -1,4 +1,4 @@
-"""Grading one submission, from a path to a Result."""
+"""Grade one submission, from a path to a Result."""
 
 import os
 import tempfile
@@ -23,7 +23,7 @@ from grader.judge.meaning import Evidence, explain
 from grader.judge.names import Names
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
-from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
+from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
@@ -73,7 +73,7 @@ DEFAULT_OPTIONS = Options()
 
 
 def shipped_reference() -> Path | None:
-    """The solution beside the grader, where the whole kit is checked out."""
+    """Return the solution beside the grader, where the whole kit is checked out."""
     folder = KIT / "solution"
     return folder if (folder / "mini_engine").is_dir() else None
 
@@ -97,7 +97,7 @@ def grade(
 def grading(
     path: Path, options: Options, worker: Worker | None = None, rubric: Rubric | None = None
 ) -> Iterator["Grading"]:
-    """All that it takes to grade the submission at `path`, by another rubric where one is given."""
+    """Set up what it takes to grade the submission at `path`, by another rubric if given."""
     rubric = rubric or options.course.rubric
     reference = Reference(options.reference, load_rubric())
     with work_folder() as work:
@@ -113,7 +113,7 @@ def grading(
 
 @contextmanager
 def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
-    """A way to open children of a tree as it is, without grading it."""
+    """Yield a way to open children of a tree as it is, without grading it."""
     with work_folder() as work:
         worker = start_worker()
         try:
@@ -124,7 +124,7 @@ def opened(tree: Path) -> Iterator[Callable[[int], Child]]:
 
 
 def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) -> Sandbox:
-    """The sandbox of a tree: the grader and the reference are out of its children's reach."""
+    """Return the sandbox of a tree, out of whose reach the grader and the reference are."""
     hidden = [str(KIT / "grader"), str(options.reference or KIT / "solution")]
     return Sandbox(
         tree.folder,
@@ -139,7 +139,7 @@ def sandbox_for(tree: Submission, work: Path, worker: Worker, options: Options) 
 
 
 def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
-    """The folders of a tree that hold no program and are just as the reference has them.
+    """Return the folders of a tree that hold no program and are just as the reference has them.
 
     They were handed out to be used. A folder of the student's own, which a program may write to, is
     never among them.
@@ -149,19 +149,21 @@ def as_in_reference(tree: Path, reference: Path | None) -> list[str]:
     programs = {todo.module for todo in load_rubric().todos}
     folders = [each.name for each in sorted(tree.iterdir()) if each.is_dir()]
     return [
-        name for name in folders if name not in programs and alike(tree / name, reference / name)
+        name
+        for name in folders
+        if name not in programs and has_same_files(tree / name, reference / name)
     ]
 
 
-def alike(folder: Path, other: Path) -> bool:
-    """Whether a folder holds the same Python files as another, and nothing else."""
+def has_same_files(folder: Path, other: Path) -> bool:
+    """Return whether a folder holds the same Python files as another, and nothing else."""
     ours = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
     return ours == {p.relative_to(other): p.read_bytes() for p in python_files(other)}
 
 
 @cache
 def load_stubs() -> dict[str, str]:
-    """The shapes of the starter's stubs: of each region, and of the function around it."""
+    """Return the shapes of the starter's stubs: of each region, and of the function around it."""
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
     return {name: shape_of(source) for name, source in stubs.items()}
 
@@ -206,9 +208,15 @@ class Grading:
         self.put_given_code_back(loop)
         return self.result(loop)
 
+    def new_lab(self, todo: Todo, check: Check) -> Lab:
+        """Return a lab for one check, with the reference in the other TODOs' places."""
+        module = check.module or todo.module
+        pieces = self.reference.for_the_others(todo, module, self.rubric, self.submission)
+        return Lab(module, lambda: self.sandbox.open_child(check.cpu_seconds), pieces)
+
     def put_given_code_back(self, loop: "CheckLoop") -> None:
         """Ask failed checks with changed given code undone; a TODO's own that pass have passed."""
-        failed = {key: loop.results[key] for key in loop.functions}
+        failed = {key: loop.results[key] for key in loop.failed}
         if not failed or not (changed := self.changed_given(loop.unusable.values())):
             return
         blame = Blame(changed, self.open_with, loop.again, lambda: bool(loop.budget.cut))
@@ -218,10 +226,10 @@ class Grading:
         for id in {id for id, _ in blame.seen}:
             answers = [each for key, each in loop.seen.items() if key[0] == id]
             self.observations[id] = [each for some in answers for each in some]
-        todos = {todo.id: todo for todo in self.rubric.todos}
         for key, blamed in blame.found.items():
-            if blamed.mended and self.keeps_points(todos[key[0]]):
-                check = loop.results[key]
+            check, job = loop.results[key], loop.failed[key]
+            if blamed.mended and self.keeps_points(job.todo):
+                hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
                 loop.failing.pop(key, None)
                 loop.results[key] = msgspec.structs.replace(
                     check,
@@ -229,7 +237,7 @@ class Grading:
                     points=check.max_points,
                     expected="",
                     got="",
-                    meaning=blamed.in_words,
+                    meaning=f"{blamed.in_words} {hint}".rstrip(),
                     where=blamed.place(check),
                 )
 
@@ -239,18 +247,18 @@ class Grading:
         return bool(path) and path not in self.names.changed(todo.module)
 
     def open_right(self, cpu_seconds: int) -> Child:
-        """A child of the reference itself, to see what should happen."""
+        """Return a child of the reference itself, to see what should happen."""
         return self.right_sandbox.open_child(cpu_seconds)
 
     @cached_property
     def right_sandbox(self) -> Sandbox:
-        """That of the reference, taken in when it is first needed."""
+        """Return the sandbox of the reference, taken in when it is first needed."""
         folder = self.right_submission.folder
         return sandbox_for(self.right_submission, folder.parent, self.sandbox.worker, self.options)
 
     @cached_property
     def right_submission(self) -> Submission:
-        """The reference, taken in like a submission."""
+        """Return the reference, taken in like a submission."""
         assert self.options.reference is not None
         work = Path(tempfile.mkdtemp(dir=self.sandbox.work))  # a name that nobody can guess
         return take_in(self.options.reference, work / "tree", self.rubric, {})
@@ -269,14 +277,14 @@ class Grading:
         return [*whole, *changes(kept, given)]
 
     def open_with(self, undone: Sequence[Changed]) -> Callable[[int], Child]:
-        """A way to open children of the submission with some given code put back."""
+        """Return a way to open children of the submission with some given code put back."""
         folder, files = self.submission.folder, {each.file for each in undone}
         mine = {name: [each for each in undone if each.file == name] for name in files}
         texts = {name: restored(read_source(folder / name), mine[name]) for name in files}
         return self.sandbox.changed(texts).open_child
 
     def find_unusable(self, budget: Budget) -> dict[str, Broke | NotYet]:
-        """The modules that cannot be imported, each tried once instead of in every check."""
+        """Return the modules that cannot be imported, each tried once instead of in every check."""
         modules = dict.fromkeys(
             check.module or todo.module
             for todo in filter(self.options.wants, self.rubric.todos)
@@ -321,10 +329,10 @@ class Grading:
         self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]
     ) -> TodoResult:
         """Return what came of a TODO, when it is known which ones are `unfinished`."""
-        ran = {id for todo_id, id in loop.functions if todo_id == todo.id}
+        ran = {id for todo_id, id in loop.failed if todo_id == todo.id}
         mistake = None
         if any(check.failed and check.id in ran for check in checks):
-            mistake = misconceptions.named(todo.id, self.observations.get(todo.id, []))
+            mistake = misconceptions.name_mistake(todo.id, self.observations.get(todo.id, []))
         earlier = self.find_earlier(todo, loop, unfinished)
         checks = [wait_for(earlier[c.id], c) if c.id in earlier else c for c in checks]
         modules = {each.id: each.module or todo.module for each in todo.checks}
@@ -354,7 +362,7 @@ class Grading:
         found = {}
         for check in todo.checks:
             module, key = check.module or todo.module, (todo.id, check.id)
-            if key not in loop.functions:
+            if key not in loop.failed:
                 continue
             others = [
                 each.id
@@ -392,7 +400,7 @@ class Grading:
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:
-    """A check that a stub passes as well earns nothing alone: another one must pass, too."""
+    """Give no points for a check that a stub passes as well, unless another one passes too."""
     guards = {check.id for check in todo.checks if check.guard}
     if any(check.state == "passed" and check.id not in guards for check in checks):
         return checks

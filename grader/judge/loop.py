@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from types import ModuleType
@@ -30,6 +30,49 @@ SURVEY = 2  # s of processor time, for that
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
 
+Opener = Callable[[int], Child]  # takes the budget in CPU seconds
+
+
+@dataclass(frozen=True)
+class Job:
+    """A check that is to run, and the function that does it."""
+
+    todo: Todo
+    check: Check
+    function: Any
+
+    @property
+    def key(self) -> tuple[str, str]:
+        return self.todo.id, self.check.id
+
+    @property
+    def module(self) -> str:
+        return self.check.module or self.todo.module
+
+    @property
+    def title(self) -> str:
+        return (self.function.__doc__ or self.check.id).strip().splitlines()[0].rstrip(".")
+
+
+@dataclass(frozen=True)
+class Way:
+    """The way in which a check runs.
+
+    `isolated`: with the reference in the other TODOs' places. `right`: on the reference itself.
+    `surveys`: on to its end where it fails, at no cost of the time that decides about marks.
+    `watched`: noting what the submission remembers. `opener`: in children that others open.
+    """
+
+    isolated: bool = False
+    right: bool = False
+    surveys: bool = False
+    watched: bool = False
+    opener: Opener | None = None
+
+
+ALONE, ISOLATED = Way(), Way(isolated=True)
+
+
 @dataclass
 class CheckLoop:
     """One run of the checks: what they are given, and what came of each."""
@@ -37,7 +80,7 @@ class CheckLoop:
     submission: Submission
     rubric: Rubric
     reference: Reference
-    open_child: Callable[[int], Child]  # takes the budget in CPU seconds
+    open_child: Opener
     unusable: dict[str, Broke | NotYet]  # module -> why it cannot be imported
     wanted: Callable[[Todo], bool]
     seed: int | None = None
@@ -46,153 +89,149 @@ class CheckLoop:
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
     remembered: dict[tuple[str, str], list[str]] = field(default_factory=dict)  # by failed check
-    functions: dict[tuple[str, str], tuple[Todo, Check, Any]] = field(default_factory=dict)
+    failed: dict[tuple[str, str], Job] = field(default_factory=dict)  # that can be asked again
     surveys_all: bool = False  # whether checks that pass are surveyed as well
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
-    open_right: Callable[[int], Child] | None = None  # a child of the reference itself
+    open_right: Opener | None = None  # a child of the reference itself
     elsewhere: dict[tuple[str, str], str] = field(default_factory=dict)  # TODOs it fails in first
     wrong: str = ""  # which check fails the right code, and how
 
     def run(self) -> None:
-        """Every check in the order of the rubric."""
+        """Run every check in the order of the rubric."""
         for todo in filter(self.wanted, self.rubric.todos):
             checks = load_checks(todo)
             for check in todo.checks:
                 if not hasattr(checks, check.id):
                     raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
-                self.judge(todo, check, getattr(checks, check.id))
+                self.judge(Job(todo, check, getattr(checks, check.id)))
         if self.wrong:
             raise CannotGrade(self.wrong)
 
-    def judge(self, todo: Todo, check: Check, function: Any) -> None:
-        title = (function.__doc__ or check.id).strip().splitlines()[0].rstrip(".")
-        result = self._blocked(todo, check, title) or self._run(todo, check, title, function)
-        self.results[todo.id, check.id] = result
-        if result.failed and self._flaw_of(todo, check) is None:
-            self.functions[todo.id, check.id] = todo, check, function
+    def judge(self, job: Job) -> None:
+        result = self._blocked(job) or self._run(job)
+        self.results[job.key] = result
+        if result.failed and self._flaw_of(job) is None:
+            self.failed[job.key] = job
         if self.progress is not None:
             self.progress(result)
 
-    def _blocked(self, todo: Todo, check: Check, title: str) -> CheckResult | None:
-        """The result of a check that need not run."""
-        if flaw := self._flaw_of(todo, check):
-            return self._refused(todo, check, title, flaw)
-        begun = self.submission.begun
-        waiting = [each for each in check.needs if not begun.get(each, True)]
+    def _blocked(self, job: Job) -> CheckResult | None:
+        """Return the result of a check that need not run."""
+        if flaw := self._flaw_of(job):
+            return self._refused(job, flaw)
+        todo, begun = job.todo, self.submission.begun
+        waiting = [each for each in job.check.needs if not begun.get(each, True)]
         todos = [each.id for each in self.rubric.counted if each.function]
         none_begun = not any(begun.get(each, True) for each in todos)
         if todo.function and not begun.get(todo.id, True):
-            where = self.submission.where.get(todo.id)
-            return self._result(todo, check, title, "not started", where=where)
+            return self._result(job, "not started", where=self.submission.where.get(todo.id))
         if not todo.function and none_begun:
-            return self._result(todo, check, title, "not started")
-        why = self.unusable.get(check.module or todo.module)
+            return self._result(job, "not started")
+        why = self.unusable.get(job.module)
         if why is not None:
-            return self._failure(todo, check, title, why)
+            return self._failure(job, why)
         if waiting:
-            text = f"waiting for TODO {', '.join(waiting)}"
-            return self._result(todo, check, title, "waiting", got=text)
+            return self._result(job, "waiting", got=f"waiting for TODO {', '.join(waiting)}")
         if self.budget.cut:
-            return self._result(todo, check, title, "error", got=self.budget.cut)
+            return self._result(job, "error", got=self.budget.cut)
         return None
 
-    def _run(self, todo: Todo, check: Check, title: str, function: Any) -> CheckResult:
-        """With the reference in the other TODOs' places; failing that, the program as it is.
+    def _run(self, job: Job) -> CheckResult:
+        """Run a check with the reference in the other TODOs' places, then the program as it is.
 
         What is told of a failure comes from the program as it is. Where the reference was sent, a
         submission could have read it, and any word or number of its answers could spell it out;
         whether it was put in place is for the child to say, and so no matter. Nobody waits twice
         for one whose time was over: then nothing is told but that.
         """
-        lab, again = self._attempt(todo, check, function, isolated=True)
-        told = lab
+        lab, again = self._attempt(job, ISOLATED)
+        alone = lab
         if lab.failure is not None and lab.connection.pieces and not lab.late:
-            told, again = self._attempt(todo, check, function, isolated=False)
-        if told.failure is None:
-            lab = told
-        elif lab.failure is not None and fails_elsewhere(lab.failure, told.failure):
-            self.elsewhere[todo.id, check.id] = self._todo_of(told.failure)
-        if told.failure is not None and told.connection.pieces:
-            seen: list[Observation] = []
+            alone, again = self._attempt(job, ALONE)
+        if alone.failure is None:
+            lab = alone
+        elif lab.failure is not None and fails_elsewhere(lab.failure, alone.failure):
+            self.elsewhere[job.key] = self._todo_of(alone.failure)
+        if alone.failure is not None and alone.connection.pieces:
+            answers: list[Observation] = []
         else:
-            seen = self._survey(todo, check, function, told)
-        self.seen[todo.id, check.id] = seen
-        of_todo = self.observations.setdefault(todo.id, [])
+            answers = self._survey(job, alone)
+        self.seen[job.key] = answers
+        of_todo = self.observations.setdefault(job.todo.id, [])
         of_todo.extend(lab.observations)
-        if seen is not lab.observations:
-            of_todo.extend(each for each in seen if each not in of_todo)
-        if told.failure is not None:
-            self._blame(todo, check, function, told)
-            self.remembered[todo.id, check.id] = told.remembers
-            if not told.ended:
-                secret = secret_of(self.seed, todo, check)
-                failing = Failing(todo, check, again, told.connection.pieces, secret)
-                self.failing[todo.id, check.id] = failing
-            return self._failure(todo, check, title, told.failure)
-        return self._result(todo, check, title, "passed")
+        if answers is not lab.observations:
+            of_todo.extend(each for each in answers if each not in of_todo)
+        if alone.failure is None:
+            return self._result(job, "passed")
+        self._blame(job, alone)
+        self.remembered[job.key] = alone.remembers
+        if not alone.ended:
+            secret = secret_of(self.seed, job.todo, job.check)
+            pieces = alone.connection.pieces
+            self.failing[job.key] = Failing(job.todo, job.check, again, pieces, secret)
+        return self._failure(job, alone.failure)
 
-    def _survey(self, todo: Todo, check: Check, function: Any, told: Lab) -> list[Observation]:
-        """What the program as it is answers to all that a failed check asks, and not just so far.
+    def _survey(self, job: Job, alone: Lab) -> list[Observation]:
+        """Ask the program as it is all that a failed check asks, and not just so far.
 
         By that, what is wrong can be told from what is right. Not worth its time for a property,
         which asks much, nor where a program was played.
         """
-        wanted = isinstance(told.failure, NotYet) or self.surveys_all
-        brief = told.connection.cpu < BRIEF and not told.played and self.budget.has_more
-        if not wanted or not brief or not told.observations or check.kind == "property":
-            return told.observations
-        survey = self._asked(todo, check, function, isolated=False, surveys=True, watched=True)
-        told.remembers = survey.remembers
+        wanted = isinstance(alone.failure, NotYet) or self.surveys_all
+        brief = alone.connection.cpu < BRIEF and not alone.played and self.budget.has_more
+        is_property = job.check.kind == "property"
+        if not wanted or not brief or not alone.observations or is_property:
+            return alone.observations
+        survey = self._ask(job, job.function, Way(surveys=True, watched=True))
+        alone.remembers = survey.remembers
         return survey.observations
 
-    def _blame(self, todo: Todo, check: Check, function: Any, lab: Lab) -> None:
+    def _blame(self, job: Job, lab: Lab) -> None:
         """Note a check that the right code fails as well: that is not the submission's fault.
 
         Asked only where it may be so: of an error that nobody foresaw, and of a submission that
         has the right code in this place.
         """
-        likely = lab.unforeseen or self.reference.is_that_of(self.submission, todo)
+        likely = lab.unforeseen or self.reference.is_that_of(self.submission, job.todo)
         cut = lab.ended and not lab.unforeseen  # out of time or memory: that may be the machine
         if self.open_right is None or self.wrong or cut or not likely:
             return
-        with kept_examples(function, self.seed):
-            right = self._asked(todo, check, function, isolated=False, right=True)
+        with kept_examples(job.function, self.seed):
+            right = self._ask(job, job.function, Way(right=True))
         failure = right.failure
         if failure is None or (right.ended and not right.unforeseen):
             return
         expected = f"; expected: {failure.expected}" if isinstance(failure, NotYet) else ""
         self.wrong = (
-            f"the check {check.id} in checks/{todo.folder} is wrong: the right code fails it too. "
-            f"It ran: {failure.ran}{expected}; got: {failure.got}"
+            f"the check {job.check.id} in checks/{job.todo.folder} is wrong: the right code fails "
+            f"it too. It ran: {failure.ran}{expected}; got: {failure.got}"
         )
 
-    def _attempt(
-        self, todo: Todo, check: Check, function: Any, isolated: bool
-    ) -> tuple[Lab, Example]:
-        """A lab in which the check ran, and what ran there last.
+    def _attempt(self, job: Job, way: Way) -> tuple[Lab, Example]:
+        """Return a lab in which the check ran, and what ran there last.
 
         A property draws the same for all, so it asks at once what another submission has passed.
         Only where that fails need hypothesis look for the simplest example.
         """
-        known = passed_before.get((function, self.seed))
+        known = passed_before.get((job.function, self.seed))
         if known is not None:
             example = partial(each_of, known)
-            lab = self._asked(todo, check, example, isolated)
+            lab = self._ask(job, example, way)
             if lab.failure is None or lab.ended:
                 return lab, example
-        with kept_examples(function, self.seed) as examples:
-            lab = self._asked(todo, check, function, isolated)
+        with kept_examples(job.function, self.seed) as examples:
+            lab = self._ask(job, job.function, way)
         if not examples:
-            return lab, function
+            return lab, job.function
         if lab.failure is None:
-            passed_before[function, self.seed] = examples
+            passed_before[job.function, self.seed] = examples
         elif isinstance(lab.failure, NotYet) and lab.failure is not lab.overstepped:
-            lab = self._alone(lab, self._asked(todo, check, examples[-1], isolated, watched=True))
+            lab = self._alone(lab, self._ask(job, examples[-1], replace(way, watched=True)))
         return lab, examples[-1]
 
     def _alone(self, lab: Lab, alone: Lab) -> Lab:
-        """The lab to tell of, given what its last example came to in a child asked nothing else.
+        """Return the lab to tell of: its last example was asked alone, in another child.
 
         Where that differs, the answer hangs on what was asked before, and no number of it means
         anything.
@@ -210,49 +249,29 @@ class CheckLoop:
         first.meaning = REMEMBERS
         return lab
 
-    def again(self, key: tuple[str, str], open_child: Callable[[int], Child]) -> Lab:
-        """The lab of a check that failed and is asked once more, of children that others open.
+    def again(self, key: tuple[str, str], open_child: Opener) -> Lab:
+        """Ask a check that failed once more, of children that others open.
 
-        All marks are decided by then. Its observations are those of the program as it is.
+        Its observations are those of the program as it is.
         """
-        todo, check, function = self.functions[key]
-        with kept_examples(function, self.seed):
-            lab = self._asked(todo, check, function, isolated=True, opener=open_child)
+        job = self.failed[key]
+        with kept_examples(job.function, self.seed):
+            lab = self._ask(job, job.function, Way(isolated=True, opener=open_child))
             if lab.connection.pieces:
-                alone = self._asked(todo, check, function, isolated=False, opener=open_child)
+                alone = self._ask(job, job.function, Way(opener=open_child))
                 lab.observations = alone.observations
             return lab
 
-    def _asked(
-        self,
-        todo: Todo,
-        check: Check,
-        example: Example,
-        isolated: bool,
-        right: bool = False,
-        opener: Callable[[int], Child] | None = None,
-        surveys: bool = False,
-        watched: bool = False,
-    ) -> Lab:
-        """A lab in which the check ran, of the reference itself if it is to be the `right` code.
-
-        One that `surveys` goes on where the check fails, and costs the submission none of the time
-        that decides about marks. One that is `watched` says what the submission remembers.
-        """
-        module = check.module or todo.module
+    def _ask(self, job: Job, example: Example, way: Way) -> Lab:
+        """Return a lab in which the check ran."""
         others = self.reference.for_the_others(
-            todo, module, self.rubric, self.submission, self._replaceable()
+            job.todo, job.module, self.rubric, self.submission, self._replaceable()
         )
-        pieces = others if isolated else []
-        secret = secret_of(self.seed, todo, check)
-        lab = Lab(
-            module,
-            lambda: self._child_for(todo, check, right, surveys, opener),
-            pieces,
-            secret=secret,
-        )
-        lab.surveys, lab.connection.watched = surveys, watched
-        little = self.budget.why_little(todo.id)
+        secret = secret_of(self.seed, job.todo, job.check)
+        pieces = others if way.isolated else []
+        lab = Lab(job.module, lambda: self._child_for(job, way), pieces, secret=secret)
+        lab.surveys, lab.connection.watched = way.surveys, way.watched
+        little = self.budget.why_little(job.todo.id)
         with lab.opened():
             try:
                 example(lab=lab)
@@ -266,29 +285,22 @@ class CheckLoop:
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
             lab.remembers = lab.connection.remembered()
-        if surveys:
+        if way.surveys:
             self.budget.charge_for_words(lab.connection)
-        if right or surveys:
-            return lab
-        self.budget.charge(todo.id, lab.connection)
-        if lab.ended and lab.failure is not None:
-            lab.failure.got += little
+        elif not way.right:
+            self.budget.charge(job.todo.id, lab.connection)
+            if lab.ended and lab.failure is not None:
+                lab.failure.got += little
         return lab
 
-    def _child_for(
-        self,
-        todo: Todo,
-        check: Check,
-        right: bool,
-        surveys: bool,
-        opener: Callable[[int], Child] | None,
-    ) -> Child:
-        if right and self.open_right is not None:
-            return self.open_right(check.cpu_seconds)
-        if surveys:
+    def _child_for(self, job: Job, way: Way) -> Child:
+        if way.right and self.open_right is not None:
+            return self.open_right(job.check.cpu_seconds)
+        if way.surveys:
             return for_words(self.open_child)(SURVEY)
-        child = (opener or self.open_child)(self.budget.cpu_for(todo.id, check.cpu_seconds))
-        child.rest_seconds = self.budget.rest_for(todo.id)
+        seconds = self.budget.cpu_for(job.todo.id, job.check.cpu_seconds)
+        child = (way.opener or self.open_child)(seconds)
+        child.rest_seconds = self.budget.rest_for(job.todo.id)
         return child
 
     def _todo_of(self, failure: NotYet | Broke) -> str:
@@ -312,73 +324,57 @@ class CheckLoop:
 
     # ------------------------------------------------------------ code that is no Python
 
-    def _flaw_of(self, todo: Todo, check: Check) -> Flaw | None:
+    def _flaw_of(self, job: Job) -> Flaw | None:
         """Return why the code that a check is about cannot run at all."""
-        if todo.function:
-            return self.submission.flaws.get(todo.id)
-        return self.submission.outside.get(check.module or todo.module)
+        if job.todo.function:
+            return self.submission.flaws.get(job.todo.id)
+        return self.submission.outside.get(job.module)
 
-    def _refused(self, todo: Todo, check: Check, title: str, flaw: Flaw) -> CheckResult:
-        where, ran = Where(flaw.file, flaw.line), f"import {flaw.file}"
-        what = f"This part of TODO {todo.id} is" if todo.function else "This code is"
+    def _refused(self, job: Job, flaw: Flaw) -> CheckResult:
+        what = f"This part of TODO {job.todo.id} is" if job.todo.function else "This code is"
         return self._result(
-            todo,
-            check,
-            title,
+            job,
             "error",
-            ran=ran,
+            ran=f"import {flaw.file}",
             expected="code that Python accepts",
             got=flaw.words,
             meaning=f"{what} no Python, so none of it runs. {flaw.advice} {INSTEAD}",
-            where=where,
+            where=Where(flaw.file, flaw.line),
         )
 
     # ------------------------------------------------------------ results
 
-    def _failure(
-        self, todo: Todo, check: Check, title: str, failure: NotYet | Broke
-    ) -> CheckResult:
-        where = self.submission.where.get(todo.id)
-        unread = self.submission.unread[:UNREAD] if todo.function and where is None else []
+    def _failure(self, job: Job, failure: NotYet | Broke) -> CheckResult:
+        where = self.submission.where.get(job.todo.id)
+        unread = self.submission.unread[:UNREAD] if job.todo.function and where is None else []
         got = "; ".join([failure.got, *unread])
         if isinstance(failure, NotYet):
             expected, got = readable(failure.expected, got)
-            return self._result(
-                todo,
-                check,
-                title,
-                "not yet",
-                ran=tidied(failure.ran),
-                expected=expected,
-                got=got,
-                meaning=failure.meaning,
-                where=where,
-            )
+            ran, meaning = tidied(failure.ran), failure.meaning
+            words = {"ran": ran, "expected": expected, "got": got, "meaning": meaning}
+            return self._result(job, "not yet", where=where, **words)
         lines = failure.raised.frames if failure.raised is not None else []
         if lines := [each for each in lines if self.submission.holds(each.file)]:
             last = lines[-1]
-            own = [each for each in lines if not self._is_given(todo, each)]
+            own = [each for each in lines if not self._is_given(job.todo, each)]
             if own or where is None:
                 frame = (own or lines)[-1]
                 where = Where(frame.file, frame.line)
             got += f" (in {last.file}, line {last.line}: {last.text})"
-        return self._result(
-            todo, check, title, "error", ran=failure.ran, expected="an answer", got=got, where=where
-        )
+        words = {"ran": failure.ran, "expected": "an answer", "got": got}
+        return self._result(job, "error", where=where, **words)
 
     def _is_given(self, todo: Todo, frame: CodeLine) -> bool:
-        """Whether a line is as it was handed out: an error shows there and comes from elsewhere."""
+        """Return whether a line is as handed out: an error there comes from elsewhere."""
         text = load_given().get(frame.file)
         if text is None or frame.function == todo.function.rpartition(":")[2].rpartition(".")[2]:
             return False
         return frame.text.strip() in map(str.strip, text.splitlines())
 
-    def _result(
-        self, todo: Todo, check: Check, title: str, state: State, **words: Any
-    ) -> CheckResult:
-        points = check.points if state == "passed" else 0
-        result = CheckResult(check.id, title, check.kind, state, points, check.points, **words)
-        return in_bounds(result)
+    def _result(self, job: Job, state: State, **words: Any) -> CheckResult:
+        most, kind = job.check.points, job.check.kind
+        points = most if state == "passed" else 0
+        return in_bounds(CheckResult(job.check.id, job.title, kind, state, points, most, **words))
 
 
 def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:

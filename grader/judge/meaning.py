@@ -92,7 +92,7 @@ def describe_answers(evidence: Evidence, check: CheckResult) -> str:
 
     That something is kept is no mistake alone. An answer that hangs on it looks like any other.
     """
-    said = check.meaning or evidence.diagnosis.of(evidence.answers.get(check.id, []))
+    said = check.meaning or evidence.diagnosis.describe(evidence.answers.get(check.id, []))
     names = evidence.kept.get(check.id, [])[:MOST_NAMES]
     shown = ", ".join(name.rpartition(".")[2] for name in names)
     return f"{said} {KEPT.format(names=shown)}".strip() if names else said

@@ -1,4 +1,4 @@
-"""Naming the mistake: a model of each known one, held against every answer the submission gave.
+"""Name the mistake: hold a model of each known one against every answer of the submission.
 
 A mistake is named only if its model gives *every* observed answer it speaks about, and the right
 model does not. Nothing is guessed from how the code looks.
@@ -32,11 +32,15 @@ class Mistake:
     model: Model
 
 
-known: list[Mistake] = []
-right: dict[str, Model] = {}
-traits: dict[str, Model] = {}  # what a question is like, in words, by what may tell it from others
-parts: dict[str, Parts] = {}
-separate: set[str] = set()  # observations of which a mistake may be made in one part alone
+known_mistakes: list[Mistake] = []
+right_models: dict[str, Model] = {}
+trait_models: dict[
+    str, Model
+] = {}  # what a question is like, in words, by what may tell it from others
+part_names: dict[str, Parts] = {}
+separate_questions: set[str] = (
+    set()
+)  # observations of which a mistake may be made in one part alone
 
 
 def truth(
@@ -54,13 +58,13 @@ def truth(
     the positions of their numbers in it; no positions are all of them. Where each part has code of
     its own, they are `apart`, and a mistake may be made in one of them alone.
     """
-    right[about] = model
+    right_models[about] = model
     if like is not None:
-        traits[about] = like
+        trait_models[about] = like
     if of is not None:
-        parts[about] = of
+        part_names[about] = of
     if apart:
-        separate.add(about)
+        separate_questions.add(about)
 
 
 def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> None:
@@ -68,14 +72,14 @@ def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> 
 
     One model that explains the answers is enough. Of several TODOs the ids are separated by spaces.
     Where two mistakes explain the same answers, the one registered first is named. A file that says
-    the first two arguments often makes a partial of this function: `known`.
+    the first two arguments often makes a partial of this function.
     """
     for model in models:
-        known.extend(Mistake(todo, name, meaning, about, model) for todo in todos.split())
+        known_mistakes.extend(Mistake(todo, name, meaning, about, model) for todo in todos.split())
 
 
 def always(answer: Any) -> Model:
-    """The model that gives the same answer whatever is asked."""
+    """Return the model that gives the same answer whatever is asked."""
     return lambda *inputs: answer
 
 
@@ -87,24 +91,24 @@ def load_known(todo: str) -> None:
     """
     table = load_recorded()
     if table is not None:
-        take_from(table, todo)
+        register_recorded(table, todo)
         return
     for each in load_rubric().todos:
         if each.id == todo and (CHECKS / each.folder / "mistakes.py").exists():
             importlib.import_module(f"grader.checks.{each.folder}.mistakes")
 
 
-def take_from(table: Recorded, todo: str) -> None:
+def register_recorded(table: Recorded, todo: str) -> None:
     for each in table.mistakes:
         if each.todo == todo:
-            mistake(todo, each.about, each.id, each.meaning, looked_up(each.answers))
+            mistake(todo, each.about, each.id, each.meaning, answer_from(each.answers))
     for about, answers in table.right.items():
-        like = looked_up(table.traits[about]) if about in table.traits else None
-        truth(about, looked_up(answers), like, table.parts.get(about), about in table.separate)
+        like = answer_from(table.traits[about]) if about in table.traits else None
+        truth(about, answer_from(answers), like, table.parts.get(about), about in table.separate)
 
 
-def looked_up(answers: Answers) -> Model:
-    """The model that gives these answers, and is undecided where there is none."""
+def answer_from(answers: Answers) -> Model:
+    """Return the model that gives these answers, and is undecided where there is none."""
 
     def model(*inputs: Any) -> Any:
         try:
@@ -115,25 +119,25 @@ def looked_up(answers: Answers) -> Model:
     return model
 
 
-def named(todo: str, observations: Sequence[Observation]) -> Mistake | None:
-    """The known mistake that explains every answer, or None.
+def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | None:
+    """Return the known mistake that explains every answer, or None.
 
     A student's copy sees less, so it names one only if no other explains as much.
     """
     load_known(todo)
-    found = [each for each in known if each.todo == todo and explains(each, observations)]
+    found = [each for each in known_mistakes if each.todo == todo and explains(each, observations)]
     if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
         return None
     return found[0] if found else None
 
 
 def simplest(ids: Collection[str]) -> list[str]:
-    """The ids without those of two mistakes, `one+other`, one of which is there by itself."""
+    """Drop the ids of two mistakes, `one+other`, one of which is there by itself."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 
-def said(model: Model, inputs: tuple[Any, ...]) -> Any:
-    """What a model gives. Raises Undecided too where it divides by 0 or leaves all numbers."""
+def predict(model: Model, inputs: tuple[Any, ...]) -> Any:
+    """Return what a model gives; raise Undecided too where it divides by 0 or overflows."""
     try:
         return model(*inputs)
     except ArithmeticError:
@@ -146,24 +150,26 @@ def explains(each: Mistake, observations: Iterable[Observation]) -> bool:
         if seen.about != each.about:
             continue
         try:
-            predicted = said(each.model, seen.inputs)
+            predicted = predict(each.model, seen.inputs)
         except Undecided:
             continue
-        if not alike(predicted, seen.answer):
+        if not are_close(predicted, seen.answer):
             return False
         try:
-            told_apart = told_apart or not alike(said(right[each.about], seen.inputs), seen.answer)
+            told_apart = told_apart or not are_close(
+                predict(right_models[each.about], seen.inputs), seen.answer
+            )
         except Undecided:
             continue
     return told_apart
 
 
-def alike(first: Any, second: Any, tolerance: float = 1e-6) -> bool:
-    """Equal up to rounding, whatever the shape."""
+def are_close(first: Any, second: Any, tolerance: float = 1e-6) -> bool:
+    """Return whether two answers are equal up to rounding, whatever the shape."""
     if isinstance(first, int | float) and isinstance(second, int | float):
         return math.isclose(first, second, rel_tol=tolerance, abs_tol=tolerance)
     if isinstance(first, tuple | list) and isinstance(second, tuple | list):
         return len(first) == len(second) and all(
-            alike(a, b, tolerance) for a, b in zip(first, second, strict=True)
+            are_close(a, b, tolerance) for a, b in zip(first, second, strict=True)
         )
     return bool(first == second)

@@ -66,7 +66,7 @@ class Signature:
 
 
 def signatures(text: str) -> Iterator[Signature]:
-    """The functions and methods of a source text."""
+    """Yield the functions and methods of a source text."""
     for node in statements(text):
         if isinstance(node, ast.FunctionDef):
             yield signature(node, "")
@@ -85,7 +85,7 @@ def signature(node: ast.FunctionDef, owner: str) -> Signature:
 
 @cache
 def handed_out(module: str) -> dict[str, Signature]:
-    """The functions of a program as students get it, as far as the checks know them."""
+    """Return the functions of a program as students get it, as far as the checks know them."""
     texts = [text for name, text in load_given().items() if name.split("/")[0] == module]
     found = {each.path: each for text in texts for each in signatures(text)}
     stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
@@ -108,7 +108,7 @@ class Names:
         self.told: dict[str, dict[str, str]] = {}
 
     def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
-        """What a failed check owes to a name or an argument; empty where it is something else."""
+        """Say what name or argument a failed check is due to; empty where it is none."""
         own = todo.function.partition(":")[2]
         for path, words in self.changed(module).items():
             name = path.rpartition(".")[2]
@@ -117,7 +117,7 @@ class Names:
         return next((words for error, words in ERRORS if re.search(error, check.got)), "")
 
     def changed(self, module: str) -> Mapping[str, str]:
-        """By the name that was handed out, what has become of it; found out once."""
+        """Return what has become of each name that was handed out; found out once."""
         if module not in self.told:
             self.told[module] = self._changed(module)
         return self.told[module]
@@ -133,7 +133,7 @@ class Names:
         return told
 
     def of(self, module: str) -> dict[str, Signature]:
-        """The functions of a program of the submission."""
+        """Return the functions of a program of the submission."""
         if module not in self.found:
             package, single = self.folder / module, self.folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
@@ -144,7 +144,7 @@ class Names:
 
 
 def bounded(paths: Iterable[Path]) -> Iterator[str]:
-    """Their texts, up to as much as is read of a submission elsewhere."""
+    """Yield the texts of files, up to as much as is read of a submission elsewhere."""
     read = 0
     for path in paths:
         read += path.stat().st_size
@@ -156,7 +156,7 @@ def bounded(paths: Iterable[Path]) -> Iterator[str]:
 def renamed(
     meant: Signature, module: str, theirs: Mapping[str, Signature], ours: Mapping[str, Signature]
 ) -> str:
-    """`World has no apply_damping; it has apply_damp: renamed?`, where a new name is much alike."""
+    """Say `World has no apply_damping; it has apply_damp: renamed?`, where a name is similar."""
     new = [each for path, each in ours.items() if path not in theirs and each.owner == meant.owner]
     near = max(new, key=lambda each: likeness(each.name, meant.name), default=None)
     if near is None or likeness(near.name, meant.name) < ALIKE:
@@ -170,7 +170,7 @@ def likeness(first: str, second: str) -> float:
 
 
 def otherwise(meant: Signature, found: Signature) -> str:
-    """Where a function takes other arguments than it is called with."""
+    """Say where a function takes other arguments than it is called with."""
     if found.open or found.names == meant.names:
         return ""
     if sorted(found.names) == sorted(meant.names):

@@ -1,4 +1,4 @@
-"""The reference's functions, cut out one by one, to stand in for a submission's unfinished ones."""
+"""Cut out the reference's functions, to stand in for a submission's unfinished ones."""
 
 import ast
 import builtins
@@ -46,7 +46,7 @@ class Reference:
             self.pieces[todo.id], self.shapes[todo.id] = found[todo.function]
 
     def is_that_of(self, submission: Submission, todo: Todo) -> bool:
-        """Whether a submission has the reference's own code for a TODO; of the whole, for all."""
+        """Return whether a submission has the reference's code for a TODO, or all of them."""
         asked = [todo.id] if todo.function else [each.id for each in self.todos if each.function]
         mine = [submission.functions.get(id) for id in asked]
         return bool(self.shapes) and mine == [self.shapes.get(id) for id in asked]
@@ -86,7 +86,7 @@ class Reference:
 
 
 def without(function: str, piece: Piece) -> Piece:
-    """A piece that does not bring along this function, which the check is about.
+    """Return a piece that does not bring along this function, which the check is about.
 
     What a piece calls goes with it, for submissions without it; and whatever is sent to a child may
     be read there.
@@ -99,7 +99,7 @@ def without(function: str, piece: Piece) -> Piece:
 def functions_of(
     sources: tuple[Source, ...], targets: tuple[str, ...]
 ) -> dict[str, tuple[Piece, str]]:
-    """The functions that these files have, by module:function, each with its shape."""
+    """Return the functions that these files have, by module:function, each with its shape."""
     program = Program(dict(sources))
     libraries = cache(lambda module: plain_imports(program.tree(module)))
     found = {}
@@ -118,7 +118,7 @@ def cut_out(
     module: str,
     function: Function,
 ) -> Piece:
-    """A function, and what it takes to run it elsewhere: imports, and functions that it calls."""
+    """Return a function with the imports and the functions that it needs elsewhere."""
     source = program.source(module, function)
     imports = dict.fromkeys(libraries(module))
     given: dict[str, str] = {}
@@ -137,7 +137,7 @@ def cut_out(
 
 
 def global_names(source: str) -> set[str]:
-    """The global names that a function reads, its inner functions' included."""
+    """Return the global names that a function reads, its inner functions' included."""
     return names_read(compile(source, "<reference>", "exec")) - set(vars(builtins))
 
 
@@ -148,7 +148,7 @@ def names_read(code: CodeType) -> set[str]:
 
 
 def plain_imports(body: list[ast.stmt]) -> list[str]:
-    """The imports of libraries; the program's own names are found in the submission."""
+    """Return the imports of libraries; the program's own names are found in the submission."""
     return [
         ast.unparse(node)
         for node in body

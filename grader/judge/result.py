@@ -141,4 +141,7 @@ def state_of(checks: list[CheckResult]) -> State:
     """Return "passed" when all checks are; otherwise the most telling of their states."""
     states = {check.state for check in checks}
     order: list[State] = ["error", "not yet", "waiting", "not started"]
-    return next((state for state in order if state in states), "passed")
+    for state in order:
+        if state in states:
+            return state
+    return "passed"

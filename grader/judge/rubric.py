@@ -1,4 +1,4 @@
-"""The rubric: which TODOs there are, which checks each has, and what they are worth."""
+"""Read the rubric: which TODOs there are, which checks each has, and what they are worth."""
 
 from functools import cache
 from pathlib import Path
@@ -33,7 +33,7 @@ class Todo(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def bonus(self) -> bool:
-        """Whether it is for those who want to go on: its points are never needed for full marks."""
+        """Return whether its points are never needed for full marks."""
         return is_bonus(self.id)
 
     @property
@@ -46,7 +46,7 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def counted(self) -> list[Todo]:
-        """The TODOs of the assignment itself, without the bonus tasks."""
+        """Return the TODOs of the assignment itself, without the bonus tasks."""
         return [todo for todo in self.todos if not todo.bonus]
 
     @property
@@ -55,7 +55,7 @@ class Rubric(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def hidden_points(self) -> int:
-        """In a student's copy, the points that only the instructor's grader can give."""
+        """Return the points that a student's copy cannot give."""
         return sum(todo.hidden_points for todo in self.counted)
 
 

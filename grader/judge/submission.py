@@ -1,4 +1,4 @@
-"""Taking in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
+"""Take in a submission: a bounded, read-only copy, and what its source says about its TODOs."""
 
 import errno
 import math
@@ -61,7 +61,7 @@ class Submission:
     starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
 
     def holds(self, file: str) -> bool:
-        """Whether there is such a file in it: what a child says may name any."""
+        """Return whether there is such a file in it: what a child says may name any."""
         inside = PurePosixPath(file)
         safe = not inside.is_absolute() and ".." not in inside.parts and file.isprintable()
         with suppress(OSError):  # such as a name that is too long for any file
@@ -90,7 +90,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 
 
 def copy_tree(path: Path, submission: Submission) -> None:
-    """Plain files only, the lab's first: no links, nothing hidden, and no more than the bounds."""
+    """Copy plain files, the lab's first: no links, nothing hidden, no more than the bounds."""
     files = size = 0
     for source in sorted(plain_files(path), key=lambda each: weight(each.relative_to(path))):
         inside = source.relative_to(path)
@@ -113,7 +113,7 @@ def copy_tree(path: Path, submission: Submission) -> None:
 
 
 def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
-    """The order in which files are taken while there is room: the lab's own before all others."""
+    """Return the order in which files are taken: the lab's own before all others."""
     of_lab = inside.parts[0].removesuffix(".py") in {todo.module for todo in load_rubric().todos}
     return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
@@ -142,12 +142,12 @@ def supply_given(folder: Path) -> None:
 
 @cache
 def load_given() -> dict[str, str]:
-    """The programs as they were handed out: files by name, as `sync` keeps them."""
+    """Return the programs as they were handed out: files by name, as `sync` keeps them."""
     return msgspec.json.decode((CHECKS / "given.json").read_bytes(), type=dict[str, str])
 
 
 def plain_files(path: Path) -> Iterator[Path]:
-    """What may be part of a submission: nothing hidden, no environment, no name that is no text.
+    """Yield the files that may be part of a submission: no hidden ones, no environment.
 
     A Mac leaves a hidden `._contacts.py`, which is no Python, beside each file on a foreign disk.
     Folder by folder from the top. Raises CannotGrade where there is no end of it, or a folder
@@ -175,7 +175,7 @@ def plain_files(path: Path) -> Iterator[Path]:
 
 
 def unreadable(error: OSError, within: Path) -> str:
-    """Why a file or a folder of a submission cannot be read, by its name in there."""
+    """Say why a file or a folder of a submission cannot be read, by its name in there."""
     why = error.strerror or type(error).__name__
     name = os.fspath(error.filename) if isinstance(error.filename, (str, os.PathLike)) else ""
     if not name or name == os.fspath(within):
@@ -185,18 +185,18 @@ def unreadable(error: OSError, within: Path) -> str:
 
 
 def may_be_read(name: str) -> bool:
-    """No hidden file or folder, and no name that is no text."""
+    """Return whether a name is neither hidden nor without text."""
     return name.isprintable() and not name.startswith(".")
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:
-    """No virtual environment, and no name that would be wrong in those of its files."""
+    """Return whether a folder is no virtual environment and its name may be read."""
     ours = may_be_read(folder.name) and folder.name not in IGNORED
     return ours and not os.path.lexists(os.path.join(folder.path, "pyvenv.cfg"))
 
 
 def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) -> None:
-    """Where each TODO stands, and whether anything but the stub stands there."""
+    """Find where each TODO stands, and whether anything but the stub stands there."""
     texts = {
         path.relative_to(submission.folder): read_source(path)
         for path in python_files(submission.folder)
@@ -301,7 +301,7 @@ def look_at(
     text: str,
     function: Function | None,
 ) -> None:
-    """What a TODO's own file has: its region, or where no marker is, the function that says enough.
+    """Note a TODO's region or, where no marker is, the function that says enough.
 
     A region counts inside the function alone: a copy of it further up is not what runs.
     """
@@ -321,7 +321,7 @@ def look_at(
 
 
 def first_code_line(region: Region) -> int:
-    """The number of a region's first line that says something, or of the one below its marker."""
+    """Return the number of a region's first line of code, or of its first line."""
     said = (number for number, line in enumerate(region.lines) if not is_comment(line))
     return region.start + 2 + next(said, 0)
 
@@ -331,5 +331,5 @@ def is_comment(line: str) -> bool:
 
 
 def module_of(inside: PurePath) -> str:
-    """The module or package that a file, named from the submission's folder, belongs to."""
+    """Return the module or package that a file, named from the submission's folder, belongs to."""
     return inside.parts[0].removesuffix(".py")

@@ -1,4 +1,4 @@
-"""The wording of reports: states, reasons, points, numbers, and a submission's own words made safe.
+"""Word reports: states, reasons, points, numbers, and a submission's own words made safe.
 
 The terminal, pages, tables, exports and replays all take it from here, so that they say the same.
 """
@@ -30,7 +30,7 @@ NAMES = 10  # columns up to the words of *Got* and the like
 
 
 def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
-    """Why a check is not passed, in named lines; `task` stands behind a place that is in it."""
+    """Return why a check failed, in named lines; `task` follows a place that is in it."""
     place = place_of(check) + task * (not check.where.given) if check.where else ""
     words = (
         ("We ran", check.ran),
@@ -43,22 +43,22 @@ def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
 
 
 def reasons(check: CheckResult, task: str = "") -> list[str]:
-    """The same, a line of text each."""
+    """Return the same, a line of text each."""
     return [f"{name:<{NAMES}}{clean(words)}" for name, words in named_reasons(check, task)]
 
 
 def place_of(check: CheckResult) -> str:
-    """The student's file and line; empty where none is known."""
+    """Return the student's file and line; empty where none is known."""
     return f"{check.where.file}:{check.where.line}" if check.where else ""
 
 
 def named(todo: TodoResult, title: str) -> str:
-    """A title with the number of its TODO; the whole program has none."""
+    """Return a title with the number of its TODO; the whole program has none."""
     return title if todo.id == "whole" else f"TODO {todo.id}: {title}"
 
 
 def task_of(todo: TodoResult) -> str:
-    """What stands behind a place to look at; the whole program is no TODO."""
+    """Return what stands behind a place to look at; the whole program is no TODO."""
     return "" if todo.id == "whole" else f", TODO {todo.id}"
 
 
@@ -66,7 +66,7 @@ def task_of(todo: TodoResult) -> str:
 
 
 def total(result: Result) -> str:
-    """The points, and the bonus apart from them; the bonus alone where nothing else was asked."""
+    """Return the points and the bonus; the bonus alone where nothing else was asked."""
     if not result.counted:
         return f"{result.bonus} bonus"
     bonus = f"  and {result.bonus} bonus" if result.bonus else ""
@@ -79,7 +79,7 @@ def points_in_words(result: Result) -> str:
 
 
 def hidden_points_note(result: Result) -> str:
-    """In a student's copy of the grader: what it has no checks for. Empty where it has them all."""
+    """Say what a student's copy has no checks for; return an empty text if it has them all."""
     here = {todo.id for todo in result.todos}
     points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
     words = f"{points} more points come from checks that only your instructor runs."
@@ -90,7 +90,7 @@ def hidden_points_note(result: Result) -> str:
 
 
 def command(name: str, todo: str = "", level: int = 1, all_of_it: bool = False) -> str:
-    """One of the student's commands, as this person would type it here."""
+    """Return one of the student's commands, as this person would type it here."""
     if "MAKELEVEL" in os.environ:
         words = f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
         return words + " ALL=1" * all_of_it
@@ -105,8 +105,8 @@ def command(name: str, todo: str = "", level: int = 1, all_of_it: bool = False) 
 # ---------------------------------------------------------------- what students are told
 
 
-def told(result: Result, course: Course, now: datetime | None = None) -> Result:
-    """What students are told of a result: until the course's day, not why a hidden check failed."""
+def withhold_reasons(result: Result, course: Course, now: datetime | None = None) -> Result:
+    """Withhold why hidden checks failed, until the course's day."""
     when = course.visible
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result

@@ -1,4 +1,4 @@
-"""Replays: a failed check once more, before the camera, beside the run that should have been.
+"""Make replays: a failed check once more, beside the run that should have been.
 
 All marks are decided by then. A replay that cannot be made is left out and changes nothing else.
 """
@@ -19,17 +19,17 @@ from grader.judge.grade import Options, grading
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.judge.wording import named_reasons
-from grader.player.film import Take
-from grader.player.filming import OpenChild, filmed
-from grader.player.page import page
-from grader.player.pairing import replay
-from grader.player.script import renumber, script, step_of
+from grader.player.page import make_page
+from grader.player.pairing import pair_runs
+from grader.player.recording import OpenChild, record_again
+from grader.player.runs import Run
+from grader.player.script import find_parting_step, renumber, write_script
 
-MOST_CHARACTERS, MOST_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
-MOST_DEATHS = 3  # of children, after which no more replays are made of a submission
+MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
+MAX_DEATHS = 3  # of children, after which no more replays are made of a submission
 RECORDED = CHECKS / "expected_runs.json"
 
-Runs = dict[str, list[list[Take]]]  # by TODO and check: the takes of each scene
+ExpectedRuns = dict[str, list[list[Run]]]  # by TODO and check: the runs of each scene
 
 
 def grade_with_replays(
@@ -42,7 +42,9 @@ def grade_with_replays(
             return result
         open_right = run.open_right if options.reference else None
         known = frozenset(run.submission.functions)
-        return Replays(folder, run.sandbox.open_child, open_right, known).of(result, run.failing)
+        return Replays(folder, run.sandbox.open_child, open_right, known).add_to(
+            result, run.failing
+        )
 
 
 @dataclass
@@ -57,34 +59,34 @@ class Replays:
     deaths: int = 0
     written: int = 0  # characters
 
-    def of(self, result: Result, failing: Mapping[tuple[str, str], Failing]) -> Result:
-        """The result with the paths of its replays in it."""
+    def add_to(self, result: Result, failing: Mapping[tuple[str, str], Failing]) -> Result:
+        """Write the replays; return the result with their paths."""
         if self.folder.is_symlink():
             return result  # it may lead anywhere
         todos = [
             msgspec.structs.replace(
                 todo,
-                checks=[self._of_check(todo, each, failing) for each in todo.checks],
+                checks=[self._add_to_check(todo, each, failing) for each in todo.checks],
             )
             for todo in result.todos
         ]
         return msgspec.structs.replace(result, todos=todos)
 
-    def _of_check(
+    def _add_to_check(
         self, todo: TodoResult, check: CheckResult, failing: Mapping[tuple[str, str], Failing]
     ) -> CheckResult:
         path = self.folder / f"{todo.id}-{check.id}.html"
         for old in (path, path.with_suffix(".py")):
             old.unlink(missing_ok=True)
         found = failing.get((todo.id, check.id))
-        over = self.deaths >= MOST_DEATHS or not self.budget.has_more
+        over = self.deaths >= MAX_DEATHS or not self.budget.has_more
         if found is None or not check.failed or over:
             return check
         try:
-            made = self._made(todo, check, found)
+            made = self._make_files(todo, check, found)
         except Exception:  # whatever a submission makes of it: the marks stand without a picture
             made = None
-        if made is None or self.written + sum(map(len, made)) > MOST_TOGETHER:
+        if made is None or self.written + sum(map(len, made)) > MAX_TOGETHER:
             return check
         self.written += sum(map(len, made))
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -93,78 +95,82 @@ class Replays:
                 stream.write(text)
         return msgspec.structs.replace(check, replay=f"{self.folder.name}/{path.name}")
 
-    def _made(self, todo: TodoResult, check: CheckResult, failing: Failing) -> list[str] | None:
-        """The page and the script, or None where nothing is to be seen."""
-        lab = filmed(failing, for_words(self.open_child), failing.pieces)
+    def _make_files(
+        self, todo: TodoResult, check: CheckResult, failing: Failing
+    ) -> list[str] | None:
+        """Return the page and the script, or None where nothing is to be seen."""
+        lab = record_again(failing, for_words(self.open_child), failing.pieces)
         self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
         recorder = lab.recorder
-        shown = recorder.shown(check.kind == "property")
-        yours = [take for takes in recorder.scenes[shown] for take in takes]
-        if not any(take.lines for take in yours):
+        shown = recorder.scenes_to_show(check.kind == "property")
+        yours = [run for runs in recorder.scenes[shown] for run in runs]
+        if not any(run.lines for run in yours):
             return None
         count = len(recorder.scenes)
-        right = self._expected(failing)[:count]
-        expected = [take for takes in right[shown] for take in takes] if len(right) == count else []
+        right = self._expected_scenes(failing)[:count]
+        expected = [run for runs in right[shown] for run in runs] if len(right) == count else []
         steps = [step for steps in recorder.steps[shown] for step in steps]
         renumber(steps)
-        both = replay(yours, expected, exact=self.open_reference is not None)
-        parting = step_of(both, yours, steps)
+        both = pair_runs(yours, expected, exact=self.open_reference is not None)
+        parting = find_parting_step(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
         title = f"{task}: {check.title}"
         words = [f"Expected: {check.expected}", f"Got: {check.got}"]
-        again = script(title, recorder.translator, steps, parting, words, self._paced(lab.module))
-        made = [page(title, named_reasons(check), both, again), again]
-        return made if len(made[0]) <= MOST_CHARACTERS else None
+        again = write_script(
+            title, recorder.translator, steps, parting, words, self._has_pacing(lab.module)
+        )
+        made = [make_page(title, named_reasons(check), both, again), again]
+        return made if len(made[0]) <= MAX_CHARACTERS else None
 
-    def _paced(self, module: str) -> bool:
-        """Whether the program has a function that runs the steps of a frame."""
+    def _has_pacing(self, module: str) -> bool:
+        """Return whether the program has a function that runs the steps of a frame."""
         todos = [todo.id for todo in load_rubric().todos if todo.function == f"{module}:advance"]
         return any(todo in self.functions for todo in todos)
 
-    def _expected(self, failing: Failing) -> list[list[Take]]:
-        """The scenes of the right run: the reference's, or what was recorded of it."""
+    def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
+        """Return the scenes of the right run: the reference's, or what was recorded of it."""
         if self.open_reference is not None:
-            return filmed(failing, self.open_reference, []).recorder.scenes
-        return recorded().get(f"{failing.todo.id}/{failing.check.id}", [])
+            return record_again(failing, self.open_reference, []).recorder.scenes
+        return load_expected().get(f"{failing.todo.id}/{failing.check.id}", [])
 
 
 # ---------------------------------------------------------------- runs recorded for students
 
 
 @cache
-def recorded() -> Runs:
-    """The right runs that came with this copy of the checks; the kit itself has none."""
+def load_expected() -> ExpectedRuns:
+    """Load the right runs that came with this copy of the checks; the kit itself has none."""
     if not RECORDED.exists():
         return {}
-    return msgspec.json.decode(RECORDED.read_bytes(), type=Runs)
+    return msgspec.json.decode(RECORDED.read_bytes(), type=ExpectedRuns)
 
 
 def record_expected(open_child: OpenChild, rubric: Rubric) -> bytes:
-    """The right runs of all checks with fixed inputs, for a copy that comes without a reference.
+    """Record the right runs of all checks with fixed inputs, for a copy without a reference.
 
     `open_child` opens children of the reference.
     """
-    runs: Runs = {}
+    runs: ExpectedRuns = {}
     for todo in rubric.todos:
         checks = importlib.import_module(f"grader.checks.{todo.folder}.checks")
         for check in todo.checks:
             if check.kind != "property" and not check.hidden:
                 failing = Failing(todo, check, getattr(checks, check.id), [])
-                scenes = filmed(failing, open_child, []).recorder.scenes
-                for take in (take for takes in scenes for take in takes):
-                    take.lines = [msgspec.structs.replace(x, code="") for x in take.lines]
+                scenes = record_again(failing, open_child, []).recorder.scenes
+                for run in (run for runs in scenes for run in runs):
+                    run.lines = [msgspec.structs.replace(x, code="") for x in run.lines]
                 runs[f"{todo.id}/{check.id}"] = scenes
-    return msgspec.json.encode(coarse(msgspec.to_builtins(runs)))
+    return msgspec.json.encode(round_deeply(msgspec.to_builtins(runs)))
 
 
-def coarse(value: Any) -> Any:
-    """The same with two decimals."""
+def round_deeply(value: Any) -> Any:
+    """Round all numbers in it to two decimals."""
     match value:
         case float():
             return round(value, 2)
         case list():
-            return [coarse(each) for each in value]
+            return [round_deeply(each) for each in value]
         case dict():
-            return {name: coarse(each) for name, each in value.items()}
+            return {name: round_deeply(each) for name, each in value.items()}
     return value

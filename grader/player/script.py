@@ -1,4 +1,4 @@
-"""What was asked of a submission, in Python: a line each, and a script to run against one's own."""
+"""Translate requests to a submission into Python: a line each, and a script to run at home."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -8,7 +8,7 @@ from string import ascii_letters
 
 import msgspec
 
-from grader.player.film import Replay, Take, called
+from grader.player.runs import Replay, Run, describe_body
 from grader.protocol import (
     Argument,
     BodyRow,
@@ -48,17 +48,17 @@ PARTS = {  # what a package without a BonusWorld does not pass on
 
 @dataclass
 class Step:
-    """One request, what it says in Python, and what came back as far as a script needs it."""
+    """One request, its code in Python, and what a script needs of the answer."""
 
     request: Request
     code: list[str]
     silent: bool  # nothing came back
     watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
     bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
-    place: tuple[Take, int] | None = None  # where it is in the film: a take and its line
+    place: tuple[Run, int] | None = None  # in the replay: a run and its line
 
     def rename(self, names: "Names") -> None:
-        """Put other names in the place of these, on its line of the film, too."""
+        """Give it other names, on its line of the replay, too."""
         self.code = [names.in_code(line) for line in self.code]
         self.watched = [names.in_code(each) for each in self.watched]
         self.bodies = {
@@ -67,17 +67,17 @@ class Step:
         }
         if self.place is None:
             return
-        take, at = self.place
-        take.lines[at] = msgspec.structs.replace(take.lines[at], code="\n".join(self.code))
+        run, at = self.place
+        run.lines[at] = msgspec.structs.replace(run.lines[at], code="\n".join(self.code))
         for name, row in self.bodies.items():
-            if name.isidentifier() and row.number in take.looks:
+            if name.isidentifier() and row.number in run.looks:
                 number = name.lstrip(ascii_letters)
-                take.names[row.number] = called(take.looks[row.number], number)
+                run.names[row.number] = describe_body(run.looks[row.number], number)
 
 
 @dataclass
 class Translator:
-    """Puts requests into Python and remembers what the objects are called."""
+    """Translates requests into Python and remembers the names of objects."""
 
     module: str
     names: dict[int, str] = field(default_factory=dict)  # by the child's number
@@ -85,42 +85,44 @@ class Translator:
     libraries: set[str] = field(default_factory=set)
     parts: dict[str, str] = field(default_factory=dict)  # where to find what is not passed on
 
-    def code(self, request: Request, reply: Reply) -> list[str]:
+    def translate(self, request: Request, reply: Reply) -> list[str]:
         value = reply.value if isinstance(reply, Returned) else None
         match request:
             case MakeBody():
-                return self._body(request, value)
+                return self._make_body(request, value)
             case MakeWorld():
-                return self._world(request, value)
+                return self._make_world(request, value)
             case Call(target, args, kwargs):
-                given = [*map(self.argument, args)]
-                given += [f"{name}={self.argument(each)}" for name, each in kwargs.items()]
-                call = f"{self._called(target)}({', '.join(given)})"
-                return [self._kept(value, call, target)]
+                given = [*map(self.write_argument, args)]
+                given += [f"{name}={self.write_argument(each)}" for name, each in kwargs.items()]
+                call = f"{self._write_target(target)}({', '.join(given)})"
+                return [self._assign(value, call, target)]
             case Get(ref, name):
-                return [self._kept(value, f"{self.name(ref)}.{name}")] if name else []
+                return [self._assign(value, f"{self.name(ref)}.{name}")] if name else []
             case Set(ref, fields):
-                return [f"{self.name(ref)}.{k} = {self.argument(v)}" for k, v in fields.items()]
+                return [
+                    f"{self.name(ref)}.{k} = {self.write_argument(v)}" for k, v in fields.items()
+                ]
             case Simulate(ref, dt, steps):
-                stepping = f"{self.name(ref)}.step({number(dt)})"
+                stepping = f"{self.name(ref)}.step({write_number(dt)})"
                 return [f"for _ in range({steps}):", f"    {stepping}"] if steps > 1 else [stepping]
             case Integrate():
-                return self._integration(request)
+                return self._integrate(request)
             case Play(frames=frames):
                 return [f"main()  # {len(frames)} frames"]
         return []
 
-    def _integration(self, request: Integrate) -> list[str]:
-        x, v, dt = map(number, (request.x, request.v, request.dt))
-        accel = polynomial(request.force)
-        step = f"x, v = {self._called(request.target)}(x, v, {dt}, {accel})"
+    def _integrate(self, request: Integrate) -> list[str]:
+        x, v, dt = map(write_number, (request.x, request.v, request.dt))
+        accel = write_polynomial(request.force)
+        step = f"x, v = {self._write_target(request.target)}(x, v, {dt}, {accel})"
         start = f"x, v = {x}, {v}"
         if request.steps == 1:
             return [start, step]
         return [start, f"for _ in range({request.steps}):", f"    {step}"]
 
-    def watched(self, request: Request) -> list[str]:
-        """The names of the bodies, or of the space, whose state a request is after."""
+    def watched_names(self, request: Request) -> list[str]:
+        """Return the names of the bodies, or of the space, whose state a request reads."""
         match request:
             case Get(ref, ""):
                 return [self.name(ref)]
@@ -129,7 +131,7 @@ class Translator:
         return []
 
     def forget(self) -> None:
-        """A new process: the objects of the last one are gone."""
+        """Forget the objects of the last process."""
         self.names.clear()
 
     # ------------------------------------------------------------ names
@@ -137,48 +139,48 @@ class Translator:
     def name(self, ref: int) -> str:
         return self.names.get(ref, f"object_{ref}")
 
-    def _new(self, ref: int, kind: str) -> str:
+    def _name_new(self, ref: int, kind: str) -> str:
         taken = set(self.names.values())
         numbered = (f"{kind}{number}" if number > 1 else kind for number in range(1, 1000))
         self.names[ref] = next(name for name in numbered if name not in taken)
         return self.names[ref]
 
-    def _kept(self, value: Value, code: str, target: str = "") -> str:
-        """The code, its result kept under a name if it is something new."""
+    def _assign(self, value: Value, code: str, target: str = "") -> str:
+        """Keep the result of the code under a name if it is something new."""
         match value:
             case BodyValue(ref=ref) | SpaceBody(ref=ref) if ref not in self.names:
-                return f"{self._new(ref, 'body')} = {code}"
+                return f"{self._name_new(ref, 'body')} = {code}"
             case ContactValue(ref=ref) if ref not in self.names:
-                return f"{self._new(ref, 'contact')} = {code}"
+                return f"{self._name_new(ref, 'contact')} = {code}"
             case SpaceValue(ref=ref) if ref not in self.names:
-                name = self._new(ref, "space")
-                self._inside(value, name)
+                name = self._name_new(ref, "space")
+                self._name_contents(value, name)
                 return f"{name} = {code}"
             case Ref(id=ref, kind=kind) if ref not in self.names:
-                name = self._new(ref, "rod" if "joint" in kind.lower() else "thing")
+                name = self._name_new(ref, "rod" if "joint" in kind.lower() else "thing")
                 return f"{name} = {code}"
             case Items(items) if any(isinstance(each, SpaceValue) for each in items):
-                parts = [self._part(each) for each in items]
+                parts = [self._name_part(each) for each in items]
                 return f"{', '.join(parts)} = {code}"
             case SpaceValue(ref=ref):
-                self._inside(value, self.names[ref])
+                self._name_contents(value, self.names[ref])
         if value is None and target.rpartition(":")[2] in FINDERS:
             return f"contact = {code}"
         return code
 
-    def _part(self, value: Value) -> str:
+    def _name_part(self, value: Value) -> str:
         if not isinstance(value, SpaceValue):
             return "_"
-        name = self._new(value.ref, "space")
-        self._inside(value, name)
+        name = self._name_new(value.ref, "space")
+        self._name_contents(value, name)
         return name
 
-    def _inside(self, space: SpaceValue, name: str) -> None:
+    def _name_contents(self, space: SpaceValue, name: str) -> None:
         for number, body in enumerate(space.bodies):
             place = f"list({name}.bodies)[{number - 1}]" if number else f"{name}.static_body"
             self.names.setdefault(body.ref, place)
 
-    def _called(self, target: str) -> str:
+    def _write_target(self, target: str) -> str:
         if target.startswith("#"):
             ref, _, path = target[1:].partition(".")
             return f"{self.name(int(ref))}.{path}"
@@ -191,47 +193,47 @@ class Translator:
 
     # ------------------------------------------------------------ values
 
-    def argument(self, value: Argument) -> str:
+    def write_argument(self, value: Argument) -> str:
         match value:
             case Vec(x, y):
-                return self.pair(x, y)
+                return self.write_pair(x, y)
             case Ref(id=ref):
                 return self.name(ref)
             case Rng(seed):
                 self.libraries.add("random")
                 return f"random.Random({seed})"
-        return number(value) if isinstance(value, float) else repr(value)
+        return write_number(value) if isinstance(value, float) else repr(value)
 
-    def pair(self, x: float, y: float) -> str:
+    def write_pair(self, x: float, y: float) -> str:
         if self.module == "pymunk_scene":
             self.libraries.add("pymunk")
-            return f"pymunk.Vec2d({number(x)}, {number(y)})"
+            return f"pymunk.Vec2d({write_number(x)}, {write_number(y)})"
         self.imports.add(("pygame", "Vector2"))
-        return f"Vector2({number(x)}, {number(y)})"
+        return f"Vector2({write_number(x)}, {write_number(y)})"
 
-    def _body(self, request: MakeBody, value: Value) -> list[str]:
+    def _make_body(self, request: MakeBody, value: Value) -> list[str]:
         self.imports |= {(request.module, "Body"), (request.module, request.shape)}
         name = "object_0"
         if isinstance(value, BodyValue | Ref):
             ref = value.ref if isinstance(value, BodyValue) else value.id
-            name = self._new(ref, "ball" if request.shape == "Circle" else "box")
-        shape = f"{request.shape}({self.argument(request.size)})"
-        given = [shape, self.argument(request.pos), number(request.mass)]
-        given += [f"{key}={number(each)}" for key, each in request.kwargs.items()]
-        fields = [f"{name}.{k} = {self.argument(v)}" for k, v in request.fields.items()]
+            name = self._name_new(ref, "ball" if request.shape == "Circle" else "box")
+        shape = f"{request.shape}({self.write_argument(request.size)})"
+        given = [shape, self.write_argument(request.pos), write_number(request.mass)]
+        given += [f"{key}={write_number(each)}" for key, each in request.kwargs.items()]
+        fields = [f"{name}.{k} = {self.write_argument(v)}" for k, v in request.fields.items()]
         return [f"{name} = Body({', '.join(given)})", *fields]
 
-    def _world(self, request: MakeWorld, value: Value) -> list[str]:
+    def _make_world(self, request: MakeWorld, value: Value) -> list[str]:
         made = value.kind if isinstance(value, Ref) else ""
         kind = "BonusWorld" if request.bonus and made == "BonusWorld" else "World"
         if request.bonus and kind == "World":
             self.parts = PARTS
         self.imports.add((request.module, kind))
-        name = self._new(value.id, "world") if isinstance(value, Ref) else "world"
+        name = self._name_new(value.id, "world") if isinstance(value, Ref) else "world"
         given = [
-            f"gravity={self.argument(request.gravity)}",
-            f"linear_damping={number(request.linear_damping)}",
-            f"angular_damping={number(request.angular_damping)}",
+            f"gravity={self.write_argument(request.gravity)}",
+            f"linear_damping={write_number(request.linear_damping)}",
+            f"angular_damping={write_number(request.angular_damping)}",
         ]
         lines = [f"{name} = {kind}({', '.join(given)})"]
         if len(request.bodies) > 2:
@@ -242,16 +244,16 @@ class Translator:
         return lines + [f"{name}.joints.append({self.name(ref)})" for ref in request.joints]
 
 
-def number(value: float) -> str:
-    """The very number; a step size as a fraction."""
+def write_number(value: float) -> str:
+    """Write the exact number; a step size as a fraction."""
     parts = round(1 / value) if value and abs(value) < 0.1 else 0
     if parts % 10 == 0 and parts and 1 / parts == value:
         return f"1 / {parts}"
     return repr(value)
 
 
-def polynomial(coefficients: Sequence[float]) -> str:
-    """The force as the judge works it out: by Horner's rule."""
+def write_polynomial(coefficients: Sequence[float]) -> str:
+    """Write the force as the judge computes it: by Horner's rule."""
     terms = list(coefficients)
     while len(terms) > 1 and not terms[-1]:
         terms.pop()
@@ -271,8 +273,8 @@ NAME = re.compile(rf"(?<![\w.'\"])({'|'.join(KINDS)})(\d*)\b(?![=(])")
 class Names:
     """New names for what a script makes, counted from its own beginning.
 
-    A child numbers what it makes from its start on. A script that shows its end alone would begin
-    with the sixth ball.
+    A child numbers what it makes from its start on. A script of its end alone would begin with the
+    sixth ball.
     """
 
     def __init__(self, lines: Sequence[str]) -> None:
@@ -292,7 +294,7 @@ class Names:
 
 
 def renumber(steps: Sequence[Step]) -> None:
-    """Name the bodies, contacts and worlds of a script, and of its film, from 1 on."""
+    """Name the bodies, contacts and worlds of a script, and of its replay, from 1 on."""
     names = Names([line for step in steps for line in step.code])
     for step in steps:
         step.rename(names)
@@ -301,7 +303,7 @@ def renumber(steps: Sequence[Step]) -> None:
 # ---------------------------------------------------------------- the whole script
 
 
-def script(
+def write_script(
     title: str,
     translator: Translator,
     steps: Sequence[Step],
@@ -309,34 +311,34 @@ def script(
     words: Sequence[str],
     paced: bool,
 ) -> str:
-    """A script that asks the same again; `words` are what should have come out, and what did.
+    """Write a script that asks the same again; `words` say what was expected and what came.
 
     `paced`: the program has a function advance() that runs the steps of a frame.
     """
     plays = [each.request for each in steps if isinstance(each.request, Play)]
     if plays:
-        imports, body = play_again(translator.module, plays[-1], paced)
+        imports, body = write_play(translator.module, plays[-1], paced)
     else:
-        body = list(folded(shortened(steps, parting)))
-        imports = list(imported(translator, "\n".join(body)))
-    comments = [f"# {comment(each)}" for each in words if each]
-    head = [f"# {comment(title)}", "# Run it in the folder of your own files.", "import sys"]
+        body = list(fold_repeats(shorten(steps, parting)))
+        imports = list(write_imports(translator, "\n".join(body)))
+    comments = [f"# {write_comment(each)}" for each in words if each]
+    head = [f"# {write_comment(title)}", "# Run it in the folder of your own files.", "import sys"]
     begin = ['sys.path.insert(0, "")  # your own files come first', ""]
     return "\n".join([*head, *begin, *imports, "", *body, *comments, ""])
 
 
-def step_of(both: Replay, takes: Sequence[Take], steps: Sequence[Step]) -> Step | None:
-    """The request after which the runs part, if they do."""
+def find_parting_step(both: Replay, runs: Sequence[Run], steps: Sequence[Step]) -> Step | None:
+    """Return the request after which the runs part, if they do."""
     if both.parting is None:
         return None
     lines = both.scenes[both.parting.scene].lines
-    at = max(n for n, line in enumerate(lines) if line.at <= both.parting.frame)
-    take = takes[both.parting.scene]
-    return next((s for s in steps if s.place and s.place[0] is take and s.place[1] == at), None)
+    at = max(n for n, line in enumerate(lines) if line.at <= both.parting.moment)
+    run = runs[both.parting.scene]
+    return next((s for s in steps if s.place and s.place[0] is run and s.place[1] == at), None)
 
 
-def imported(translator: Translator, body: str) -> Iterator[str]:
-    """The imports of what the body uses, libraries first."""
+def write_imports(translator: Translator, body: str) -> Iterator[str]:
+    """Yield the imports of what the body uses, libraries first."""
     for library in sorted(translator.libraries, reverse=True):  # random stands before pymunk
         if f"{library}." in body:
             yield f"import {library}"
@@ -348,35 +350,35 @@ def imported(translator: Translator, body: str) -> Iterator[str]:
             yield f"from {source} import {', '.join(used)}"
 
 
-def comment(text: str) -> str:
-    """On one line, whatever a submission put into it."""
+def write_comment(text: str) -> str:
+    """Put it on one line, whatever a submission put into it."""
     line = printable(text)
     return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
 
 
-def shortened(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
-    """The lines, with one round only of a long loop, and what to look at printed."""
-    start, period = rounds(steps)
+def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
+    """Yield the lines, with only one round of a long loop, and print what to look at."""
+    start, period = find_rounds(steps)
     chosen = list(steps)
     if period:
         count = (len(steps) - start) // period
         at = next((i for i, each in enumerate(steps) if each is parting), len(steps) - 1)
         begin = start + period * min(max(at - start, 0) // period, count - 1)
-        chosen = [*steps[:start], *without_end(steps[begin : begin + period])]
+        chosen = [*steps[:start], *drop_setup(steps[begin : begin + period])]
     for index, step in enumerate(chosen):
         if period and index == start:
-            yield from restored(steps[start - 1], steps[begin - 1])
+            yield from restore_bodies(steps[start - 1], steps[begin - 1])
         last = index == len(chosen) - 1
         for line in step.code:
-            answers = isinstance(step.request, Call | Get) and not assigned(line)
-            yield f"print({shown(line)})" if answers and (last or not step.silent) else line
+            answers = isinstance(step.request, Call | Get) and not is_assignment(line)
+            yield f"print({print_form(line)})" if answers and (last or not step.silent) else line
         if isinstance(step.request, Integrate):
             yield "print(x, v)"
-    yield from looks(chosen)
+    yield from print_last_state(chosen)
 
 
-def folded(lines: Iterable[str]) -> Iterator[str]:
-    """The same line many times over becomes a loop."""
+def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
+    """Turn the same line many times over into a loop."""
     for line, group in groupby(lines):
         count = len(list(group))
         if count < MANY or line.startswith(" "):
@@ -385,26 +387,26 @@ def folded(lines: Iterable[str]) -> Iterator[str]:
             yield from (f"for _ in range({count}):", f"    {line}")
 
 
-def without_end(steps: Sequence[Step]) -> list[Step]:
-    """A round without what sets the next one up."""
+def drop_setup(steps: Sequence[Step]) -> list[Step]:
+    """Leave out of a round what sets the next one up."""
     last_call = max((i for i, s in enumerate(steps) if isinstance(s.request, Call)), default=0)
     return [s for i, s in enumerate(steps) if i < last_call or not isinstance(s.request, Set)]
 
 
-def shown(code: str) -> str:
-    """What to print of an answer."""
+def print_form(code: str) -> str:
+    """Return what to print of an answer."""
     if code.endswith(".find_contacts()"):
         return f"[(each.normal, each.depth, each.point) for each in {code}]"
     return code
 
 
-def assigned(line: str) -> bool:
+def is_assignment(line: str) -> bool:
     return re.match(r"[\w, ]+ = ", line) is not None
 
 
-def rounds(steps: Sequence[Step]) -> tuple[int, int]:
-    """Where the same few requests begin to repeat until the end, and how many they are."""
-    signs = [sign(each.request) for each in steps]
+def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
+    """Return where the same few requests begin to repeat until the end, and their number."""
+    signs = [signature_of(each.request) for each in steps]
     if len(signs) <= FEW:
         return 0, 0
     for period in range(1, 13):
@@ -416,8 +418,8 @@ def rounds(steps: Sequence[Step]) -> tuple[int, int]:
     return 0, 0
 
 
-def sign(request: Request) -> str:
-    """Which request it is, its numbers and those of its objects aside: runs may differ in both."""
+def signature_of(request: Request) -> str:
+    """Return the kind of a request without its numbers and objects: runs may differ in both."""
     match request:
         case Integrate(target):
             return f"integrate {target}"
@@ -430,8 +432,8 @@ def sign(request: Request) -> str:
     return type(request).__name__
 
 
-def restored(before: Step, after: Step) -> Iterator[str]:
-    """What brings the bodies to where the rounds left out have brought them."""
+def restore_bodies(before: Step, after: Step) -> Iterator[str]:
+    """Move the bodies to where the rounds left out have brought them."""
     for name, row in after.bodies.items():
         if before.bodies.get(name) != row and name.isidentifier():
             yield f"{name}.pos = Vector2({row.x!r}, {row.y!r})"
@@ -439,7 +441,7 @@ def restored(before: Step, after: Step) -> Iterator[str]:
             yield f"{name}.angle, {name}.omega = {row.angle!r}, {row.omega!r}"
 
 
-def looks(steps: Sequence[Step]) -> Iterator[str]:
+def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
     """Print what the check looked at last."""
     last = next((step for step in reversed(steps) if step.code), None)
     if last is None:
@@ -462,8 +464,8 @@ def looks(steps: Sequence[Step]) -> Iterator[str]:
         yield f"print({', '.join(f'{name}.{each}' for each in fields)})"
 
 
-def play_again(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
-    """The lab scene, fed with the same frames; clicks and keys are left to a person."""
+def write_play(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
+    """Write the lab scene with the same frames; clicks and keys are left to a person."""
     if play.events or play.pictures or not paced:
         person = [
             f"{each.kind} {each.pos}{f' with {each.held}' if each.held else ''}"
@@ -480,13 +482,13 @@ def play_again(module: str, play: Play, paced: bool) -> tuple[list[str], list[st
     imports = ["import random", f"from {module} import advance, {scene.partition('(')[0]}"]
     return imports, [
         f"world, accumulator = {scene}, 0.0",
-        f"for milliseconds in {frames_text(play.frames)}:",
+        f"for milliseconds in {write_frames(play.frames)}:",
         "    accumulator, steps = advance(world, accumulator, milliseconds / 1000)",
         *(["for body in world.bodies:", look] if play.trail_every else [count]),
     ]
 
 
-def frames_text(frames: Sequence[int]) -> str:
+def write_frames(frames: Sequence[int]) -> str:
     if len(set(frames)) == 1:
         return f"[{frames[0]}] * {len(frames)}"
     return repr(list(frames))

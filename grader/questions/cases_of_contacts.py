@@ -4,8 +4,8 @@ import math
 
 from grader.checks import exact
 from grader.judge.lab import STEP
-from grader.questions.numbers import Draw, Found, Unsuited, maker
-from grader.questions.program import Program, Unlike
+from grader.questions.numbers import Case, Draw, Unsuited, maker
+from grader.questions.program import CannotAsk, Program
 from grader.questions.scene import BOB, SEEDS, Scene
 from grader.text import digits
 
@@ -18,21 +18,21 @@ DEPTH = 0.25  # px, less than SLOP: nothing is pushed out
 
 
 @maker(1, "1 2", scene=SEEDS, ball=range(1, 9), speed=range(120, 480))
-def impulse(program: Program, draw: Draw) -> Found:
-    """The normal impulse of a ball that lands on the ledge."""
+def impulse(program: Program, draw: Draw) -> Case:
+    """Predict the normal impulse of a ball that lands on the ledge."""
     with program.own.lab("mini_engine") as lab:
         scene = Scene(lab, draw["scene"])
-        (ball, state), (ledge, _) = scene.ball(draw["ball"]), scene.box_at(LEDGE)
-        bounces = scene.number(ball, "restitution"), scene.number(ledge, "restitution")
+        (ball, state), (ledge, _) = scene.find_ball(draw["ball"]), scene.find_box(LEDGE)
+        bounces = scene.read_number(ball, "restitution"), scene.read_number(ledge, "restitution")
         mass, speed = 1 / state.inv_mass, float(draw["speed"])
         lab.put(ball, pos=(200.0, LEDGE_TOP - state.radius + DEPTH), vel=(0.0, speed))
         contact = lab.thing(lab.call("collide", ball, ledge), "a Contact")
         lab.put(contact, target=lab.number(lab.call("target_speed", contact, STEP), "the target"))
         lab.call("solve_normal", contact)
-        measured = scene.number(contact, "jn")
+        measured = scene.read_number(contact, "jn")
     own, bounce = bounces[0], min(bounces)
-    return Found(
-        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg and a restitution of "
+    return Case(
+        f"{scene.intro} Ball {draw['ball']} of it has {digits(mass)} kg and a restitution of "
         f"{own:g}, the ledge one of {bounces[1]:g}. The ball falls straight down on the middle of "
         f"the ledge. When the first pass begins it has {speed:g} px/s, no spin, and is {DEPTH} px "
         "deep.\n"
@@ -52,21 +52,23 @@ def impulse(program: Program, draw: Draw) -> Found:
 
 
 @maker(2, "2 4", scene=SEEDS, ball=range(1, 9), speed=range(150, 450), share=range(25, 75))
-def friction(program: Program, draw: Draw) -> Found:
-    """The friction impulse of a ball that slides on the floor, at its limit."""
+def friction(program: Program, draw: Draw) -> Case:
+    """Predict the friction impulse of a ball that slides on the floor, at its limit."""
     with program.own.lab("mini_engine") as lab:
         scene = Scene(lab, draw["scene"])
-        (ball, state), (floor, _) = scene.ball(draw["ball"]), scene.box_at(FLOOR)
-        rough = math.sqrt(scene.number(ball, "friction") * scene.number(floor, "friction"))
+        (ball, state), (floor, _) = scene.find_ball(draw["ball"]), scene.find_box(FLOOR)
+        rough = math.sqrt(
+            scene.read_number(ball, "friction") * scene.read_number(floor, "friction")
+        )
         mass, speed = 1 / state.inv_mass, float(draw["speed"])
         pressed = float(round(draw["share"] / 100 * mass * speed / 3 / rough))
         lab.put(ball, pos=(450.0, FLOOR_TOP - state.radius + DEPTH), vel=(speed, 0.0))
         contact = lab.thing(lab.call("collide", ball, floor), "a Contact")
         lab.put(contact, jn=pressed)
         lab.call("solve_friction", contact)
-        measured = abs(scene.number(contact, "jt"))
-    return Found(
-        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg. It slides over the "
+        measured = abs(scene.read_number(contact, "jt"))
+    return Case(
+        f"{scene.intro} Ball {draw['ball']} of it has {digits(mass)} kg. It slides over the "
         f"floor at {speed:g} px/s and does not spin yet; both have a friction of {rough:g}. After "
         f"the normal impulse `jn` of the contact is {pressed:g} kg px/s.\n"
         "How large is `jt`, without its sign, after the first pass of `solve_friction`?",
@@ -85,8 +87,8 @@ def friction(program: Program, draw: Draw) -> Found:
 
 
 @maker(1, "1", dx=range(3, 15), dy=range(3, 15), radius=range(16, 23))
-def depth(program: Program, draw: Draw) -> Found:
-    """How deep a circle touches the corner of the ledge."""
+def depth(program: Program, draw: Draw) -> Case:
+    """Predict the depth at which a circle touches the corner of the ledge."""
     dx, dy, radius = (float(draw[name]) for name in ("dx", "dy", "radius"))
     place = (350.0 + dx, LEDGE_TOP - dy)
     touch = exact.circle_box(exact.Disc(*place, radius), exact.Rect(*LEDGE, 150.0, 10.0))[0]
@@ -96,8 +98,8 @@ def depth(program: Program, draw: Draw) -> Found:
         circle, box = lab.circle(place, radius), lab.box(LEDGE, (150.0, 10.0))
         contact = lab.contact_or_none(lab.call("circle_box", circle, box))
     if contact is None:
-        raise Unlike("their circle_box finds no contact")
-    return Found(
+        raise CannotAsk("their circle_box finds no contact")
+    return Case(
         f"The ledge of your lab scene ends on the right at x = 350, and its top is at y = 250. A "
         f"circle with a radius of {radius:g} px has its centre at ({place[0]:g}, {place[1]:g}).\n"
         "Which depth has the contact that your `circle_box` returns?",
@@ -116,24 +118,24 @@ def depth(program: Program, draw: Draw) -> Found:
 
 
 @maker(1, "3", scene=SEEDS, tenths=range(6, 60))
-def rod(program: Program, draw: Draw) -> Found:
-    """The speed that one pass gives the bob where its rod is too long."""
+def rod(program: Program, draw: Draw) -> Case:
+    """Predict the speed that one pass gives the bob where its rod is too long."""
     long = draw["tenths"] / 10
     with program.own.lab("mini_engine") as lab:
         scene = Scene(lab, draw["scene"])
         joints = lab.items(lab.get(scene.world, "joints"), "the joints of the scene")
         lab.want(len(joints) == 1, "one rod", f"{len(joints)}")
         joint = lab.thing(joints[0])
-        length = scene.number(joint, "length")
+        length = scene.read_number(joint, "length")
         bob = next((each for each, state in scene.bodies if state.radius == BOB), None)
         if bob is None:
-            raise Unlike("the scene has no bob")
+            raise CannotAsk("the scene has no bob")
         lab.put(bob, pos=(700.0 + length + long, 90.0))
         lab.tell(joint, "prepare", STEP)
         lab.tell(joint, "solve")
         speed = math.hypot(*lab.state(bob).vel)
     answer = exact.BETA / STEP * long
-    return Found(
+    return Case(
         f"The rod of your lab scene is {long:g} px too long when a step of 1/120 s begins. The "
         "hook and the bob of 6 kg are at rest.\n"
         "With which speed does the bob move towards the hook after one pass of `solve`?",
@@ -155,17 +157,17 @@ def rod(program: Program, draw: Draw) -> Found:
 
 
 @maker(2, "2", scene=SEEDS, ball=range(1, 9), speed=range(90, 400))
-def sliding(program: Program, draw: Draw) -> Found:
-    """The impulse that would stop the slip of a ball that can turn."""
+def sliding(program: Program, draw: Draw) -> Case:
+    """Predict the impulse that would stop the slip of a ball that can turn."""
     with program.own.lab("mini_engine") as lab:
         scene = Scene(lab, draw["scene"])
-        (ball, state), (floor, _) = scene.ball(draw["ball"]), scene.box_at(FLOOR)
+        (ball, state), (floor, _) = scene.find_ball(draw["ball"]), scene.find_box(FLOOR)
         arm = (0.0, state.radius)
         answered = lab.call("effective_mass", ball, floor, arm, (0.0, 0.0), (1.0, 0.0))
         total = lab.number(answered, "what effective_mass returns")
     mass, speed = 1 / state.inv_mass, float(draw["speed"])
-    return Found(
-        f"{scene.made} Ball {draw['ball']} of it has {digits(mass)} kg. Its lowest point slides "
+    return Case(
+        f"{scene.intro} Ball {draw['ball']} of it has {digits(mass)} kg. Its lowest point slides "
         f"over the floor at {speed:g} px/s.\n"
         "Which impulse along the floor, without its sign, brings this point to rest, the turning "
         "included?",

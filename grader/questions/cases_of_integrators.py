@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from grader.checks import exact
 from grader.judge.lab import STEP
 from grader.protocol import Rng
-from grader.questions.numbers import Draw, Found, Unsuited, maker
-from grader.questions.program import Program, Unlike
+from grader.questions.numbers import Case, Draw, Unsuited, maker
+from grader.questions.program import CannotAsk, Program
 from grader.text import digits
 
 OMEGA, X0 = 2 * math.pi, 100.0
@@ -19,37 +19,39 @@ CALLED = {
 }
 
 
-def error_of(states: Sequence[tuple[float, float]], seconds: float) -> float:
-    """How far the spring's x is from the exact one at the end, px."""
+def measure_error(states: Sequence[tuple[float, float]], seconds: float) -> float:
+    """Return how far the spring's x is from the exact one at the end, px."""
     return abs(states[-1][0] - X0 * math.cos(OMEGA * seconds))
 
 
 def own_error(program: Program, method: str, steps: int, seconds: float) -> float:
     with program.own.lab("integrators") as lab:
         force = (0.0, -(OMEGA**2))
-        return error_of(lab.integrate(method, (X0, 0.0), seconds / steps, force, steps), seconds)
+        return measure_error(
+            lab.integrate(method, (X0, 0.0), seconds / steps, force, steps), seconds
+        )
 
 
-def right_error(method: str, steps: int, seconds: float) -> float:
-    """The same by the closed form of one step."""
+def compute_error(method: str, steps: int, seconds: float) -> float:
+    """Compute the same error by the closed form of one step."""
     step, state = getattr(exact, method), (X0, 0.0)
     for _ in range(steps):
         state = step(*state, seconds / steps, lambda x: -(OMEGA**2) * x)
-    return error_of([state], seconds)
+    return measure_error([state], seconds)
 
 
-def halved(program: Program, method: str, draw: Draw) -> Found:
-    """What half the step makes of the error of a method."""
+def make_halving_case(program: Program, method: str, draw: Draw) -> Case:
+    """Make the case: the error of a method with half the step."""
     order, per_second, quarters = ORDERS[method], draw["per_second"], draw["quarters"]
     seconds = quarters / 4
     count = round(per_second * seconds)
-    before, after = (right_error(method, many, seconds) for many in (count, 2 * count))
+    before, after = (compute_error(method, many, seconds) for many in (count, 2 * count))
     ratio = before / after
     if count != per_second * seconds or not 0.95 < ratio / 2**order < 1.05:
         raise Unsuited
     if not math.isclose(own_error(program, method, count, seconds), before, rel_tol=1e-6):
-        raise Unlike("closed form and their program differ in the error with the whole step")
-    return Found(
+        raise CannotAsk("closed form and their program differ in the error with the whole step")
+    return Case(
         f"Your {CALLED[method]} follows the spring of `integrators.py` for {seconds:g} s in "
         f"steps of 1/{per_second} s, and is {digits(float(f'{before:.4g}'))} px off in the end.\n"
         f"How far is it off with steps of 1/{2 * per_second} s?",
@@ -73,26 +75,26 @@ STEPS = {"per_second": range(40, 121, 4), "quarters": range(5, 40, 2)}
 
 
 @maker(5, "8b", **STEPS)
-def verlet(program: Program, draw: Draw) -> Found:
-    """The error of velocity Verlet with half the step."""
-    return halved(program, "velocity_verlet", draw)
+def verlet(program: Program, draw: Draw) -> Case:
+    """Predict the error of velocity Verlet with half the step."""
+    return make_halving_case(program, "velocity_verlet", draw)
 
 
 @maker(5, "8c", per_second=range(16, 41, 4), quarters=range(5, 40, 2))
-def rk4(program: Program, draw: Draw) -> Found:
-    """The error of RK4 with half the step, from coarser ones: else it is nothing to read."""
-    return halved(program, "rk4", draw)
+def rk4(program: Program, draw: Draw) -> Case:
+    """Predict the error of RK4 with half the step, from coarser ones: else it is too small."""
+    return make_halving_case(program, "rk4", draw)
 
 
 @maker(5, "8a", **STEPS)
-def semi_implicit(program: Program, draw: Draw) -> Found:
-    """The error of semi-implicit Euler with half the step."""
-    return halved(program, "semi_implicit_euler", draw)
+def semi_implicit(program: Program, draw: Draw) -> Case:
+    """Predict the error of semi-implicit Euler with half the step."""
+    return make_halving_case(program, "semi_implicit_euler", draw)
 
 
 @maker(5, "7b", scene=range(100, 1000))
-def moment(program: Program, draw: Draw) -> Found:
-    """The moment of inertia of a ball in pymunk."""
+def moment(program: Program, draw: Draw) -> Case:
+    """Predict the moment of inertia of a ball in pymunk."""
     with program.own.lab("pymunk_scene") as lab:
         space = lab.thing(lab.call("empty_space"))
         lab.call("add_ball", space, Rng(draw["scene"]), (100.0, 100.0))
@@ -100,8 +102,8 @@ def moment(program: Program, draw: Draw) -> Found:
         lab.want(len(bodies) == 1, "one ball", f"{len(bodies)}")
         mass, radius, measured = bodies[0].mass, bodies[0].shapes[0].radius, bodies[0].moment
     if measured is None:
-        raise Unlike("their ball has no moment")
-    return Found(
+        raise CannotAsk("their ball has no moment")
+    return Case(
         f"`add_ball(space, random.Random({draw['scene']}), (100, 100))` of your pymunk scene makes "
         f"a ball of {digits(mass)} kg with a radius of {radius:g} px.\nHow large is its moment?",
         exact.disc_moment(mass, radius),
@@ -117,8 +119,8 @@ def moment(program: Program, draw: Draw) -> Found:
 
 
 @maker(6, "7a", steps=range(20, 70))
-def fall(program: Program, draw: Draw) -> Found:
-    """The speed of a body that falls in pymunk."""
+def fall(program: Program, draw: Draw) -> Case:
+    """Predict the speed of a body that falls in pymunk."""
     count = draw["steps"]
     with program.own.lab("pymunk_scene") as lab:
         space = lab.thing(lab.call("empty_space"))
@@ -126,7 +128,7 @@ def fall(program: Program, draw: Draw) -> Found:
         measured = lab.simulate(space, [ball], count, every=count).body(0)[-1].vy
     kept = 0.95**STEP
     answer = 980 * STEP * (1 - kept**count) / (1 - kept)
-    return Found(
+    return Case(
         f"In your `empty_space()` a ball falls from rest for {count} steps of 1/120 s. The space "
         "keeps 0.95 of the speed per second.\nHow fast is it then?",
         answer,

@@ -1,4 +1,4 @@
-"""Cases of time: what the accumulator makes of frames, and damping of a speed."""
+"""Cases of time: the accumulator, frames, and damping of a speed."""
 
 import math
 from collections.abc import Sequence
@@ -8,7 +8,7 @@ from fractions import Fraction
 from grader.checks import exact
 from grader.judge.decode import Thing
 from grader.judge.lab import STEP, Lab
-from grader.questions.numbers import Draw, Found, Unsuited, maker
+from grader.questions.numbers import Case, Draw, Unsuited, maker
 from grader.questions.program import Program
 from grader.text import digits
 
@@ -17,15 +17,15 @@ STEP_MS = Fraction(25, 3)  # of a step
 FORGOT_THE_CAP = "forgot that a frame adds 8 steps at most"
 
 
-def paid(start: int, frames: Sequence[int], cap: Fraction | None = CAP) -> Fraction:
-    """All that frames (ms) put into the purse, in steps."""
+def count_paid(start: int, frames: Sequence[int], cap: Fraction | None = CAP) -> Fraction:
+    """Return all that frames (ms) add to the accumulator, in steps."""
     total = sum((Fraction(each) if cap is None else min(Fraction(each), cap)) for each in frames)
     return (start + total) / STEP_MS
 
 
 @dataclass(frozen=True)
 class Purse:
-    """Some frames, one of them long, and what the accumulator makes of them."""
+    """Some frames, one of them long, and the accumulator before them."""
 
     start: int  # ms
     count: int
@@ -38,8 +38,10 @@ class Purse:
 
     @property
     def owed(self) -> Fraction:
-        """In steps; raises Unsuited where rounding could decide about the last one."""
-        sums = [paid(self.start, self.frames[: count + 1]) for count in range(len(self.frames))]
+        """Return the time in steps; raises Unsuited where rounding could decide the last one."""
+        sums = [
+            count_paid(self.start, self.frames[: count + 1]) for count in range(len(self.frames))
+        ]
         if any(not Fraction(1, 10) < each - math.floor(each) < Fraction(9, 10) for each in sums):
             raise Unsuited
         return sums[-1]
@@ -53,7 +55,7 @@ class Purse:
         )
 
     def run(self, lab: Lab, world: Thing) -> tuple[int, float]:
-        """The steps that a program's own `advance` runs, and what it leaves, in ms."""
+        """Return the steps that a program's own `advance` runs, and what it leaves, in ms."""
         rest, steps = self.start / 1000, 0
         for each in self.frames:
             advance = lab.advance(world, rest, each / 1000)
@@ -69,14 +71,14 @@ PURSE = {
 }
 
 
-def purse_of(draw: Draw) -> Purse:
+def read_case(draw: Draw) -> Purse:
     return Purse(draw["start"], draw["count"], draw["length"], draw["long"])
 
 
-def steps_found(purse: Purse, owed: Fraction, where: str, measured: int) -> Found:
+def make_steps_case(purse: Purse, owed: Fraction, where: str, measured: int) -> Case:
     steps, step = math.floor(owed), STEP_MS
     each_alone = sum(math.floor(min(Fraction(each), CAP) / step) for each in purse.frames)
-    return Found(
+    return Case(
         f"{purse.words}\nHow many steps has `advance`{where} run in all?",
         steps,
         measured,
@@ -84,7 +86,7 @@ def steps_found(purse: Purse, owed: Fraction, where: str, measured: int) -> Foun
         f"{purse.start} + {purse.count} · {purse.length} + 66.67 ms are "
         f"{digits(float(owed))} steps; the part that is no whole step stays for later.",
         [
-            (math.floor(paid(purse.start, purse.frames, None)), FORGOT_THE_CAP),
+            (math.floor(count_paid(purse.start, purse.frames, None)), FORGOT_THE_CAP),
             (each_alone, "dropped what is left after each frame instead of keeping it"),
             (math.ceil(owed), "ran a step that is not fully paid for"),
             (purse.count + 1, "ran one step per frame"),
@@ -94,35 +96,35 @@ def steps_found(purse: Purse, owed: Fraction, where: str, measured: int) -> Foun
 
 
 @maker(3, "6", **PURSE)
-def steps(program: Program, draw: Draw) -> Found:
-    """How many steps the engine's window runs."""
-    case = purse_of(draw)
+def steps(program: Program, draw: Draw) -> Case:
+    """Count the steps that the engine runs."""
+    case = read_case(draw)
     owed = case.owed
     with program.own.lab("mini_engine") as lab:
         measured, _ = case.run(lab, lab.world())
-    return steps_found(case, owed, " of your engine", measured)
+    return make_steps_case(case, owed, " of your engine", measured)
 
 
 @maker(3, "7d", **PURSE)
-def pymunk_steps(program: Program, draw: Draw) -> Found:
-    """How many steps the pymunk scene runs."""
-    case = purse_of(draw)
+def pymunk_steps(program: Program, draw: Draw) -> Case:
+    """Count the steps that the pymunk scene runs."""
+    case = read_case(draw)
     owed = case.owed
     with program.own.lab("pymunk_scene") as lab:
         measured, _ = case.run(lab, lab.thing(lab.call("empty_space")))
-    return steps_found(case, owed, " of your pymunk scene", measured)
+    return make_steps_case(case, owed, " of your pymunk scene", measured)
 
 
 @maker(4, "6", **PURSE)
-def purse(program: Program, draw: Draw) -> Found:
-    """What is left in the accumulator."""
-    case = purse_of(draw)
+def purse(program: Program, draw: Draw) -> Case:
+    """Predict what is left in the accumulator."""
+    case = read_case(draw)
     owed = case.owed
     with program.own.lab("mini_engine") as lab:
         _, measured = case.run(lab, lab.world())
     left = float((owed - math.floor(owed)) * STEP_MS)
-    uncapped = paid(case.start, case.frames, None)
-    return Found(
+    uncapped = count_paid(case.start, case.frames, None)
+    return Case(
         f"{case.words}\nHow many ms are left in the accumulator of your engine then?",
         left,
         measured,
@@ -139,15 +141,15 @@ def purse(program: Program, draw: Draw) -> Found:
 
 
 @maker(4, "5", rate=range(2, 10), halves=range(1, 6), speed=range(150, 900))
-def damping(program: Program, draw: Draw) -> Found:
-    """The speed that damping leaves of a free flight."""
+def damping(program: Program, draw: Draw) -> Case:
+    """Predict the speed that damping leaves of a free flight."""
     rate, seconds, speed = draw["rate"] / 10, draw["halves"] / 2, float(draw["speed"])
     with program.own.lab("mini_engine") as lab:
         ball = lab.circle((0.0, 0.0), vel=(speed, 0.0))
         world = lab.world(ball, linear_damping=rate)
         run = lab.simulate(world, [ball], round(seconds / STEP), every=round(seconds / STEP))
         measured = run.body(0)[-1].speed
-    return Found(
+    return Case(
         f"A ball flies freely at {speed:g} px/s in a `World` without gravity, with "
         f"`linear_damping={rate:g}`.\nHow fast is it after {seconds:g} s?",
         speed * exact.damped(rate, seconds),

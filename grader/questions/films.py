@@ -1,17 +1,16 @@
-"""Predict a film: films of the student's own scene, some with one thing changed; which is which?
+"""Predict a film: films of the student's own scene, some with one thing changed.
 
 Each change is made in the student's program and in the reference. It is asked only where the two
-films of a change are nearer to each other than to those of any other one, so that no film lies. At
-home there is no reference, and nothing to be had by a lie.
+films of a change are nearer to each other than to those of any other one. At home there is no
+reference, and nothing to gain by a lie.
 
-That films differ is not enough: soon after a first blow everything differs, and nobody can say why.
-Each change has a sign that the lesson lets one expect, as that nothing turns without friction, and
-is asked only where its film shows this sign clearly more, or clearly less, than all the others do,
-on paper as well. The program as it is has none, and is what is left.
+It is not enough that films differ: soon after a first impact everything differs. Each change has a
+sign that the lesson lets one expect, such as that nothing turns without friction. It is asked only
+where its film shows this sign clearly more, or clearly less, than all the others, on paper as well.
+The unchanged program has no sign, and is what is left.
 
-What the lab scene does not show is none of the changes: with one pass of the solver, without
-push-out, or with rods before contacts, no body of it is seen anywhere else after two seconds; and
-friction without a limit has no sign.
+Some changes do not show in the lab scene within two seconds: one pass of the solver, no push-out,
+rods before contacts. Friction without a limit has no sign.
 """
 
 import math
@@ -25,8 +24,8 @@ from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import STEP
 from grader.protocol import MAX_BODIES, MAX_RODS
-from grader.questions.pictures import Film, Look, difference, frame_of, picture
-from grader.questions.program import Program, Tree, Unlike
+from grader.questions.pictures import Film, Look, draw_film, find_bounds, measure_difference
+from grader.questions.program import CannotAsk, Program, Tree
 from grader.questions.question import Question
 from grader.questions.scene import SEEDS, Scene
 
@@ -41,7 +40,7 @@ MOST_RADIUS = 200.0  # px
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that is changed in a program, and what it is right to expect of it."""
+    """One thing that is changed in a program, and its visible sign."""
 
     name: str
     words: str
@@ -52,17 +51,17 @@ class Change:
     restitution: float | None = None  # of all bodies of the scene
 
     def film(self, tree: Tree, scene: int) -> Film:
-        """The lab scene of a tree with this change."""
-        return filmed(tree, self.texts(tree), scene, self.restitution)
+        """Record the lab scene of a tree with this change."""
+        return make_film(tree, self.texts(tree), scene, self.restitution)
 
 
-def rise(film: Film) -> float:
-    """How far the balls go up in all, where one can see it; 1 is 100 px."""
-    return sum(each for ball in film.loose for each in rises(film, ball) if each > SEEN) / 100
+def measure_rise(film: Film) -> float:
+    """Return how far the balls go up in all, where it is visible; 1 is 100 px."""
+    return sum(each for ball in film.loose for each in list_rises(film, ball) if each > SEEN) / 100
 
 
-def rises(film: Film, ball: int) -> Iterator[float]:
-    """How far a ball goes up each time, px."""
+def list_rises(film: Film, ball: int) -> Iterator[float]:
+    """Yield how far a ball goes up each time, px."""
     heights = [-film.place(row, ball)[1] for row in range(len(film.rows))]
     up = 0.0
     for before, after in pairwise(heights):
@@ -74,8 +73,8 @@ def rises(film: Film, ball: int) -> Iterator[float]:
     yield up
 
 
-def turning(film: Film) -> float:
-    """How far the balls turn in all, to and fro; 1 is a turn."""
+def measure_turning(film: Film) -> float:
+    """Return how far the balls turn in all, to and fro; 1 is a turn."""
     angles = ([film.angle(row, ball) for row in range(len(film.rows))] for ball in film.loose)
     return sum(abs(b - a) for each in angles for a, b in pairwise(each)) / (2 * math.pi)
 
@@ -84,12 +83,12 @@ NO_SPIN = "def effective_mass(a, b, ra, rb, axis):\n    return a.inv_mass + b.in
 ICE = "def friction_limit(c):\n    return 0.0\n"
 
 
-def constant(name: str, value: str) -> Callable[[Tree], Mapping[str, str]]:
-    return lambda tree: tree.with_constant(name, value)
+def set_constant(name: str, value: str) -> Callable[[Tree], Mapping[str, str]]:
+    return lambda tree: tree.replace_constant(name, value)
 
 
-def function(target: str, source: str) -> Callable[[Tree], Mapping[str, str]]:
-    return lambda tree: tree.with_function(f"mini_engine:{target}", source)
+def set_function(target: str, source: str) -> Callable[[Tree], Mapping[str, str]]:
+    return lambda tree: tree.replace_function(f"mini_engine:{target}", source)
 
 
 AS_IT_IS = Change("as-it-is", "your program as it is", "", (), lambda tree: {}, lambda film: 0.0)
@@ -99,8 +98,8 @@ CHANGES = (
         "`BETA = 1`: the whole overlap is taken away in one step",
         "The push-out becomes a speed, which stays: what overlaps is thrown apart.",
         ("1",),
-        constant("BETA", "1.0"),
-        rise,
+        set_constant("BETA", "1.0"),
+        measure_rise,
     ),
     Change(
         "bouncy",
@@ -108,57 +107,57 @@ CHANGES = (
         "Each bounce keeps 0.8 of the speed, so 0.64 of the height: balls go up again, and high.",
         ("1",),
         lambda tree: {},
-        rise,
+        measure_rise,
         0.8,
     ),
     Change(
         "no-spin",
         "`effective_mass` without its spin terms",
-        "Friction then takes a ball that can turn for one that cannot, and pushes three times too "
+        "Friction then treats a ball that can turn as one that cannot, and pushes three times too "
         "hard: slips turn round from pass to pass.",
         ("1", "2", "4"),
-        function("effective_mass", NO_SPIN),
-        turning,
+        set_function("effective_mass", NO_SPIN),
+        measure_turning,
     ),
     Change(
         "ice",
         "`friction_limit` always 0",
         "Without friction no ball is ever turned: its spoke stays as it was, and it slides on.",
         ("1", "4"),
-        function("friction_limit", ICE),
-        lambda film: -turning(film),
+        set_function("friction_limit", ICE),
+        lambda film: -measure_turning(film),
     ),
     Change(
         "no-bounce",
         "`RESTING_SPEED = 5000`: no impact counts as a bounce",
         "Balls stop dead where they land, and only roll on.",
         ("1",),
-        constant("RESTING_SPEED", "5000"),
-        lambda film: -rise(film),
+        set_constant("RESTING_SPEED", "5000"),
+        lambda film: -measure_rise(film),
     ),
 )
 
 
-def film_question(program: Program, seed: str, points: int) -> Question:
-    """Four films of a scene of their own; raises Unlike where they cannot be told apart."""
+def ask_films(program: Program, seed: str, points: int) -> Question:
+    """Ask about four films of a scene; raises CannotAsk where they look alike."""
     rng = random.Random(f"{seed}/film")
     why = ""
     for _ in range(TRIES):
         try:
-            return posed(program, rng, rng.choice(SEEDS), points)
-        except Unlike as error:
+            return make_question(program, rng, rng.choice(SEEDS), points)
+        except CannotAsk as error:
             why = str(error)
-    raise Unlike(why)
+    raise CannotAsk(why)
 
 
-def posed(program: Program, rng: random.Random, scene: int, points: int) -> Question:
+def make_question(program: Program, rng: random.Random, scene: int, points: int) -> Question:
     able = [each for each in CHANGES if program.can_show(each.todos)]
     if len(able) < COUNT - 1:
-        raise Unlike("too few of the TODOs that films show are right")
+        raise CannotAsk("too few of the TODOs that films show are right")
     rng.shuffle(able)
-    films = chosen(program, [AS_IT_IS, *able], scene)
+    films = choose_changes(program, [AS_IT_IS, *able], scene)
     if right := program.reference:
-        held_against(
+        compare_with_reference(
             {each.name: each.film(right, scene) for each in films},
             {each.name: film for each, film in films.items()},
         )
@@ -167,9 +166,9 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
     options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))
     letters = "abcd"
     answer = "".join(letters[options.index(each)] for each in shown)
-    frame = frame_of(list(films.values()))
+    frame = find_bounds(list(films.values()))
     pictures = tuple(
-        picture(films[each], f"film {number}", f"The lab scene for {SECONDS:g} s", frame)
+        draw_film(films[each], f"film {number}", f"The lab scene for {SECONDS:g} s", frame)
         for number, each in enumerate(shown, 1)
     )
     return Question(
@@ -192,60 +191,60 @@ def posed(program: Program, rng: random.Random, scene: int, points: int) -> Ques
 CHANGES_IN_ORDER = {each.name: number for number, each in enumerate((AS_IT_IS, *CHANGES))}
 
 
-def chosen(program: Program, able: list[Change], scene: int) -> dict[Change, Film]:
-    """The first changes whose films differ visibly, each by its own sign."""
+def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Change, Film]:
+    """Choose the first changes whose films differ visibly, each by its own sign."""
     films: dict[Change, Film] = {}
     for each in able:
         try:
             film = each.film(program.own, scene)
-        except (Unlike, NotYet, Broke):
+        except (CannotAsk, NotYet, Broke):
             if each is AS_IT_IS:
                 raise
             continue
-        apart = all(difference(film, other) >= VISIBLE for other in films.values())
-        if apart and all_told(films | {each: film}):
+        apart = all(measure_difference(film, other) >= VISIBLE for other in films.values())
+        if apart and can_tell_apart(films | {each: film}):
             films[each] = film
         if len(films) == COUNT:
             return films
-    raise Unlike(f"only {len(films)} of its films can be told from each other")
+    raise CannotAsk(f"only {len(films)} of its films can be told from each other")
 
 
-def all_told(films: Mapping[Change, Film]) -> bool:
-    """Whether each film has clearly more, or clearly less, of its sign than all the others."""
+def can_tell_apart(films: Mapping[Change, Film]) -> bool:
+    """Return whether each film has clearly more, or clearly less, of its sign than the others."""
     return all(
-        clear(change.sign(film), change.sign(other))
+        is_clear(change.sign(film), change.sign(other))
         for change, film in films.items()
         for name, other in films.items()
         if change is not AS_IT_IS and name is not change
     )
 
 
-def clear(most: float, other: float) -> bool:
-    """Whether one sign is so much more than another that one sees it; negative: so much less."""
+def is_clear(most: float, other: float) -> bool:
+    """Return whether one sign is visibly more than another; negative: visibly less."""
     less, more = sorted((abs(most), abs(other)))
     return most - other > 1 and more > CLEAR * less
 
 
-def held_against(right: Mapping[str, Film], films: Mapping[str, Film]) -> None:
-    """Raise Unlike where a film is not most like that of the same name by the reference."""
+def compare_with_reference(right: Mapping[str, Film], films: Mapping[str, Film]) -> None:
+    """Raise CannotAsk where a film is not nearest to the reference's film of the same change."""
     for name, film in films.items():
         if len(film.looks) != len(right[name].looks):
-            raise Unlike("its scene has other bodies than that of the lesson")
-        nearest = min(right, key=lambda other: difference(film, right[other]))
+            raise CannotAsk("its scene has other bodies than that of the lesson")
+        nearest = min(right, key=lambda other: measure_difference(film, right[other]))
         if nearest != name:
-            raise Unlike(f"its film of {name} is not that of the reference")
+            raise CannotAsk(f"its film of {name} is not that of the reference")
 
 
 @lru_cache(maxsize=8)
-def film_as_it_is(tree: Tree, seed: int) -> Film:
-    """The lab scene of a tree, once for all questions."""
-    return filmed(tree, {}, seed)
+def film_unchanged(tree: Tree, seed: int) -> Film:
+    """Record the lab scene of a tree, once for all questions."""
+    return make_film(tree, {}, seed)
 
 
-def filmed(
+def make_film(
     tree: Tree, texts: Mapping[str, str], seed: int, restitution: float | None = None
 ) -> Film:
-    """The lab scene of a tree, some of its files with other text; all may bounce alike."""
+    """Record the lab scene of a tree, some files changed; `restitution` is for all bodies."""
     with tree.lab("mini_engine", texts) as lab:
         scene = Scene(lab, seed)
         if restitution is not None:
@@ -254,13 +253,13 @@ def filmed(
         bodies = [thing for thing, _ in scene.bodies]
         joints = lab.items(lab.get(scene.world, "joints"), "the joints")
         if len(bodies) > MAX_BODIES or len(joints) > MAX_RODS:
-            raise Unlike("its scene has more bodies or rods than a film shows")
+            raise CannotAsk("its scene has more bodies or rods than a film shows")
         looks = []
         for thing, state in scene.bodies:
             half = (0.0, 0.0) if state.radius else lab.pair(lab.get(thing, "shape.half"), "half")
             place = (state.pos.x, state.pos.y)
             if not 0 <= state.radius < MOST_RADIUS:
-                raise Unlike("a body of its scene has no radius that could be drawn")
+                raise CannotAsk("a body of its scene has no radius that could be drawn")
             looks.append(Look(state.radius, half, state.inv_mass > 0, place))
         rods = []
         for joint in joints:

@@ -1,8 +1,8 @@
-"""Find the line: a function of the student's own with one line changed, and what that does.
+"""Find the line: a function of the student's own with one line changed.
 
-What it does is a film of the lab scene or, where a film would not show it, some numbers. The
+The effect is shown by a film of the lab scene or, where a film would not show it, by numbers. The
 changed function runs in the student's program and, where there is one, in the reference, and both
-must do the same.
+must give the same.
 """
 
 import ast
@@ -15,9 +15,15 @@ from dataclasses import dataclass
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab
-from grader.questions.films import SECONDS, VISIBLE, film_as_it_is, filmed, held_against
-from grader.questions.pictures import difference, frame_of, picture
-from grader.questions.program import FUNCTIONS, Program, Text, Tree, Unlike
+from grader.questions.films import (
+    SECONDS,
+    VISIBLE,
+    compare_with_reference,
+    film_unchanged,
+    make_film,
+)
+from grader.questions.pictures import draw_film, find_bounds, measure_difference
+from grader.questions.program import FUNCTIONS, CannotAsk, Program, Text, Tree
 from grader.questions.question import Picture, Question
 from grader.questions.scene import SEEDS
 from grader.source.operators import make_changes, names_in
@@ -43,44 +49,46 @@ class Changed:
     now: str
 
 
-def line_questions(program: Program) -> list[str]:
-    """The TODOs to ask about, the best one first: the same for all who have them right."""
+def list_line_todos(program: Program) -> list[str]:
+    """List the TODOs to ask about, the best one first, in a fixed order."""
     return [todo for todo in (*FILMS, *EXPERIMENTS) if todo in program.right]
 
 
-def line_question(todo: str, program: Program, seed: str, points: int) -> Question:
-    """The question about one TODO; raises Unlike where no change of it shows."""
+def ask_line(todo: str, program: Program, seed: str, points: int) -> Question:
+    """Ask about one TODO; raises CannotAsk where no change of it shows."""
     rng = random.Random(f"{seed}/line/{todo}")
-    text = program.own.function(FUNCTIONS[todo])
+    text = program.own.find_function(FUNCTIONS[todo])
     if text is None or len(text.source) > MOST_CODE:
-        raise Unlike("the function is not found in its text, or is too long to be read")
+        raise CannotAsk("the function is not found in its text, or is too long to be read")
     scene = random.Random(f"{seed}/line").choice(SEEDS)  # one for all TODOs: its films are kept
-    if todo in FILMS and apart(program, scene) > FAR:
-        raise Unlike("its film of the program as it is is not that of the reference")
-    possible = list(one_line_changes(program.own, todo, text))
+    if todo in FILMS and measure_gap(program, scene) > FAR:
+        raise CannotAsk("its film of the program as it is is not that of the reference")
+    possible = list(change_lines(program.own, todo, text))
     rng.shuffle(possible)
     for change in possible[:TRIES]:
         try:
-            show = film_of if todo in FILMS else numbers_of
+            show = show_films if todo in FILMS else show_numbers
             words, pictures = show(todo, program, change, scene)
-        except (Unlike, NotYet):
+        except (CannotAsk, NotYet):
             continue
         except Broke as failure:
             if failure.raised is None:  # its process is gone: one is enough
-                raise Unlike(f"a change of it ended the program: {failure.got}") from failure
+                raise CannotAsk(f"a change of it ended the program: {failure.got}") from failure
             continue
-        return posed(todo, change, words, pictures, points)
-    raise Unlike("no change of one line shows, in their program and the reference alike")
+        return make_question(todo, change, words, pictures, points)
+    raise CannotAsk("no change of one line shows, in their program and the reference alike")
 
 
-def apart(program: Program, scene: int) -> float:
-    """How far the films of a program and of the reference, where there is one, are apart."""
+def measure_gap(program: Program, scene: int) -> float:
+    """Return how far the films of a program and of the reference, if any, are apart."""
     if program.reference is None:
         return 0.0
-    return difference(*(film_as_it_is(tree, scene) for tree in (program.own, program.reference)))
+    return measure_difference(
+        *(film_unchanged(tree, scene) for tree in (program.own, program.reference))
+    )
 
 
-def posed(
+def make_question(
     todo: str, change: Changed, words: str, pictures: tuple[Picture, ...], points: int
 ) -> Question:
     name = FUNCTIONS[todo].partition(":")[2]
@@ -104,8 +112,8 @@ def posed(
 # ---------------------------------------------------------------- changing a line
 
 
-def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
-    """Every change of one line of a TODO's own, in a function that keeps its number of lines."""
+def change_lines(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
+    """Yield every change of one line of a TODO, in a function that keeps its number of lines."""
     module = parsed(text.source)
     function = module.body[0] if module and module.body else None
     if not isinstance(function, ast.FunctionDef):
@@ -113,7 +121,7 @@ def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
     if ast.get_docstring(function) is not None:
         function.body = function.body[1:] or [ast.Pass()]
     code = ast.unparse(function)
-    own = own_lines(tree, todo, text, function, code)
+    own = find_own_lines(tree, todo, text, function, code)
     before = code.splitlines()
     for _, after in make_changes(code, names_in(function)):
         lines = after.splitlines()
@@ -122,14 +130,14 @@ def one_line_changes(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
         if len(lines) != len(before) or len(differ) != 1:
             continue
         number, was, now = differ[0]
-        if number in own and not was.strip().startswith(ENDLESS) and alike(was, now):
+        if number in own and not was.strip().startswith(ENDLESS) and is_similar(was, now):
             yield Changed(after, number, was, now)
 
 
-def own_lines(
+def find_own_lines(
     tree: Tree, todo: str, text: Text, function: ast.FunctionDef, code: str
 ) -> frozenset[int]:
-    """The lines of the function in Python's layout that are the student's: those of the region."""
+    """Return the lines of the function, in Python's layout, that are in the student's region."""
     again = ast.parse(code).body[0]
     pairs = zip(ast.walk(function), ast.walk(again), strict=True)
     lines = [
@@ -147,31 +155,33 @@ def own_lines(
     return frozenset(new for old, new in lines if first <= old <= last)
 
 
-def alike(was: str, now: str) -> bool:
-    """Whether a line was changed in one thing only, so that it does not stand out."""
+def is_similar(was: str, now: str) -> bool:
+    """Return whether only one thing in a line was changed, so that it does not stand out."""
     return difflib.SequenceMatcher(None, was, now).ratio() > 0.6
 
 
 # ---------------------------------------------------------------- what a change does
 
 
-def film_of(
+def show_films(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Two films, without and with the change."""
+    """Show two films, without and with the change."""
     target, own, reference = FUNCTIONS[todo], program.own, program.reference
-    before = film_as_it_is(own, scene)
-    after = filmed(own, own.with_function(target, change.code), scene)
-    if difference(before, after) < VISIBLE:
-        raise Unlike("the film does not show it")
+    before = film_unchanged(own, scene)
+    after = make_film(own, own.replace_function(target, change.code), scene)
+    if measure_difference(before, after) < VISIBLE:
+        raise CannotAsk("the film does not show it")
     films = {"the program": before, "the change": after}
     if reference:
-        right = filmed(reference, reference.with_function(target, change.code), scene)
-        held_against({"the program": film_as_it_is(reference, scene), "the change": right}, films)
+        right = make_film(reference, reference.replace_function(target, change.code), scene)
+        compare_with_reference(
+            {"the program": film_unchanged(reference, scene), "the change": right}, films
+        )
     titles = ("film 1, as it is", "film 2, with the change")
-    frame = frame_of(list(films.values()))
+    frame = find_bounds(list(films.values()))
     pictures = tuple(
-        picture(film, name, f"The lab scene for {SECONDS:g} s", frame)
+        draw_film(film, name, f"The lab scene for {SECONDS:g} s", frame)
         for name, film in zip(titles, films.values(), strict=True)
     )
     return (
@@ -180,19 +190,19 @@ def film_of(
     )
 
 
-def numbers_of(
+def show_numbers(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Some numbers, without and with the change."""
+    """Show some numbers, without and with the change."""
     changed = change.code
-    without, with_it = (answers(program.own, todo, code) for code in ("", changed))
+    without, with_it = (run_experiment(program.own, todo, code) for code in ("", changed))
     if reference := program.reference:
-        right, wrong = (answers(reference, todo, code) for code in ("", changed))
-        if not (same(without, right) and same(with_it, wrong)):
-            raise Unlike("the program and the reference differ")
-    shown = [name for name in without if not close(without[name], with_it[name], LEAST)]
+        right, wrong = (run_experiment(reference, todo, code) for code in ("", changed))
+        if not (are_equal(without, right) and are_equal(with_it, wrong)):
+            raise CannotAsk("the program and the reference differ")
+    shown = [name for name in without if not is_close(without[name], with_it[name], LEAST)]
     if not shown:
-        raise Unlike("the numbers do not show it")
+        raise CannotAsk("the numbers do not show it")
     lines = [
         f"{name}: {digits(without[name])} without it, {digits(with_it[name])} with it."
         for name in without
@@ -200,22 +210,24 @@ def numbers_of(
     return "\n".join([f"What comes out of `{FUNCTIONS[todo].partition(':')[2]}`:", *lines]), ()
 
 
-def same(one: Values, other: Values) -> bool:
-    return one.keys() == other.keys() and all(close(one[each], other[each], 1e-6) for each in one)
+def are_equal(one: Values, other: Values) -> bool:
+    return one.keys() == other.keys() and all(
+        is_close(one[each], other[each], 1e-6) for each in one
+    )
 
 
-def close(one: float, other: float, share: float) -> bool:
+def is_close(one: float, other: float, share: float) -> bool:
     return math.isclose(one, other, rel_tol=share, abs_tol=1e-9)
 
 
-def answers(tree: Tree, todo: str, code: str) -> Values:
-    """What an experiment with a TODO gives, with another code of its function or its own."""
-    texts = tree.with_function(FUNCTIONS[todo], code) if code else {}
+def run_experiment(tree: Tree, todo: str, code: str) -> Values:
+    """Run an experiment with a TODO; `code` replaces its function unless empty."""
+    texts = tree.replace_function(FUNCTIONS[todo], code) if code else {}
     with tree.lab(FUNCTIONS[todo].partition(":")[0], texts) as lab:
         return EXPERIMENTS[todo](lab)
 
 
-def damping(lab: Lab) -> Values:
+def measure_damping(lab: Lab) -> Values:
     ball = lab.circle((0.0, 0.0), vel=(400.0, 0.0), omega=10.0)
     world = lab.world(ball, linear_damping=0.5, angular_damping=0.25)
     last = lab.simulate(world, [ball], 120, every=120).body(0)[-1]
@@ -225,15 +237,15 @@ def damping(lab: Lab) -> Values:
 FRAMES = (10, 30, 150)  # ms
 
 
-def engine_frames(lab: Lab) -> Values:
-    return frames(lab, lab.world())
+def run_engine_frames(lab: Lab) -> Values:
+    return run_frames(lab, lab.world())
 
 
-def pymunk_frames(lab: Lab) -> Values:
-    return frames(lab, lab.thing(lab.call("empty_space")))
+def run_pymunk_frames(lab: Lab) -> Values:
+    return run_frames(lab, lab.thing(lab.call("empty_space")))
 
 
-def frames(lab: Lab, world: Thing) -> Values:
+def run_frames(lab: Lab, world: Thing) -> Values:
     found: Values = {}
     for each in FRAMES:
         advance = lab.advance(world, 0.002, each / 1000)
@@ -242,7 +254,7 @@ def frames(lab: Lab, world: Thing) -> Values:
     return found
 
 
-def integrator(method: str) -> Callable[[Lab], Values]:
+def measure_method(method: str) -> Callable[[Lab], Values]:
     def experiment(lab: Lab) -> Values:
         states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
         return {
@@ -255,10 +267,10 @@ def integrator(method: str) -> Callable[[Lab], Values]:
 
 
 EXPERIMENTS: dict[str, Callable[[Lab], Values]] = {
-    "8b": integrator("velocity_verlet"),
-    "6": engine_frames,
-    "5": damping,
-    "8c": integrator("rk4"),
-    "8a": integrator("semi_implicit_euler"),
-    "7d": pymunk_frames,
+    "8b": measure_method("velocity_verlet"),
+    "6": run_engine_frames,
+    "5": measure_damping,
+    "8c": measure_method("rk4"),
+    "8a": measure_method("semi_implicit_euler"),
+    "7d": run_pymunk_frames,
 }

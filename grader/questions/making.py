@@ -1,4 +1,4 @@
-"""From a submission, or a class of them, to sheets and keys as files."""
+"""Make sheets and keys as files, of a submission or a class."""
 
 import secrets
 from dataclasses import dataclass, replace
@@ -20,12 +20,12 @@ from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
 from grader.questions.cases import MAKERS
 from grader.questions.marking import read_keys
-from grader.questions.moodle import moodle_xml
-from grader.questions.notebook import notebook
-from grader.questions.page import page
-from grader.questions.program import opened_program
+from grader.questions.moodle import write_moodle
+from grader.questions.notebook import write_notebook
+from grader.questions.page import make_page
+from grader.questions.program import open_program
 from grader.questions.question import Sheet
-from grader.questions.sheet import sheet_of
+from grader.questions.sheet import make_sheet
 from grader.questions.tally import read_tally, write_bank
 from grader.report.files import write_whole
 from grader.report.progress import Counter
@@ -33,8 +33,8 @@ from grader.text import plural, printable
 
 
 @dataclass(frozen=True)
-class Made:
-    """What became of one student's sheet."""
+class SheetResult:
+    """The sheet of one student, or why there is none."""
 
     student: str
     sheet: Sheet | None
@@ -43,7 +43,7 @@ class Made:
 
 @dataclass(frozen=True)
 class Making:
-    """How sheets are made, and where they go."""
+    """The way sheets are made, and where they go."""
 
     out: Path
     options: Options
@@ -54,9 +54,9 @@ class Making:
 
     @cached_property
     def seed(self) -> str:
-        """What all numbers are drawn from, with the student's name; the same in a second run.
+        """Return the seed of all numbers, besides the student's name; the same in a second run.
 
-        Without a secret one is drawn: else whoever has the kit could make a sheet of any student.
+        Without a secret one is drawn: else everybody with the kit could make any sheet.
         """
         file = self.out / "seed.txt"
         if self.secret is not None:
@@ -69,7 +69,7 @@ class Making:
         return f"practice {seed}" if self.practice else seed
 
     def result_of(self, student: str) -> Result | None:
-        """What grading found out before, where that is known."""
+        """Return an earlier result of grading, if there is one."""
         path = self.results / f"{make_portable(student)}.json" if self.results else None
         if path is None:
             return None
@@ -78,45 +78,45 @@ class Making:
         except (OSError, msgspec.DecodeError) as error:
             raise CannotGrade(f"{path} is no result of grading: leave out --results") from error
 
-    def make(self, student: str, path: Path, worker: Worker) -> Made:
-        """The sheet of the submission at `path`, written."""
+    def make(self, student: str, path: Path, worker: Worker) -> SheetResult:
+        """Write the sheet of the submission at `path`."""
         result = self.result_of(student)
-        with opened_program(path, self.options, worker, result) as program:
+        with open_program(path, self.options, worker, result) as program:
             asked = self.options.course.questions
-            sheet = sheet_of(program, student, self.seed, asked, MAKERS)
+            sheet = make_sheet(program, student, self.seed, asked, MAKERS)
         self.write(sheet)
         left_out = f", {len(sheet.dropped)} not asked" if sheet.dropped else ""
         count = plural(len(sheet.questions), "question")
-        return Made(
+        return SheetResult(
             student, sheet, f"{student}: {count}, {plural(sheet.points, 'point')}{left_out}"
         )
 
     def write(self, sheet: Sheet) -> None:
         title, name = self.options.course.title, make_portable(sheet.student)
         if self.practice:
-            text = page(sheet, title, "practice")
+            text = make_page(sheet, title, "practice")
             write_whole(text.encode(), self.out / "practice" / f"{name}.html")
             return
-        write_whole(page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
-        write_whole(page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
-        write_whole(moodle_xml([sheet], title), self.out / "moodle" / f"{name}.xml")
+        write_whole(make_page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
+        write_whole(make_page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
+        write_whole(write_moodle([sheet], title), self.out / "moodle" / f"{name}.xml")
         place = self.out / "nbgrader" / "source" / f"questions-{name.replace('+', '-')}"
-        write_whole(notebook(sheet, title), place / "questions.ipynb")
+        write_whole(write_notebook(sheet, title), place / "questions.ipynb")
         key = msgspec.json.format(msgspec.json.encode(sheet))
         write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
 
     def finish(self) -> None:
-        """Once all sheets are there: the instructor's page of them, and all in one for Moodle."""
+        """Write the instructor's page of all sheets, and all of them in one file for Moodle."""
         if not self.practice:
             tally = read_tally(self.tally) if self.tally else {}
             sheets = read_keys(self.out / "keys")
             write_bank(self.out / "bank.html", sheets, tally)
-            everybody = moodle_xml(sheets, self.options.course.title)
+            everybody = write_moodle(sheets, self.options.course.title)
             write_whole(everybody, self.out / "moodle.xml")
 
 
-def make_one(making: Making, path: Path, student: str) -> Made:
-    """The sheet of one submission; `student` is whose it is, where not its name."""
+def make_one(making: Making, path: Path, student: str) -> SheetResult:
+    """Make the sheet of one submission; `student` is its author, where that is not its name."""
     notes: list[str] = []
     worker = start_worker()
     try:
@@ -129,16 +129,20 @@ def make_one(making: Making, path: Path, student: str) -> Made:
     return replace(made, words="\n".join([*notes, made.words]))
 
 
-def make_class(making: Making, path: Path, roster: Path | None, console: Console) -> list[Made]:
-    """A sheet for each submission of a class; each of a group gets one of their own."""
+def make_class(
+    making: Making, path: Path, roster: Path | None, console: Console
+) -> list[SheetResult]:
+    """Make a sheet for each submission of a class, and for each member of a group."""
     worker = start_worker()
     try:
         with open_class(path, read_class_list(path, roster)) as intake:
-            troubles = [Made(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
+            troubles = [
+                SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()
+            ]
             made = []
             with Counter("making sheets", len(intake.found), console) as counter:
                 for each in intake.found:
-                    made.append(made_of(making, each, worker))
+                    made.append(make_for(making, each, worker))
                     counter.reached(len(made))
         making.finish()
         return [*troubles, *made]
@@ -146,11 +150,11 @@ def make_class(making: Making, path: Path, roster: Path | None, console: Console
         worker.close()
 
 
-def made_of(making: Making, found: Found, worker: Worker) -> Made:
-    """The sheet of one student of a class, or why there is none; the others go on."""
+def make_for(making: Making, found: Found, worker: Worker) -> SheetResult:
+    """Make the sheet of one student of a class; a failure does not stop the others."""
     try:
         package = pack(found, making.options.course.modules)
         with work_folder() as work:
             return making.make(found.name, package.unpack(work), worker)
     except (CannotTake, CannotGrade) as error:
-        return Made(found.name, None, f"{found.name}: {error}")
+        return SheetResult(found.name, None, f"{found.name}: {error}")

@@ -1,6 +1,6 @@
-"""Marks for what was answered on paper: a table of answers in, tables of points out.
+"""Mark answers on paper: a table of answers in, tables of points out.
 
-An answer that cannot be read is never a 0 without a word: it has no points, and a note says why.
+An answer that cannot be read is never a silent 0: it has no points, and a note says why.
 """
 
 import csv
@@ -14,7 +14,13 @@ import msgspec
 
 from grader.intake.names import fold
 from grader.judge.submission import CannotGrade
-from grader.questions.question import Question, Sheet, Unreadable, earned, meant
+from grader.questions.question import (
+    Question,
+    Sheet,
+    Unreadable,
+    find_misunderstanding,
+    grade_answer,
+)
 from grader.report.files import write_whole
 from grader.text import escape_formula, format_csv
 
@@ -23,7 +29,7 @@ BY_HAND = "points"  # a column that may be left out: those that a person gave
 
 
 @dataclass(frozen=True)
-class Given:
+class GivenAnswer:
     """A line of the table of answers."""
 
     line: int
@@ -35,7 +41,7 @@ class Given:
 
 @dataclass(frozen=True)
 class Mark:
-    """What one answer is worth; None where nobody can say yet."""
+    """The points of one answer; None where nobody can say yet."""
 
     student: str
     number: int
@@ -47,36 +53,36 @@ class Mark:
 
     @property
     def right(self) -> bool:
-        """Whether all is right that a machine marks, or where it marks nothing, a person."""
+        """Return whether all is right that a machine marks, or else a person."""
         if self.question.by_machine:
             return self.by_machine == self.question.by_machine
         return self.points == self.question.points
 
 
 @dataclass(frozen=True)
-class Marked:
+class Marking:
     marks: list[Mark]
     notes: list[str]  # lines that are nobody's answer
 
 
-def mark_answers(table: Path, keys: Path) -> Marked:
+def mark_answers(table: Path, keys: Path) -> Marking:
     """Mark a table of answers with the keys in a folder; raises CannotGrade where there is none."""
     sheets = {fold(sheet.student): sheet for sheet in read_keys(keys)}
     if not sheets:
         raise CannotGrade(f"there are no keys in {keys}: name the folder of the sheets with --out")
-    given, notes = sorted_out(read_answers(table), sheets)
+    given, notes = sort_answers(read_answers(table), sheets)
     marks = [
-        mark_of(sheet.student, number, question, given.get((name, number)))
+        mark_question(sheet.student, number, question, given.get((name, number)))
         for name, sheet in sheets.items()
         for number, question in enumerate(sheet.questions, 1)
     ]
     heard = {name for name, _ in given}
     silent = [sheet.student for name, sheet in sheets.items() if name not in heard]
-    return Marked(marks, [*notes, *(f"no answer of {name} is in the table" for name in silent)])
+    return Marking(marks, [*notes, *(f"no answer of {name} is in the table" for name in silent)])
 
 
 def read_keys(folder: Path) -> list[Sheet]:
-    """The sheets with their answers, by student."""
+    """Read the sheets with their answers, by student."""
     try:
         texts = [path.read_bytes() for path in sorted(folder.glob("*.json"))]
         return [msgspec.json.decode(text, type=Sheet) for text in texts]
@@ -84,8 +90,8 @@ def read_keys(folder: Path) -> list[Sheet]:
         raise CannotGrade(f"the keys in {folder} cannot be read: {error}") from error
 
 
-def read_answers(table: Path) -> list[Given]:
-    """The lines of the table, whatever separates its columns."""
+def read_answers(table: Path) -> list[GivenAnswer]:
+    """Read the lines of the table, whatever separates its columns."""
     try:
         text = table.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
@@ -103,15 +109,15 @@ def read_answers(table: Path) -> list[Given]:
         if any(each.strip() for each in row):
             student, question, answer = (cells.get(each, "").strip() for each in COLUMNS)
             by_hand = cells.get(BY_HAND, "").strip()
-            found.append(Given(rows.line_num, student, question, answer, by_hand))
+            found.append(GivenAnswer(rows.line_num, student, question, answer, by_hand))
     return found
 
 
-def sorted_out(
-    lines: Iterable[Given], sheets: Mapping[str, Sheet]
-) -> tuple[dict[tuple[str, int], Given], list[str]]:
-    """The answers by student and number, and a note on each line that is nobody's."""
-    found: dict[tuple[str, int], Given] = {}
+def sort_answers(
+    lines: Iterable[GivenAnswer], sheets: Mapping[str, Sheet]
+) -> tuple[dict[tuple[str, int], GivenAnswer], list[str]]:
+    """Return the answers by student and number, and a note on each line that fits no sheet."""
+    found: dict[tuple[str, int], GivenAnswer] = {}
     notes = []
     for each in lines:
         sheet = sheets.get(fold(each.student))
@@ -129,8 +135,8 @@ def sorted_out(
     return found, notes
 
 
-def mark_of(student: str, number: int, question: Question, given: Given | None) -> Mark:
-    """The mark of one question; nothing written down is worth nothing, and said."""
+def mark_question(student: str, number: int, question: Question, given: GivenAnswer | None) -> Mark:
+    """Mark one question; an empty answer has no points, and a note."""
     if given is None or not (given.answer or given.by_hand):
         return Mark(student, number, question, "", 0, "no answer")
     notes = []
@@ -138,10 +144,10 @@ def mark_of(student: str, number: int, question: Question, given: Given | None) 
     waits = False
     if question.by_machine:
         try:
-            machine = earned(question, given.answer)
+            machine = grade_answer(question, given.answer)
         except Unreadable as error:
             return Mark(student, number, question, given.answer, None, f"not read: {error}")
-        if why := meant(question, given.answer):
+        if why := find_misunderstanding(question, given.answer):
             notes.append(why)
     if question.by_hand:
         if given.by_hand.isdecimal() and int(given.by_hand) <= question.by_hand:
@@ -158,8 +164,8 @@ def mark_of(student: str, number: int, question: Question, given: Given | None) 
 # ---------------------------------------------------------------- tables
 
 
-def write_points(marked: Marked, out: Path) -> tuple[Path, Path]:
-    """The table of all answers, and that of students."""
+def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:
+    """Write the table of all answers, and that of students."""
     answers, totals = out / "points.csv", out / "totals.csv"
     titles = ("student", "question", "kind", "about", "answer", "points", "out of", "note")
     rows = [
@@ -180,12 +186,12 @@ def write_points(marked: Marked, out: Path) -> tuple[Path, Path]:
     for each in marked.marks:
         by_student[each.student].append(each)
     head = ("student", "points", "out of", "open")
-    write_whole(encode_table([head, *map(total, by_student.values())]), totals)
+    write_whole(encode_table([head, *map(sum_points, by_student.values())]), totals)
     return answers, totals
 
 
-def total(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
-    """A student's points, those there were, and how many answers nobody has marked yet."""
+def sum_points(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
+    """Return a student's points, the maximum, and the number of answers not marked yet."""
     points = sum(each.points or 0 for each in marks)
     waiting = sum(each.points is None for each in marks)
     return marks[0].student, points, sum(each.question.points for each in marks), waiting

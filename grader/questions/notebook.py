@@ -1,7 +1,7 @@
-"""A sheet as a notebook for nbgrader, in its source form: cells that mark themselves.
+"""Write a sheet as a notebook for nbgrader, in its source form: cells that mark themselves.
 
 What nbgrader hands out has neither answers nor hidden tests. A test that ends with a number gives
-so many points.
+that many points.
 """
 
 import base64
@@ -9,7 +9,7 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from grader.questions.moodle import file_name
+from grader.questions.moodle import name_file
 from grader.questions.question import KINDS, Picture, Question, Sheet
 
 Cell = dict[str, Any]
@@ -38,12 +38,12 @@ TEST = {"grade": True, "solution": False, "locked": True}
 WORDS = {"grade": True, "solution": True, "locked": False}
 
 
-def notebook(sheet: Sheet, title: str) -> bytes:
-    """The notebook of one student."""
+def write_notebook(sheet: Sheet, title: str) -> bytes:
+    """Return the notebook of one student."""
     about = f"# {title}: {sheet.student}\n\nAbout your own program, as you handed it in."
-    cells = [cell("title", "markdown", about, PLAIN)]
+    cells = [make_cell("title", "markdown", about, PLAIN)]
     for number, question in enumerate(sheet.questions, 1):
-        cells += cells_of(number, question)
+        cells += make_cells(number, question)
     names = {"display_name": "Python 3", "language": "python", "name": "python3"}
     whole = {
         "cells": cells,
@@ -54,16 +54,16 @@ def notebook(sheet: Sheet, title: str) -> bytes:
     return (json.dumps(whole, indent=1, ensure_ascii=False) + "\n").encode()
 
 
-def cells_of(number: int, question: Question) -> Iterator[Cell]:
-    asked = cell(f"question-{number}", "markdown", text_of(number, question), PLAIN)
+def make_cells(number: int, question: Question) -> Iterator[Cell]:
+    asked = make_cell(f"question-{number}", "markdown", write_text(number, question), PLAIN)
     if question.pictures:
-        asked["attachments"] = {file_name(each): attached(each) for each in question.pictures}
+        asked["attachments"] = {name_file(each): attach(each) for each in question.pictures}
     yield asked
     if question.by_machine:
         name = f"answer_{number}"
         right = repr(question.answer) if question.kind == "film" else question.answer
         solution = f"{name} = None\n### BEGIN SOLUTION\n{name} = {right}\n### END SOLUTION"
-        yield cell(f"answer-{number}", "code", solution, ANSWER)
+        yield make_cell(f"answer-{number}", "code", solution, ANSWER)
         given = {
             "name": name,
             "answer": question.answer,
@@ -74,21 +74,21 @@ def cells_of(number: int, question: Question) -> Iterator[Cell]:
         shape = SHAPES[question.kind].format(**given)
         test = TESTS[question.kind].format(**given)
         text = f"{shape}\n### BEGIN HIDDEN TESTS\n{test}\n### END HIDDEN TESTS"
-        yield cell(f"test-{number}", "code", text, TEST, question.by_machine)
+        yield make_cell(f"test-{number}", "code", text, TEST, question.by_machine)
     if question.by_hand:
         text = "\n".join(["What to look for:", "", *(f"- {each}" for each in question.rubric)])
-        yield cell(f"words-{number}", "markdown", text, WORDS, question.by_hand)
+        yield make_cell(f"words-{number}", "markdown", text, WORDS, question.by_hand)
 
 
-def text_of(number: int, question: Question) -> str:
-    """A question in Markdown."""
+def write_text(number: int, question: Question) -> str:
+    """Return a question in Markdown."""
     parts = [f"## {number}. {KINDS[question.kind].capitalize()} ({question.points} points)"]
     parts += question.text.splitlines()
     if question.code:
         lines = [f"{number:3}  {line}" for number, line in enumerate(question.code, 1)]
         parts.append("\n".join(["```text", *lines, "```"]))
     for each in question.pictures:
-        parts += [f"{each.name}:", f"![{each.alt}](attachment:{file_name(each)})"]
+        parts += [f"{each.name}:", f"![{each.alt}](attachment:{name_file(each)})"]
     if question.choices:
         letters = "abcdefgh"[: len(question.choices)]
         lettered = zip(letters, question.choices, strict=True)
@@ -101,12 +101,14 @@ def text_of(number: int, question: Question) -> str:
     return "\n\n".join(parts)
 
 
-def attached(picture: Picture) -> dict[str, str]:
+def attach(picture: Picture) -> dict[str, str]:
     return {"image/svg+xml": base64.b64encode(picture.svg.encode()).decode()}
 
 
-def cell(id: str, kind: str, text: str, flags: dict[str, bool], points: int | None = None) -> Cell:
-    """A cell as nbgrader marks it."""
+def make_cell(
+    id: str, kind: str, text: str, flags: dict[str, bool], points: int | None = None
+) -> Cell:
+    """Make a cell with the flags of nbgrader."""
     marks = {**flags, "grade_id": id, "schema_version": 3, "task": False}
     if points is not None:
         marks["points"] = points

@@ -1,7 +1,7 @@
 """Predict a number: what the student's own program will answer, in a case that nobody else has.
 
-Each maker works an answer out in closed form, then has the student's program run the case. Where
-both do not agree to a hundredth of the tolerance, the question is not asked.
+Each maker computes an answer in closed form, then has the student's program run the case. Where
+the two do not agree to a hundredth of the tolerance, the question is not asked.
 """
 
 import math
@@ -9,7 +9,7 @@ import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from grader.questions.program import Program, Unlike
+from grader.questions.program import CannotAsk, Program
 from grader.questions.question import Question, Wrong
 from grader.text import digits
 
@@ -21,12 +21,12 @@ Draw = dict[str, int]
 
 
 class Unsuited(Exception):
-    """These numbers do not tell right from wrong: others are drawn."""
+    """Raised where these numbers do not tell right from wrong: others are drawn."""
 
 
 @dataclass(frozen=True)
-class Found:
-    """What a maker found out about its case: the answer in two ways, and the wrong ones."""
+class Case:
+    """One case: the answer in two ways, and known wrong ones."""
 
     text: str
     answer: float  # in closed form
@@ -45,53 +45,55 @@ class Maker:
     name: str
     todos: tuple[str, ...]
     draws: dict[str, Sequence[int]]
-    find: Callable[[Program, Draw], Found]
+    find: Callable[[Program, Draw], Case]
     slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
-        """The question to one student; raises Unlike where it must not be asked."""
-        for draw in drawn(self, seed):
+        """Ask one student; raises CannotAsk where it must not be asked."""
+        for draw in draw_numbers(self, seed):
             try:
-                return posed(self, self.find(program, draw), points)
+                return make_question(self, self.find(program, draw), points)
             except Unsuited:
                 continue
-        raise Unlike(f"{TRIES} draws gave no numbers that tell right from wrong")
+        raise CannotAsk(f"{TRIES} draws gave no numbers that tell right from wrong")
 
 
 def maker(
     slot: int, todos: str, **draws: Sequence[int]
-) -> Callable[[Callable[[Program, Draw], Found]], Maker]:
-    """Make a maker of a function that finds out about one case."""
+) -> Callable[[Callable[[Program, Draw], Case]], Maker]:
+    """Make a maker of a function that computes one case."""
 
-    def made(find: Callable[[Program, Draw], Found]) -> Maker:
+    def made(find: Callable[[Program, Draw], Case]) -> Maker:
         name = find.__name__.replace("_", "-")
         return Maker(name, tuple(todos.split()), draws, find, slot)
 
     return made
 
 
-def drawn(each: Maker, seed: str) -> list[Draw]:
-    """The numbers that a seed draws for a maker, and those to take where the first are unsuited."""
+def draw_numbers(each: Maker, seed: str) -> list[Draw]:
+    """Draw the numbers of a maker, and others to take where the first are unsuited."""
     rng = random.Random(f"{seed}/{each.name}")
     return [{name: rng.choice(few) for name, few in each.draws.items()} for _ in range(TRIES)]
 
 
-def posed(each: Maker, found: Found, points: int) -> Question:
-    """The question; raises Unsuited where a wrong answer would count as a right one.
+def make_question(each: Maker, found: Case, points: int) -> Question:
+    """Make the question; raises Unsuited where a wrong answer would count as a right one.
 
-    Raises Unlike where the two ways to the answer differ.
+    Raises CannotAsk where the two ways to the answer differ.
     """
-    tolerance = 0.0 if found.whole else rounded_up(abs(found.answer) * found.share)
+    tolerance = 0.0 if found.whole else round_up(abs(found.answer) * found.share)
     agree = AGREE * tolerance or 1e-9
     if not math.isclose(found.answer, found.measured, rel_tol=0.0, abs_tol=agree):
-        raise Unlike(
+        raise CannotAsk(
             f"closed form and their program differ: {digits(found.answer)} and "
             f"{digits(found.measured)} {found.unit}"
         )
     if any(abs(value - found.answer) <= 2 * tolerance for value, _ in found.wrong):
         raise Unsuited
-    wrong = [Wrong(digits(value), why) for value, why in distinct(found.wrong, tolerance)]
-    within = "" if found.whole else f" An answer counts up to {digits(tolerance)} {found.unit} off."
+    wrong = [Wrong(digits(value), why) for value, why in drop_similar(found.wrong, tolerance)]
+    within = (
+        "" if found.whole else f" Answers within ±{digits(tolerance)} {found.unit} are accepted."
+    )
     return Question(
         each.name,
         "number",
@@ -106,8 +108,8 @@ def posed(each: Maker, found: Found, points: int) -> Question:
     )
 
 
-def distinct(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple[float, str]]:
-    """Wrong answers that can be told from each other, the first of each kind."""
+def drop_similar(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple[float, str]]:
+    """Keep the first of wrong answers that are too near to each other."""
     kept: list[tuple[float, str]] = []
     for value, why in wrong:
         if all(abs(value - other) > 2 * tolerance for other, _ in kept):
@@ -115,8 +117,8 @@ def distinct(wrong: Sequence[tuple[float, str]], tolerance: float) -> list[tuple
     return kept
 
 
-def rounded_up(value: float) -> float:
-    """The next larger number of two digits."""
+def round_up(value: float) -> float:
+    """Return the next larger number of two digits."""
     if value == 0:
         return 0.0
     power = 10.0 ** (math.floor(math.log10(value)) - 1)

@@ -1,4 +1,4 @@
-"""A student's program as questions see it: what is right in it, its text, and ways to run it.
+"""Hold a student's program for questions: what is right in it, its text, and ways to run it.
 
 Nothing of it is imported here: it runs in children of the sandbox, as when it is graded.
 """
@@ -27,13 +27,13 @@ MOST_DEATHS = 3  # after which nothing more is asked of a program
 FUNCTIONS = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
 
 
-class Unlike(Exception):
-    """The two ways to an answer differ, or the program gives none: not to be asked."""
+class CannotAsk(Exception):
+    """Raised where a question cannot be asked, such as where the two ways to its answer differ."""
 
 
 @dataclass(frozen=True)
 class Text:
-    """A function as it stands in a file of a tree."""
+    """A function as it is in a file of a tree."""
 
     file: str
     first: int  # its lines, counted from 1
@@ -51,7 +51,7 @@ class Tree:
 
     @cached_property
     def texts(self) -> dict[str, str]:
-        """Its Python files."""
+        """Return its Python files."""
         folder = self.submission.folder
         return {
             path.relative_to(folder).as_posix(): read_source(path) for path in python_files(folder)
@@ -61,8 +61,8 @@ class Tree:
     def modules(self) -> Modules:
         return Modules({Path(name): text for name, text in self.texts.items()})
 
-    def function(self, target: str) -> Text | None:
-        """Where `module:name` is defined; None where that cannot be told."""
+    def find_function(self, target: str) -> Text | None:
+        """Find the definition of `module:name`; None where it is not clear."""
         found = self.modules.definition(*target.split(":"))
         if found is None or found.function is None:
             return None
@@ -70,19 +70,19 @@ class Tree:
         source = self.modules.source(found.module, found.function)
         return Text(file, found.function.lineno, found.function.end_lineno, source)
 
-    def with_function(self, target: str, source: str) -> dict[str, str]:
-        """The one file that changes where a function gets another source."""
-        text = self.function(target)
+    def replace_function(self, target: str, source: str) -> dict[str, str]:
+        """Return the one file that changes where a function gets another source."""
+        text = self.find_function(target)
         if text is None:
-            raise Unlike(f"there is no {target.partition(':')[2]} to be found in its text")
+            raise CannotAsk(f"there is no {target.partition(':')[2]} to be found in its text")
         lines = self.texts[text.file].splitlines()
         head = lines[text.first - 1]
         indent = head[: len(head) - len(head.lstrip())]
         new = textwrap.indent(source, indent).splitlines()
         return {text.file: "\n".join([*lines[: text.first - 1], *new, *lines[text.last :]]) + "\n"}
 
-    def with_constant(self, name: str, value: str) -> dict[str, str]:
-        """The files that change where a constant gets another value."""
+    def replace_constant(self, name: str, value: str) -> dict[str, str]:
+        """Return the files that change where a constant gets another value."""
         line = re.compile(rf"^{name}\s*=.*$", re.MULTILINE)
         changed = {
             file: line.sub(f"{name} = {value}", text)
@@ -90,14 +90,14 @@ class Tree:
             if line.search(text)
         }
         if not changed:
-            raise Unlike(f"there is no constant {name} in its text")
+            raise CannotAsk(f"there is no constant {name} in its text")
         return changed
 
     @contextmanager
     def lab(self, module: str, changes: Mapping[str, str] | None = None) -> Iterator[Lab]:
-        """A lab of this tree, its files changed or not."""
+        """Open a lab of this tree, its files changed or not."""
         if self.deaths >= MOST_DEATHS:
-            raise Unlike("its process ended too often")
+            raise CannotAsk("its process ended too often")
         sandbox = self.sandbox.changed(changes) if changes else self.sandbox
         lab = Lab(module, lambda: sandbox.open_child(CPU_SECONDS), [])
         lab.ran("a question")
@@ -118,16 +118,16 @@ class Program:
     given: frozenset[str] = frozenset()  # those that the course hands out done
 
     def can_show(self, todos: Iterable[str]) -> bool:
-        """Whether what hangs on these TODOs is as it should be."""
+        """Return whether all that depends on these TODOs is right."""
         return (self.right | self.given).issuperset(todos)
 
 
 @contextmanager
-def opened_program(
+def open_program(
     path: Path, options: Options, worker: Worker | None = None, result: Result | None = None
 ) -> Iterator[Program]:
     """Grade what questions may be about, unless a result is there, and hold the program open."""
-    asked = askable(options.course)
+    asked = list_askable(options.course)
     with grading(path, replace(options, only=asked), worker) as run:
         found = result or run.run()
         right = {todo.id for todo in found.todos if todo.state == "passed" and todo.id in asked}
@@ -138,6 +138,6 @@ def opened_program(
         yield Program(own, reference, frozenset(right), given)
 
 
-def askable(course: Course) -> frozenset[str]:
-    """The TODOs of a course that questions can be about: those of its programs, no bonus."""
+def list_askable(course: Course) -> frozenset[str]:
+    """Return the TODOs of a course that questions can be about: those of its programs, no bonus."""
     return frozenset(todo.id for todo in course.rubric.counted if todo.function)

@@ -1,4 +1,4 @@
-"""What a question is made of, whatever its kind, and how an answer to it is read."""
+"""Define a question of any kind, and read an answer to it."""
 
 import re
 from typing import Literal
@@ -23,7 +23,7 @@ class Wrong(Struct, frozen=True):
 
 
 class Picture(Struct, frozen=True):
-    """A drawing as SVG, and what it shows for those who cannot see it."""
+    """A drawing as SVG, with words for those who cannot see it."""
 
     name: str  # of its file, without an ending
     alt: str
@@ -60,7 +60,7 @@ class Question(Struct, frozen=True):
 
 
 class Sheet(Struct, frozen=True):
-    """The questions of one student, and what was not asked."""
+    """The questions of one student, and the ones that could not be asked."""
 
     student: str
     seed: str  # with which it can be made again
@@ -73,15 +73,15 @@ class Sheet(Struct, frozen=True):
 
 
 class Unreadable(Exception):
-    """An answer that is none; the message says what was expected."""
+    """Raised where an answer cannot be read; the message says what was expected."""
 
 
-def earned(question: Question, answer: str) -> int:
-    """The points that an answer has earned without a person; raises Unreadable."""
+def grade_answer(question: Question, answer: str) -> int:
+    """Return the points that an answer earns without a person; raises Unreadable."""
     text = answer.strip()
     match question.kind:
         case "number":
-            right = abs(number_in(text, question.unit) - float(question.answer))
+            right = abs(parse_number(text, question.unit) - float(question.answer))
             return question.by_machine * (right <= question.tolerance)
         case "line":
             found = re.fullmatch(r"(?:line\s*)?(\d{1,3})", text, re.IGNORECASE)
@@ -98,8 +98,8 @@ def earned(question: Question, answer: str) -> int:
             return 0
 
 
-def number_in(text: str, unit: str = "") -> float:
-    """The one number of an answer, with a point or a comma, and with or without its unit."""
+def parse_number(text: str, unit: str = "") -> float:
+    """Read the one number of an answer, with a point or a comma, with or without its unit."""
     rest = text.removesuffix(unit).strip() if unit else text
     plain = rest.replace("\u2212", "-").replace(" ", "")
     if re.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}", plain):
@@ -110,10 +110,10 @@ def number_in(text: str, unit: str = "") -> float:
     return float(plain.replace(",", "."))
 
 
-def meant(question: Question, answer: str) -> str:
-    """The misunderstanding behind a wrong answer, where it is a known one."""
+def find_misunderstanding(question: Question, answer: str) -> str:
+    """Return the misunderstanding behind a wrong answer, where it is a known one."""
     try:
-        given = number_in(answer.strip(), question.unit)
+        given = parse_number(answer.strip(), question.unit)
         off = [abs(given - float(each.answer)) for each in question.wrong]
     except (Unreadable, ValueError):
         return ""

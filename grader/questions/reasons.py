@@ -1,14 +1,14 @@
 """Say why: questions that a person marks, about a line of the student's own.
 
-Each is chosen by how the student wrote a TODO: a line that does the thing in one way or another is
-found in the syntax tree, quoted, and asked about.
+Each depends on how the student wrote a TODO: a line that does it in one way or another is found in
+the syntax tree, quoted, and asked about.
 """
 
 import ast
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from grader.questions.program import FUNCTIONS, Program, Text, Unlike
+from grader.questions.program import FUNCTIONS, CannotAsk, Program, Text
 from grader.questions.question import Question
 from grader.source.regions import parsed
 from grader.text import printable
@@ -19,7 +19,7 @@ MOST_QUOTED = 160  # characters of a line
 
 @dataclass(frozen=True)
 class Reason:
-    """A question about a statement that has a certain form."""
+    """A question about a statement of a certain form."""
 
     name: str
     todo: str
@@ -28,16 +28,16 @@ class Reason:
     rubric: tuple[str, ...]  # a point each
 
 
-def calls(*names: str) -> Callable[[ast.stmt], bool]:
-    """Whether a statement calls a function or method of one of these names."""
+def has_call(*names: str) -> Callable[[ast.stmt], bool]:
+    """Test whether a statement calls a function or method of one of these names."""
     return lambda node: any(
         isinstance(each, ast.Call) and ast.unparse(each.func).rpartition(".")[2] in names
-        for each in inside(node)
+        for each in walk_statement(node)
     )
 
 
-def inside(node: ast.stmt) -> Iterator[ast.AST]:
-    """A statement without the statements in it: of an `if`, its condition alone."""
+def walk_statement(node: ast.stmt) -> Iterator[ast.AST]:
+    """Walk a statement without the statements in it: of an `if`, its condition alone."""
     waiting: list[ast.AST] = [node]
     while waiting:
         each = waiting.pop()
@@ -48,10 +48,10 @@ def inside(node: ast.stmt) -> Iterator[ast.AST]:
 
 
 def has_operator(*kinds: type[ast.AST]) -> Callable[[ast.stmt], bool]:
-    return lambda node: any(isinstance(each, kinds) for each in inside(node))
+    return lambda node: any(isinstance(each, kinds) for each in walk_statement(node))
 
 
-def is_a(*kinds: type[ast.stmt]) -> Callable[[ast.stmt], bool]:
+def is_kind(*kinds: type[ast.stmt]) -> Callable[[ast.stmt], bool]:
     return lambda node: isinstance(node, kinds)
 
 
@@ -59,8 +59,8 @@ def names(*wanted: str) -> Callable[[ast.stmt], bool]:
     """Whether a statement speaks of one of these names or attributes."""
 
     def speaks(node: ast.stmt) -> bool:
-        said = {each.id for each in inside(node) if isinstance(each, ast.Name)}
-        said |= {each.attr for each in inside(node) if isinstance(each, ast.Attribute)}
+        said = {each.id for each in walk_statement(node) if isinstance(each, ast.Name)}
+        said |= {each.attr for each in walk_statement(node) if isinstance(each, ast.Attribute)}
         return not said.isdisjoint(wanted)
 
     return speaks
@@ -92,7 +92,7 @@ REASONS = (
     Reason(
         "clamp",
         "4",
-        calls("max", "min", "clamp", "clip", "copysign"),
+        has_call("max", "min", "clamp", "clip", "copysign"),
         "Your program clamps friction here. Why the total of all passes, and not the change that "
         "this pass makes? Say what would go wrong otherwise, with an example.",
         CLAMP,
@@ -100,7 +100,7 @@ REASONS = (
     Reason(
         "clamp-by-hand",
         "4",
-        is_a(ast.If),
+        is_kind(ast.If),
         "Your program compares the friction with its limit here. Why the total of all passes, and "
         "not the change that this pass makes? Say what would go wrong otherwise, with an example.",
         CLAMP,
@@ -108,7 +108,7 @@ REASONS = (
     Reason(
         "accumulator",
         "6",
-        is_a(ast.While),
+        is_kind(ast.While),
         "Your program runs steps in this loop. Why does it keep what is left afterwards, and why "
         "may a frame add only 8 steps?",
         ACCUMULATOR,
@@ -124,7 +124,7 @@ REASONS = (
     Reason(
         "centre-inside",
         "1",
-        calls("length", "length_squared", "magnitude", "magnitude_squared", "hypot", "sqrt"),
+        has_call("length", "length_squared", "magnitude", "magnitude_squared", "hypot", "sqrt"),
         "Your program takes a length here. Why does a centre inside of the box need a case of its "
         "own, and what is done there?",
         CENTRE_INSIDE,
@@ -132,7 +132,7 @@ REASONS = (
     Reason(
         "exponential",
         "5",
-        calls("exp", "pow"),
+        has_call("exp", "pow"),
         "Your program damps by this. Why is the speed after one second the same at every step?",
         EXPONENTIAL,
     ),
@@ -159,7 +159,7 @@ REASONS = (
     Reason(
         "spin-terms",
         "2",
-        calls("cross"),
+        has_call("cross"),
         "Your program adds this. Why does a disc that can turn give way to friction three times "
         "as easily as one that cannot, and to a push at its centre not at all more?",
         (
@@ -171,7 +171,7 @@ REASONS = (
     Reason(
         "two-accelerations",
         "8b",
-        calls("accel"),
+        has_call("accel"),
         "Your velocity Verlet asks for the acceleration in this line and in another one. Which of "
         "the two answers could the next step use again, and what is won by the mean of both?",
         (
@@ -183,7 +183,7 @@ REASONS = (
     Reason(
         "order-of-lines",
         "8a",
-        is_a(ast.Assign, ast.AugAssign, ast.Return),
+        is_kind(ast.Assign, ast.AugAssign, ast.Return),
         "Your semi-implicit Euler has this line. What would change if the place were moved before "
         "the velocity, and why do engines want it this way round?",
         (
@@ -195,7 +195,7 @@ REASONS = (
     Reason(
         "four-samples",
         "8c",
-        calls("accel"),
+        has_call("accel"),
         "Your RK4 asks for the acceleration here and three times more. What does it get for four "
         "questions per step, and when are four smaller steps of a simpler method better?",
         (
@@ -219,20 +219,20 @@ REASONS = (
 )
 
 
-def reasons_for(program: Program) -> list[Reason]:
-    """Those about TODOs that are right, in the same order for everybody, one for each TODO."""
+def find_reasons(program: Program) -> list[Reason]:
+    """Return the questions about TODOs that are right, one for each, in a fixed order."""
     found: dict[str, Reason] = {}
     for each in REASONS:
-        if each.todo in program.right and each.todo not in found and quoted(program, each):
+        if each.todo in program.right and each.todo not in found and quote_line(program, each):
             found[each.todo] = each
     return list(found.values())
 
 
-def reason_question(each: Reason, program: Program, points: int) -> Question:
-    """The question with the student's own line in it."""
-    line = quoted(program, each)
+def ask_reason(each: Reason, program: Program, points: int) -> Question:
+    """Ask the question with the student's own line in it."""
+    line = quote_line(program, each)
     if not line:
-        raise Unlike("no line of theirs has this form")
+        raise CannotAsk("no line of theirs has this form")
     name = FUNCTIONS[each.todo].partition(":")[2]
     return Question(
         f"why-{each.name}",
@@ -246,9 +246,9 @@ def reason_question(each: Reason, program: Program, points: int) -> Question:
     )
 
 
-def quoted(program: Program, each: Reason) -> str:
-    """The first line of the student's function that has the form, as they wrote it."""
-    text = program.own.function(FUNCTIONS[each.todo])
+def quote_line(program: Program, each: Reason) -> str:
+    """Return the first line of the student's function that has the form, as they wrote it."""
+    text = program.own.find_function(FUNCTIONS[each.todo])
     module = parsed(text.source, MOST_CODE) if text else None
     if text is None or module is None or not module.body:
         return ""
@@ -262,13 +262,13 @@ def quoted(program: Program, each: Reason) -> str:
         node = next(filter(each.has, found), None)
     except RecursionError:  # nested deeper than anybody writes
         return ""
-    return line_at(text, node) if node is not None else ""
+    return line_of(text, node) if node is not None else ""
 
 
 def is_docstring(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
 
 
-def line_at(text: Text, node: ast.stmt) -> str:
-    """The line on which a statement begins."""
+def line_of(text: Text, node: ast.stmt) -> str:
+    """Return the line on which a statement begins."""
     return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]

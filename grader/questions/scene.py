@@ -1,11 +1,11 @@
-"""The lab scene as a program makes it, for questions and for films."""
+"""Make the lab scene of a program, for questions and for films."""
 
 from dataclasses import dataclass, field
 
 from grader.judge.decode import Thing
 from grader.judge.lab import Lab
 from grader.protocol import BodyValue, Rng
-from grader.questions.program import Unlike
+from grader.questions.program import CannotAsk
 
 BOB = 24.0  # px, the radius of the one ball that hangs on a rod
 LEAST_MASS, MOST_MASS = 0.1, 100.0  # kg
@@ -27,26 +27,26 @@ class Scene:
         states = [self.lab.body(each) for each in found]
         self.bodies = [(Thing(each.ref), each) for each in states]
 
-    def ball(self, number: int) -> tuple[Thing, BodyValue]:
-        """A ball by its number, from 1 on, in the order in which the scene adds them."""
+    def find_ball(self, number: int) -> tuple[Thing, BodyValue]:
+        """Return a ball by its number, from 1 on, in the order in which the scene adds them."""
         balls = [each for each in self.bodies if each[1].inv_mass and each[1].radius != BOB]
         if not 0 < number <= len(balls):
-            raise Unlike(f"the scene has {len(balls)} balls")
+            raise CannotAsk(f"the scene has {len(balls)} balls")
         thing, state = balls[number - 1]
         if not (LEAST_MASS < 1 / state.inv_mass < MOST_MASS and 1 < state.radius < BOB):
-            raise Unlike(f"ball {number} has no mass or radius of the lab scene")
+            raise CannotAsk(f"ball {number} has no mass or radius of the lab scene")
         return thing, state
 
-    def box_at(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
-        """A box of the scene by its centre."""
+    def find_box(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
+        """Return a box of the scene by its centre."""
         here = [each for each in self.bodies if (each[1].pos.x, each[1].pos.y) == place]
         if not here:
-            raise Unlike(f"the scene has no box at {place}")
+            raise CannotAsk(f"the scene has no box at {place}")
         return here[0]
 
-    def number(self, thing: Thing, name: str) -> float:
+    def read_number(self, thing: Thing, name: str) -> float:
         return self.lab.number(self.lab.get(thing, name), f"its {name}")
 
     @property
-    def made(self) -> str:
+    def intro(self) -> str:
         return f"Your lab scene is made by `make_world(random.Random({self.seed}))`."

@@ -1,4 +1,4 @@
-"""The sheet of one student: the same kinds for everybody, about TODOs that are right in theirs."""
+"""Make the sheet of one student: the same kinds for everybody, about TODOs that are right."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
@@ -6,11 +6,11 @@ from typing import Protocol, TypeVar
 
 from grader.judge.course import Asked
 from grader.judge.failures import Broke, NotYet
-from grader.questions.films import film_question
-from grader.questions.lines import line_question, line_questions
-from grader.questions.program import Program, Unlike
+from grader.questions.films import ask_films
+from grader.questions.lines import ask_line, list_line_todos
+from grader.questions.program import CannotAsk, Program
 from grader.questions.question import Question, Sheet
-from grader.questions.reasons import reason_question, reasons_for
+from grader.questions.reasons import ask_reason, find_reasons
 from grader.text import clean
 
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
@@ -18,7 +18,7 @@ Ask = tuple[str, Callable[[], Question]]  # what a question is called, and how i
 
 
 class Asks(Protocol):
-    """What asks for a number: a maker of the kit, or the cases that a release has of it."""
+    """A source of a number question: a maker of the kit, or the cases in a release."""
 
     @property
     def name(self) -> str: ...
@@ -32,26 +32,26 @@ class Asks(Protocol):
 Each = TypeVar("Each", bound=Asks)
 
 
-def sheet_of(
+def make_sheet(
     program: Program, student: str, seed: str, asked: Asked, makers: Sequence[Asks]
 ) -> Sheet:
-    """The questions to a student. The same program and seed always give the same ones."""
+    """Make the questions to a student: always the same for the same program and seed."""
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
     numbers = numbers_to_ask(program, own, asked, makers)
-    found += made(numbers, asked.number, dropped)
-    found += made(films_to_ask(program, own, asked), asked.film, dropped)
-    found += made(lines_to_ask(program, own, asked), asked.line, dropped)
+    found += ask_some(numbers, asked.number, dropped)
+    found += ask_some(films_to_ask(program, own, asked), asked.film, dropped)
+    found += ask_some(lines_to_ask(program, own, asked), asked.line, dropped)
     missing = asked.number + asked.film + asked.line - len(found)
-    found += made(numbers, missing, dropped)  # where there is no film to ask about, a number
+    found += ask_some(numbers, missing, dropped)  # where there is no film to ask about, a number
     lines = {todo for each in found if each.kind == "line" for todo in each.todos}
-    found += made(reasons_to_ask(program, asked, lines), asked.why, dropped)
+    found += ask_some(reasons_to_ask(program, asked, lines), asked.why, dropped)
     return Sheet(student, seed, tuple(found), tuple(dropped))
 
 
-def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
-    """The first `count` questions that may be asked; the others are noted."""
+def ask_some(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
+    """Ask the first `count` questions that may be asked; note the others."""
     found: list[Question] = []
     while len(found) < count and (each := next(asks, None)):
         name, ask = each
@@ -63,9 +63,9 @@ def made(asks: Iterator[Ask], count: int, dropped: list[str]) -> list[Question]:
 
 
 def why_not(error: Exception) -> str:
-    """Why a question is not asked; raises what has nothing to do with the program."""
+    """Say why a question is not asked; raise what has nothing to do with the program."""
     match error:
-        case Unlike():
+        case CannotAsk():
             return str(error)
         case NotYet() | Broke():
             return f"their program gave {clean(error.got)}"
@@ -77,36 +77,35 @@ def why_not(error: Exception) -> str:
 def numbers_to_ask(
     program: Program, seed: str, asked: Asked, makers: Sequence[Asks]
 ) -> Iterator[Ask]:
-    for each in in_turn(makers, program):
+    for each in take_turns(makers, program):
         yield each.name, partial(each.ask, program, seed, asked.worth("number"))
 
 
 def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
     for number in range(asked.film):
         own = f"{seed}/{number}"
-        yield "films", partial(film_question, program, own, asked.worth("film"))
+        yield "films", partial(ask_films, program, own, asked.worth("film"))
 
 
 def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for todo in line_questions(program):
+    for todo in list_line_todos(program):
         yield (
             f"line of TODO {todo}",
-            partial(line_question, todo, program, seed, asked.worth("line")),
+            partial(ask_line, todo, program, seed, asked.worth("line")),
         )
 
 
 def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[Ask]:
-    """Last about the function whose lines a sheet shows already."""
-    for each in sorted(reasons_for(program), key=lambda each: each.todo in lines):
-        yield each.name, partial(reason_question, each, program, asked.worth("why"))
+    """Yield reasons; those about a function whose lines the sheet shows already come last."""
+    for each in sorted(find_reasons(program), key=lambda each: each.todo in lines):
+        yield each.name, partial(ask_reason, each, program, asked.worth("why"))
 
 
-def in_turn(makers: Iterable[Each], program: Program) -> Iterator[Each]:
-    """Those whose TODOs are all right: the first of each slot, then the second of each.
+def take_turns(makers: Iterable[Each], program: Program) -> Iterator[Each]:
+    """Yield makers whose TODOs are all right: the first of each slot, then the second of each.
 
     One about TODOs that have had their turn waits for all the others: no sheet asks the same twice
-    as long as there is something else. What a course hands out done may take part in a question,
-    and is not what it is about.
+    while there is something else. No question is only about a TODO that the course hands out done.
     """
     able = [
         each

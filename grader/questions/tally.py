@@ -1,4 +1,4 @@
-"""How often classes answered questions rightly so far, kept in a small file, and its page."""
+"""Count how often classes answered questions rightly, in a small file, and write its page."""
 
 import hashlib
 from collections import Counter
@@ -10,9 +10,9 @@ import msgspec
 from msgspec import Struct
 
 from grader.judge.submission import CannotGrade
-from grader.player.page import filled
+from grader.player.page import fill_template
 from grader.questions.marking import Mark
-from grader.questions.page import TEMPLATES, drawn, worded
+from grader.questions.page import TEMPLATES, mark_up, show_picture
 from grader.questions.question import KINDS, Question, Sheet
 from grader.report.files import write_whole
 from grader.text import digits
@@ -30,7 +30,7 @@ Tally = dict[str, dict[str, Count]]  # by class and by the question's name
 
 
 def read_tally(path: Path) -> Tally:
-    """What is kept; nothing where there is no file yet."""
+    """Read the file; return nothing where there is none yet."""
     if not path.is_file():
         return {}
     try:
@@ -40,16 +40,16 @@ def read_tally(path: Path) -> Tally:
 
 
 def add_class(path: Path, sheets: Iterable[Sheet], marks: Iterable[Mark]) -> Tally:
-    """The tally with the marks of a class; one that is marked again takes its own place."""
+    """Add the marks of a class; a class that is marked again replaces its own entry."""
     tally = read_tally(path)
     names = sorted(f"{sheet.seed}/{sheet.student}" for sheet in sheets)
-    tally[hashlib.sha256("\n".join(names).encode()).hexdigest()[:16]] = counted(marks)
+    tally[hashlib.sha256("\n".join(names).encode()).hexdigest()[:16]] = count_answers(marks)
     write_whole(msgspec.json.format(msgspec.json.encode(tally)) + b"\n", path)
     return tally
 
 
-def counted(marks: Iterable[Mark]) -> dict[str, Count]:
-    """The answers by question; those that nobody gave or could read are not counted."""
+def count_answers(marks: Iterable[Mark]) -> dict[str, Count]:
+    """Count the answers by question, except those that nobody gave or could read."""
     found: dict[str, Count] = {}
     for each in marks:
         if each.points is None or not each.answer:
@@ -64,7 +64,7 @@ def counted(marks: Iterable[Mark]) -> dict[str, Count]:
 
 @dataclass(frozen=True)
 class Row:
-    """A question on the instructor's page: an example, and what classes made of it."""
+    """A question on the instructor's page: an example, and the answers of classes."""
 
     example: Question
     classes: int
@@ -77,7 +77,7 @@ class Row:
         return f"{self.right / self.answered:.0%}" if self.answered else "-"
 
 
-def rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
+def make_rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
     examples = {each.name: each for sheet in reversed(sheets) for each in sheet.questions}
     order = list(KINDS)
     for name, example in sorted(
@@ -97,14 +97,14 @@ def rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
 
 
 def write_bank(path: Path, sheets: Sequence[Sheet], tally: Tally) -> None:
-    """The instructor's page of all questions that these sheets have."""
-    page = filled(
+    """Write the instructor's page of all questions that these sheets have."""
+    page = fill_template(
         TEMPLATES / "bank.html",
         (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
-        rows=list(rows(sheets, tally)),
+        rows=list(make_rows(sheets, tally)),
         kinds=KINDS,
-        worded=worded,
-        drawn=drawn,
+        mark_up=mark_up,
+        show_picture=show_picture,
         number_of=digits,
     )
     write_whole(page.encode("utf-8"), path)

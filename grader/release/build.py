@@ -1,6 +1,6 @@
-"""The release: one archive with all that students get, and proof that nothing else is in it.
+"""Build the release: one archive with all that students get, and proof that nothing else is in it.
 
-The name has the version and the first signs of the content's hash. The same kit makes the same
+The name has the version and the first digits of the content hash. The same kit makes the same
 archive, byte by byte.
 """
 
@@ -28,9 +28,9 @@ from grader.judge.grade import KIT, opened
 from grader.judge.result import Result
 from grader.judge.rubric import visible
 from grader.player.replay import record_expected
-from grader.release.handed_out import students_tree, write_tree
-from grader.release.leaks import leaks_in, secrets_of
-from grader.release.notebooks import notebooks_of
+from grader.release.handed_out import make_students_tree, write_tree
+from grader.release.leaks import find_leaks, find_secrets
+from grader.release.notebooks import make_notebooks
 from grader.release.pages import write_pages
 from grader.release.students_copy import Tree, write_copy
 from grader.report.files import put_in
@@ -41,7 +41,7 @@ SECOND_ONE = "315532800"  # the same, in s
 
 
 class Refused(Stop):
-    """Nothing is handed out; the message says why."""
+    """Raised where nothing may be handed out; the message says why."""
 
     cannot = "release"
 
@@ -51,28 +51,28 @@ def release(
 ) -> list[Path]:
     """Verify the kit and build the release of a course into `out`; returns what was written.
 
-    What an earlier `verify` found sound and nothing has touched since is not graded again, unless
-    all is to be graded `fresh`.
+    Members that an earlier `verify` found sound, and that are unchanged, are graded again only if
+    `fresh`.
     """
     if not verify(jobs, "", console, fresh, course).sound:
         raise Refused("`grader verify` has complaints, see above")
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         work = Path(folder)
         with console.status("building the release (about two minutes)"):
-            built = build(work, wrong_submissions(work / "wrong", course), course)
-        return [put(each, out) for each in sorted(built.iterdir())]
+            built = build(work, build_wrong_members(work / "wrong", course), course)
+        return [move_into(each, out) for each in sorted(built.iterdir())]
 
 
-def wrong_submissions(folder: Path, course: Course) -> Iterator[Tree]:
-    """The bank's wrong members in a course, each written when it is its turn."""
+def build_wrong_members(folder: Path, course: Course) -> Iterator[Tree]:
+    """Build the bank's wrong members of a course, each when it is its turn."""
     for member in members(KIT, course):
         if member.kind == "wrong" and member.form == "package" and member.is_patch:
             member.build(KIT, folder / member.name)
             yield folder / member.name, member.todos
 
 
-def put(made: Path, out: Path) -> Path:
-    """Move a file or folder to its place, in the stead of an older one."""
+def move_into(made: Path, out: Path) -> Path:
+    """Move a file or folder into `out`, in place of an older one."""
     out.mkdir(parents=True, exist_ok=True)
     target = out / made.name
     if target.is_dir():
@@ -83,7 +83,7 @@ def put(made: Path, out: Path) -> Path:
 
 
 def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
-    """Make all of a course's release below `work`; returns the folder that holds it, checked."""
+    """Build all of a course's release below `work`; returns the folder that holds it, checked."""
     copy, tree, built = work / "copy", work / NAME, work / "built"
     built.mkdir(parents=True)
     write_copy(copy, wrong, course)
@@ -91,8 +91,8 @@ def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
     with opened(KIT / "solution") as open_child:
         runs.write_bytes(record_expected(open_child, course.rubric))
     lay_out(tree, course)
-    lock = pinned((KIT / "requirements.txt").read_text(encoding="utf-8"))
-    content = hash_of([copy, tree], lock)
+    lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
+    content = hash_folders([copy, tree], lock)
     version = f"{__version__}+r{content[:8]}"  # pip puts it in the place of the last one
     wheel = build_wheel(copy, version, tree)
     requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
@@ -110,17 +110,17 @@ def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
 
 
 def lay_out(tree: Path, course: Course) -> None:
-    """The student's folder, without what is made last: wheel, requirements and manifest."""
-    files = students_tree(KIT, course)
+    """Write the student's folder, except what is made last: wheel, requirements and manifest."""
+    files = make_students_tree(KIT, course)
     del files["requirements.txt"]
-    for name, content in notebooks_of(KIT / "starter" / "notebooks", course).items():
+    for name, content in make_notebooks(KIT / "starter" / "notebooks", course).items():
         files[f"notebooks/{name}"] = content
     write_tree(files, tree)
     write_pages(KIT / "handouts", tree / "handouts", course)
 
 
-def pinned(lock: str) -> str:
-    """The locked packages that the grader needs to run, without what only builds it."""
+def strip_build_packages(lock: str) -> str:
+    """Keep the locked packages that the grader needs to run, without what only builds it."""
     blocks = re.split(r"\n(?=\S)", lock.strip())
     needed = [block for block in blocks if not re.search(r"# via [^\n]*:build\)\s*$", block)]
     lines = "\n".join(needed).splitlines()
@@ -128,7 +128,7 @@ def pinned(lock: str) -> str:
 
 
 def build_wheel(copy: Path, version: str, folder: Path) -> Path:
-    """The grader's wheel, of this version, in `folder`."""
+    """Build the grader's wheel, of this version, in `folder`."""
     init = copy / "grader" / "__init__.py"
     text = init.read_text(encoding="utf-8")
     text = text.replace(f'"{__version__}"', f'"{version}"')
@@ -141,7 +141,7 @@ def build_wheel(copy: Path, version: str, folder: Path) -> Path:
     options = ["--no-deps", "--no-build-isolation", "--no-index", "--quiet"]
     same = {"SOURCE_DATE_EPOCH": SECOND_ONE, "TZ": "UTC", "LC_ALL": "C", "PYTHONUTF8": "1"}
     environment = {**os.environ, **same}
-    run([*command, *options], folder, environment)
+    run_command([*command, *options], folder, environment)
     (wheel,) = folder.glob("*.whl")
     return wheel
 
@@ -150,26 +150,26 @@ def write_manifest(tree: Path, version: str, content: str) -> None:
     head = (
         f"# {NAME} {version}\n# content {content}\n# to compare: sha256sum --check MANIFEST.txt\n"
     )
-    rows = [f"{sha256(path.read_bytes())}  {name}\n" for name, path in files_in(tree)]
+    rows = [f"{sha256(path.read_bytes())}  {name}\n" for name, path in list_files(tree)]
     (tree / "MANIFEST.txt").write_text(head + "".join(rows), encoding="utf-8", newline="\n")
 
 
 def write_zip(tree: Path, target: Path) -> None:
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, path in files_in(tree):
+        for name, path in list_files(tree):
             put_in(archive, f"{NAME}/{name}", path.read_bytes())
 
 
-def files_in(folder: Path) -> list[tuple[str, Path]]:
-    """The files below a folder by name, in an order that is the same everywhere."""
+def list_files(folder: Path) -> list[tuple[str, Path]]:
+    """List the files below a folder by name, in an order that is the same everywhere."""
     found = [(p.relative_to(folder).as_posix(), p) for p in folder.rglob("*") if p.is_file()]
     return sorted(found)
 
 
-def hash_of(folders: list[Path], text: str) -> str:
-    """The SHA-256 of all names and contents."""
+def hash_folders(folders: list[Path], text: str) -> str:
+    """Return the SHA-256 of all names and contents."""
     rows = [
-        f"{name} {sha256(path.read_bytes())}" for each in folders for name, path in files_in(each)
+        f"{name} {sha256(path.read_bytes())}" for each in folders for name, path in list_files(each)
     ]
     return sha256("\n".join([*rows, text]).encode("utf-8"))
 
@@ -182,7 +182,7 @@ def sha256(data: bytes) -> str:
 
 
 def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Course = FULL) -> None:
-    """The students' copy must give the solution all of its points, and what students get none."""
+    """Check that the students' copy gives the solution all of its points, and the starter none."""
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(folder)
     most = visible(course.rubric).max_points
@@ -194,34 +194,34 @@ def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Cours
 
 
 def grade_with(package: Path, tree: Path) -> Result:
-    """What the grader in another folder says of a submission, by the course that it holds."""
+    """Grade a submission with the grader in another folder, by the course that it holds."""
     target = package / "result.json"
     target.unlink(missing_ok=True)
     words = ["grader", "grade", str(tree), "--json", str(target)]
     code = f"import runpy; sys.argv = {words!r}; runpy.run_module('grader', run_name='__main__')"
     students = {name: value for name, value in os.environ.items() if name != COURSE_FILE}
-    said = run(alone(package, code), package, students, statuses=(0, 1))
+    said = run_command(make_command(package, code), package, students, statuses=(0, 1))
     if not target.exists():
         raise Refused(f"the students' copy of the grader does not run:\n{said}")
     return msgspec.json.decode(target.read_bytes(), type=Result)
 
 
-def alone(package: Path, code: str) -> list[str]:
-    """The command for code that finds this copy of the grader and, unlike usual, not the kit's."""
+def make_command(package: Path, code: str) -> list[str]:
+    """Make the command for code that imports this copy of the grader, and not the kit's."""
     folders = [str(package), sysconfig.get_path("purelib"), sysconfig.get_path("platlib")]
     return [sys.executable, "-I", "-S", "-c", f"import sys; sys.path[:0] = {folders!r}; {code}"]
 
 
 def look_for_leaks(built: Path, course: Course = FULL) -> None:
-    found = list(leaks_in(built, secrets_of(KIT, course)))
+    found = list(find_leaks(built, find_secrets(KIT, course)))
     if found:
         raise Refused("\n".join(["it would give the solution away:", *map(str, found)]))
 
 
-def run(
+def run_command(
     command: list[str], folder: Path, environment: dict[str, str], statuses: tuple[int, ...] = (0,)
 ) -> str:
-    """What the command printed; anything but these exit statuses stops the release."""
+    """Return what the command printed; other exit statuses stop the release."""
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, umask=0o022
     )

@@ -1,7 +1,7 @@
-"""Formulas of the handouts, written in LaTeX between ```math and ```, set as MathML.
+"""Typeset formulas of the handouts: LaTeX between ```math and ``` becomes MathML.
 
-Browsers draw MathML by themselves: a page needs no script and nothing from elsewhere. Whoever
-reads the file itself reads the LaTeX, and GitHub and GitLab set the same blocks.
+Browsers draw MathML by themselves: a page needs no script and no other server. The file itself
+shows the LaTeX, and GitHub and GitLab set the same blocks.
 """
 
 import re
@@ -12,11 +12,11 @@ BLOCK = re.compile(r"^```math\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def typeset(text: str) -> str:
-    """The text of a handout with its formulas as MathML, each in a place of its own."""
-    return BLOCK.sub(lambda found: as_html(found[1]), text)
+    """Return the text of a handout with its formulas as MathML, each in a block of its own."""
+    return BLOCK.sub(lambda found: make_html(found[1]), text)
 
 
-def as_html(latex: str) -> str:
-    """One formula, with the LaTeX for whoever cannot see it drawn."""
+def make_html(latex: str) -> str:
+    """Return one formula, with the LaTeX for people who cannot see it drawn."""
     formula = convert(" ".join(latex.split()), display="block")
     return f'<div class="formula" tabindex="0">{formula}</div>'

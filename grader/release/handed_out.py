@@ -1,26 +1,26 @@
-"""The student's tree of a course: the starter, in which what the course leaves out is done."""
+"""Make the student's tree of a course: the starter, with what the course leaves out done."""
 
 import textwrap
 from pathlib import Path
 
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.judge.course import Course
-from grader.release.handouts import readme_of
+from grader.release.handouts import cut_readme
 from grader.source.regions import RegionError, read_source, regions_in
 
 GIVEN = "# Given in this course: what TODO {} asks for elsewhere is done here."
 
 
-def students_tree(kit: Path, course: Course) -> dict[str, bytes]:
-    """The content of each file that students get, by its name there; notebooks left out."""
-    paths = students_files(kit)
-    return {name: done(path, kit / "solution" / name, course) for name, path in paths.items()}
+def make_students_tree(kit: Path, course: Course) -> dict[str, bytes]:
+    """Return the content of each file that students get, by its name, without notebooks."""
+    paths = list_students_files(kit)
+    return {name: fill_given(path, kit / "solution" / name, course) for name, path in paths.items()}
 
 
-def done(path: Path, solution: Path, course: Course) -> bytes:
-    """A file's content, with the solution's code and a line that says so for what is left out."""
+def fill_given(path: Path, solution: Path, course: Course) -> bytes:
+    """Return a file's content, with the solution's code and a note where it is given."""
     if path.suffix == ".md":
-        return readme_of(path.read_text(encoding="utf-8"), course).encode()
+        return cut_readme(path.read_text(encoding="utf-8"), course).encode()
     if path.suffix != ".py":
         return path.read_bytes()
     given = {todo.id for todo in course.given}

@@ -1,8 +1,8 @@
-"""The handouts of a course: the pages in `handouts/`, with what it leaves out left out.
+"""Make the handouts of a course: the pages in `handouts/`, without what the course leaves out.
 
 Sections and rows of tables that begin with the id of a TODO go with it, and points are the
-course's. What else depends on a course stands between Jinja's marks written as comments of HTML, so
-that a page reads well as it lies there: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
+course's. Other text that depends on a course is between Jinja marks in HTML comments, so that the
+file itself reads well: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
 """
 
 import re
@@ -38,28 +38,28 @@ pages = Environment(
 )
 
 
-def of_course(text: str, course: Course) -> str:
+def render_page(text: str, course: Course) -> str:
     """Return a page of Markdown as a course has it."""
-    return cut_page(pages.from_string(text).render(words_of(course)), course)
+    return cut_page(pages.from_string(text).render(list_words(course)), course)
 
 
 def cut_page(text: str, course: Course) -> str:
     """Remove the sections and rows of tables that a course leaves out."""
     todos = {todo.id: todo for todo in course.rubric.todos}
     known = {todo.id for todo in load_rubric().todos}
-    text = "\n".join(kept_lines(text.split("\n"), todos, known - todos.keys()))
+    text = "\n".join(drop_lines(text.split("\n"), todos, known - todos.keys()))
     text = re.sub(r"\n{3,}", "\n\n", text).rstrip() + "\n"
-    return with_examples(text, course)
+    return choose_examples(text, course)
 
 
-def readme_of(text: str, course: Course) -> str:
+def cut_readme(text: str, course: Course) -> str:
     """Remove from the student's README each part that names something a course leaves out.
 
     The file is plain Markdown, without conditions: what depends on a TODO or a program names it.
     """
     given = {todo.id for todo in course.given}
     every = {todo.module for todo in load_rubric().todos} - set(course.modules)
-    names = [*(f"TODO {id}" for id in given), *map(start, every), *map(handed_in, every)]
+    names = [*(f"TODO {id}" for id in given), *map(name_command, every), *map(name_program, every)]
     if not names:
         return text
     about = re.compile(rf"(?<![\w./])({'|'.join(map(re.escape, names))})(?![\w/])")
@@ -68,24 +68,24 @@ def readme_of(text: str, course: Course) -> str:
     return re.sub(r"\n{3,}", "\n\n", kept)
 
 
-def handouts_of(folder: Path, course: Course) -> dict[str, str]:
-    """The students' pages in this folder, by name; links to pages left out are plain words."""
+def make_handouts(folder: Path, course: Course) -> dict[str, str]:
+    """Return the students' pages in this folder, by name; dead links are plain words."""
     bonus = any(todo.bonus for todo in course.rubric.todos)
     paths = [path for path in sorted(folder.glob("*.md")) if bonus or path.name != "bonus.md"]
-    texts = {path.name: of_course(path.read_text(encoding="utf-8"), course) for path in paths}
-    return {name: without_dead_links(text, texts.keys()) for name, text in texts.items()}
+    texts = {path.name: render_page(path.read_text(encoding="utf-8"), course) for path in paths}
+    return {name: drop_dead_links(text, texts.keys()) for name, text in texts.items()}
 
 
-def without_dead_links(text: str, names: Iterable[str]) -> str:
-    """Links to other pages become words, and a row of a table that is about one is left out."""
+def drop_dead_links(text: str, names: Iterable[str]) -> str:
+    """Turn links to missing pages into words, and drop rows of tables about them."""
     dead = {link[2] for link in LINK.finditer(text) if "/" not in link[2]} - set(names)
     for name in dead:
         text = re.sub(rf"^\| \[[^\]]+\]\({re.escape(name)}\) .*\n", "", text, flags=re.M)
     return LINK.sub(lambda link: link[1] if link[2] in dead else link[0], text)
 
 
-def words_of(course: Course) -> dict[str, Any]:
-    """What a page may ask of the course, and say of it."""
+def list_words(course: Course) -> dict[str, Any]:
+    """Return what a page may ask of the course, and say of it."""
     todos = {todo.id: todo for todo in course.rubric.todos}
     tasks = [todo for todo in course.rubric.counted if todo.function]
     bonus = [todo for todo in course.rubric.todos if todo.bonus]
@@ -101,23 +101,23 @@ def words_of(course: Course) -> dict[str, Any]:
         "points": {id: todo.max_points for id, todo in todos.items()},
         "span": f"TODO {ids[0]} to {ids[-1]}" if len(ids) > 1 else f"TODO {ids[0]}",
         "programs": "\n".join(
-            ["```", *(f"python {start(each)}" for each in course.modules), "```"]
+            ["```", *(f"python {name_command(each)}" for each in course.modules), "```"]
         ),
-        "hand_in": listed([f"`{handed_in(each)}`" for each in course.modules]),
+        "hand_in": listed([f"`{name_program(each)}`" for each in course.modules]),
     }
 
 
-def start(module: str) -> str:
+def name_command(module: str) -> str:
     return "-m mini_engine" if module == "mini_engine" else f"{module}.py"
 
 
-def handed_in(module: str) -> str:
-    """A program as it lies in the student's folder: a package, or a file."""
+def name_program(module: str) -> str:
+    """Return a program's name in the student's folder: a package, or a file."""
     return module if module == "mini_engine" else f"{module}.py"
 
 
-def kept_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> Iterable[str]:
-    """Without the sections and rows of what is left out; points stand where a table has them."""
+def drop_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> Iterable[str]:
+    """Drop sections and rows of what is left out; fill in the points of the course."""
     skipping, column, of_todos = 0, 0, False
     for line in lines:
         heading = re.match(r"^(#+) ", line)
@@ -141,8 +141,8 @@ def kept_lines(lines: list[str], todos: dict[str, Todo], left_out: set[str]) -> 
         yield line
 
 
-def with_examples(text: str, course: Course) -> str:
-    """Commands and markers are shown with a TODO that the course has."""
+def choose_examples(text: str, course: Course) -> str:
+    """Show commands and markers with a TODO that the course has."""
     for example, bonus in ((EXAMPLE, False), (BONUS_EXAMPLE, True)):
         ids = [todo.id for todo in course.rubric.todos if todo.function and todo.bonus == bonus]
         if ids and example not in ids:

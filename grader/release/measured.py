@@ -1,4 +1,4 @@
-"""What the figures of the measured pages show: numbers of handouts/results.json, for a script."""
+"""Write the numbers of handouts/results.json that the figures of the measured pages show."""
 
 import json
 from collections.abc import Mapping
@@ -18,18 +18,18 @@ PIECES = (  # of a step: what all effects that may run at once add to it
 )
 
 
-def measured(results: Mapping[str, Mapping[str, Any]]) -> str:
-    """The script that a page loads before its figures."""
+def make_script(results: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return the script that a page loads before its figures."""
     data = {
-        "prices": prices(results["effects.md"]),
+        "prices": read_prices(results["effects.md"]),
         "charts": results["charts"],
-        "limits": limits(results["hard-cases.md"]),
+        "limits": read_limits(results["hard-cases.md"]),
     }
     return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
 
 
-def limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """How far each engine holds, by what is made harder, and how far the stable one must."""
+def read_limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return how far each engine holds, by what is made harder, and how far the stable one must."""
     found: dict[str, dict[str, Any]] = {}
     for line, far in lines.items():
         if line.startswith("limit: "):
@@ -38,8 +38,8 @@ def limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [{"title": title, "far": far} for title, far in found.items()]
 
 
-def prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:
-    """What each piece of a step costs, in opcodes, by the number of balls in the pile."""
+def read_prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Return what each piece of a step costs, in opcodes, by the number of balls in the pile."""
     return {
         str(balls): {piece: lines[f"{balls} balls, {piece}: price in opcodes"] for piece in PIECES}
         for balls in BALLS

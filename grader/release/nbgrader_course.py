@@ -10,8 +10,8 @@ from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
-from grader.release.handed_out import students_tree, write_tree
-from grader.release.notebooks import notebooks_of
+from grader.release.handed_out import make_students_tree, write_tree
+from grader.release.notebooks import make_notebooks
 from grader.source.regions import regions_in
 
 INSTRUCTOR = KIT / "handouts" / "instructor"
@@ -25,9 +25,8 @@ def make_course(
 ) -> list[str]:
     """Make the folder in which nbgrader's commands run; returns the assignment's files.
 
-    The source holds the students' Python files, no TODO of them done: nbgrader releases whatever
-    lies beside the notebooks. From the archive of a `release` come the checks as well, so that
-    `make check` works in what students get.
+    The source holds the students' Python files, no TODO of them done: nbgrader releases every file
+    beside the notebooks. The archive of a `release` adds the checks, so that `make check` works.
     """
     if course.resolve().is_relative_to(KIT) and not course.resolve().is_relative_to(KIT / "build"):
         raise Stop(
@@ -40,10 +39,10 @@ def make_course(
             f"there is an assignment in {source} already. --renew replaces it; "
             "settings, submissions and gradebook stay."
         )
-    files = dict(assignment_files(taken))
+    files = dict(list_assignment_files(taken))
     if release is not None:
         notebooks = {name: text for name, text in files.items() if name.endswith(".ipynb")}
-        files = released_files(release, taken) | notebooks
+        files = read_release(release, taken) | notebooks
     shutil.rmtree(source, ignore_errors=True)
     write_tree(files, source)
     for name in SETTINGS:
@@ -54,8 +53,8 @@ def make_course(
     return sorted(files)
 
 
-def released_files(release: Path, taken: Course) -> dict[str, bytes]:
-    """What students get in an archive of `release`, but for its notebooks.
+def read_release(release: Path, taken: Course) -> dict[str, bytes]:
+    """Read what students get from an archive of `release`, except its notebooks.
 
     Raises Stop where it is none, or one that asks for other TODOs.
     """
@@ -69,7 +68,7 @@ def released_files(release: Path, taken: Course) -> dict[str, bytes]:
     except (OSError, zipfile.BadZipFile) as error:
         raise Stop(f"{release} is no archive of a release ({error}): make one") from error
     if MANIFEST in files:
-        files[MANIFEST] = of_these(files[MANIFEST], files)
+        files[MANIFEST] = cut_manifest(files[MANIFEST], files)
     asked = {todo.id for todo in taken.rubric.todos if todo.function}
     sources = [text.decode() for name, text in files.items() if name.endswith(".py")]
     there = {region.id for text in sources for region in regions_in(text)}
@@ -81,22 +80,22 @@ def released_files(release: Path, taken: Course) -> dict[str, bytes]:
     return files
 
 
-def of_these(manifest: bytes, files: dict[str, bytes]) -> bytes:
-    """The lines of a manifest that are about these files, so that comparing finds them all."""
+def cut_manifest(manifest: bytes, files: dict[str, bytes]) -> bytes:
+    """Keep the lines of a manifest that are about these files, so that comparing finds them all."""
     rows = manifest.decode().splitlines(keepends=True)
     kept = (row for row in rows if row.startswith("#") or row.rstrip().split("  ", 1)[-1] in files)
     return "".join(kept).encode()
 
 
-def newest_release(folder: Path) -> Path | None:
-    """The archive that students get, as `release` left it in a folder."""
+def find_newest_release(folder: Path) -> Path | None:
+    """Return the newest archive that `release` left in a folder."""
     found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
     return found[-1] if found else None
 
 
-def assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:
-    """What the source of the assignment holds: the notebooks, and beside them students' files."""
-    for name, content in students_tree(KIT, taken).items():
+def list_assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of the assignment's source: notebooks, and beside them students' files."""
+    for name, content in make_students_tree(KIT, taken).items():
         if not name.startswith("."):
             yield name, content
-    yield from notebooks_of(KIT / "solution" / NOTEBOOKS, taken).items()
+    yield from make_notebooks(KIT / "solution" / NOTEBOOKS, taken).items()

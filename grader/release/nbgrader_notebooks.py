@@ -1,4 +1,4 @@
-"""The notebooks of both trees: `engine` follows the rubric, the starter's are nbgrader's release.
+"""Renew the notebooks of both trees: `engine` follows the rubric, nbgrader makes the starter's.
 
 Edit `solution/notebooks/` in Jupyter. `engine.ipynb` is written from the rubric, and the questions
 for practice in `quiz.ipynb` from the page of the handouts.
@@ -15,42 +15,42 @@ from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.errors import Stop
 from grader.judge.rubric import load_rubric
 from grader.release.nbgrader_course import make_course
-from grader.release.notebooks import QUIZ, engine_notebook, read, tidied, with_practice, write
+from grader.release.notebooks import QUIZ, add_practice, make_engine_notebook, read, tidy, write
 
 
-def release(kit: Path) -> list[str]:
+def renew_notebooks(kit: Path) -> list[str]:
     """Tidy the solution's notebooks and let nbgrader make the starter's; returns what changed."""
     solution, starter = kit / "solution" / "notebooks", kit / "starter" / "notebooks"
     changed = []
-    if write(solution / "engine.ipynb", engine_notebook(load_rubric())):
+    if write(solution / "engine.ipynb", make_engine_notebook(load_rubric())):
         changed.append("solution/notebooks/engine.ipynb")
     page = (kit / "handouts" / "quiz.md").read_text(encoding="utf-8")
-    if write(solution / QUIZ, with_practice(read(solution / QUIZ), page)):
+    if write(solution / QUIZ, add_practice(read(solution / QUIZ), page)):
         changed.append(f"solution/notebooks/{QUIZ}")
     for path in sorted(solution.glob("*.ipynb")):
-        if write(path, tidied(read(path))):
+        if write(path, tidy(read(path))):
             changed.append(f"solution/notebooks/{path.name}")
     with tempfile.TemporaryDirectory() as temporary:
-        made = generated(Path(temporary))
+        made = generate_release(Path(temporary))
         for path in starter.glob("*.ipynb"):
             if not (made / path.name).exists():
                 path.unlink()
                 changed.append(f"starter/notebooks/{path.name}")
         for path in sorted(made.glob("*.ipynb")):
-            if write(starter / path.name, tidied(read(path))):
+            if write(starter / path.name, tidy(read(path))):
                 changed.append(f"starter/notebooks/{path.name}")
     return changed
 
 
-def generated(course: Path) -> Path:
-    """The folder that nbgrader releases from a fresh course."""
+def generate_release(course: Path) -> Path:
+    """Return the folder that nbgrader releases from a fresh course."""
     make_course(course)
     run_nbgrader(course, "generate_assignment", ASSIGNMENT)
     return course / "release" / ASSIGNMENT
 
 
 def run_nbgrader(course: Path, *arguments: str) -> None:
-    """Run a command of nbgrader's in the course folder, this Python's folder first on the path."""
+    """Run a command of nbgrader in the course folder; this Python's folder is first on the path."""
     scripts = str(Path(sys.executable).parent)
     command = shutil.which("nbgrader", path=scripts)
     if command is None:

@@ -1,9 +1,9 @@
-"""The notebooks of a course: `engine` follows its rubric, the others ask what it has.
+"""Make the notebooks of a course: `engine` follows its rubric, the others ask what it has.
 
 The questions for practice in `quiz` are those of the page handouts/quiz.md.
 
 A cell that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It is left out
-where a course has none of them, and so is a notebook in which nothing is left to do.
+where a course has none of them, and so is a notebook without any task.
 """
 
 import json
@@ -33,9 +33,9 @@ With the feedback you get the reasons for missing points in the same places.\
 """
 
 
-def engine_notebook(rubric: Rubric) -> Cell:
-    """A notebook with a cell for each TODO, worth its points; bonus tasks are no part of a sum."""
-    cells = [markdown("title", INTRO, {})]
+def make_engine_notebook(rubric: Rubric) -> Cell:
+    """Make a notebook with a cell for each TODO, worth its points, without bonus tasks."""
+    cells = [make_markdown("title", INTRO, {})]
     for todo in rubric.counted:
         name = f"TODO {todo.id}" if todo.function else "The whole"
         noun = "point" if todo.max_points == 1 else "points"
@@ -51,30 +51,30 @@ def engine_notebook(rubric: Rubric) -> Cell:
             "solution": False,
             "task": True,
         }
-        cells.append(markdown(f"todo-{todo.id}", text, {"nbgrader": details}))
+        cells.append(make_markdown(f"todo-{todo.id}", text, {"nbgrader": details}))
     python = {"display_name": "Python 3", "language": "python", "name": "python3"}
     metadata = {"kernelspec": python, "language_info": {"name": "python"}}
     return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
 
 
-def with_practice(notebook: Cell, page: str) -> Cell:
-    """The quiz with the questions of a page, each with its TODOs, after the words about them."""
+def add_practice(notebook: Cell, page: str) -> Cell:
+    """Add the questions of a page to the quiz, each with its TODOs, after the words about them."""
     cells = [cell for cell in notebook["cells"] if not cell["id"].startswith(PRACTICE)]
     at = 1 + next(n for n, cell in enumerate(cells) if cell["id"] == "about-practice")
     asked = [
-        markdown(f"{PRACTICE}{number}", text, {"todos": re.findall(r'"(\w+)"', about)})
+        make_markdown(f"{PRACTICE}{number}", text, {"todos": re.findall(r'"(\w+)"', about)})
         for number, (about, text) in enumerate(QUESTION.findall(page), 1)
     ]
     return notebook | {"cells": [*cells[:at], *asked, *cells[at:]]}
 
 
-def markdown(name: str, text: str, metadata: Cell) -> Cell:
+def make_markdown(name: str, text: str, metadata: Cell) -> Cell:
     lines = text.splitlines(keepends=True)
     return {"cell_type": "markdown", "id": name, "metadata": metadata, "source": lines}
 
 
-def tidied(notebook: Cell) -> Cell:
-    """A notebook without what running it leaves behind."""
+def tidy(notebook: Cell) -> Cell:
+    """Remove from a notebook what running it leaves behind."""
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
             cell.update(execution_count=None, outputs=[])
@@ -89,13 +89,13 @@ def read(path: Path) -> Cell:
     return notebook
 
 
-def as_text(notebook: Cell) -> str:
+def encode_notebook(notebook: Cell) -> str:
     return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
 
 def write(path: Path, notebook: Cell) -> bool:
-    """Write a notebook if it differs; returns whether it did."""
-    text = as_text(notebook)
+    """Write a notebook if it differs; return whether it did."""
+    text = encode_notebook(notebook)
     if path.exists() and path.read_text(encoding="utf-8") == text:
         return False
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -103,35 +103,37 @@ def write(path: Path, notebook: Cell) -> bool:
     return True
 
 
-def notebooks_of(folder: Path, course: Course) -> dict[str, bytes]:
-    """The notebooks of this folder by name, as far as they belong to the course."""
+def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
+    """Return the notebooks of this folder by name, as far as they belong to the course."""
     found = {}
     for path in sorted(folder.glob("*.ipynb")):
         notebook = read(path)
-        if path.name == ENGINE and worth(notebook) != worth(engine_notebook(course.rubric)):
-            notebook = engine_notebook(course.rubric)
-        cells = [cell for cell in notebook["cells"] if belongs(cell, course)]
+        if path.name == ENGINE and read_points(notebook) != read_points(
+            make_engine_notebook(course.rubric)
+        ):
+            notebook = make_engine_notebook(course.rubric)
+        cells = [cell for cell in notebook["cells"] if is_in_course(cell, course)]
         if cells == read(path)["cells"]:
             found[path.name] = path.read_bytes()
-        elif any(map(asks, cells)):
-            found[path.name] = as_text(notebook | {"cells": cells}).encode()
+        elif any(map(has_task, cells)):
+            found[path.name] = encode_notebook(notebook | {"cells": cells}).encode()
     return found
 
 
-def worth(notebook: Cell) -> dict[str, Any]:
-    """The points of its cells, by their names."""
+def read_points(notebook: Cell) -> dict[str, Any]:
+    """Return the points of its cells, by their names."""
     return {
         cell["id"]: cell["metadata"].get("nbgrader", {}).get("points") for cell in notebook["cells"]
     }
 
 
-def belongs(cell: Cell, course: Course) -> bool:
-    """Whether a course has any of the TODOs that a cell is about."""
+def is_in_course(cell: Cell, course: Course) -> bool:
+    """Return whether a course has any of the TODOs that a cell is about."""
     about = cell["metadata"].get("todos")
     return about is None or any(todo.id in about for todo in course.rubric.todos)
 
 
-def asks(cell: Cell) -> bool:
-    """Whether something is to be done in a cell, or is marked there."""
+def has_task(cell: Cell) -> bool:
+    """Return whether a cell has a task, or is marked."""
     details = cell["metadata"].get("nbgrader", {})
     return any(details.get(each) for each in ("grade", "solution", "task"))

@@ -1,4 +1,4 @@
-"""The handouts as pages that open with a double click, for the folder that students get."""
+"""Write the handouts as pages that open with a double click, for the student's folder."""
 
 import html
 import json
@@ -13,8 +13,8 @@ from markdown_it.token import Token
 from grader.judge.course import FULL, Course
 from grader.player.page import TEMPLATES
 from grader.release.formulas import typeset
-from grader.release.handouts import handouts_of
-from grader.release.measured import measured
+from grader.release.handouts import make_handouts
+from grader.release.measured import make_script
 
 STAGE = TEMPLATES / "stage.js"
 
@@ -69,33 +69,33 @@ PAGE = """<!doctype html>
 
 def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
     """Write a page for each of a course's handouts, and the figures that are in them."""
-    texts = in_order(handouts_of(handouts, course))
+    texts = sort_pages(make_handouts(handouts, course))
     (folder / "figures").mkdir(parents=True)
     for name, text in texts.items():
-        target = folder / as_html(name)
-        page = as_page(name, texts, scripts_of(text, handouts))
+        target = folder / html_name(name)
+        page = make_page(name, texts, list_scripts(text, handouts))
         target.write_text(page, encoding="utf-8", newline="\n")
-        for figure in figures_in(text):
+        for figure in find_figures(text):
             shutil.copyfile(handouts / figure, folder / figure)
     lay_out_touch(handouts, folder)
 
 
 def lay_out_touch(handouts: Path, folder: Path) -> None:
-    """The scripts and films of movable figures, with the stage of replays and what was measured."""
+    """Copy the scripts and films of movable figures, with the stage of replays and measurements."""
     shutil.copytree(handouts / "touch", folder / "touch")
     shutil.copyfile(STAGE, folder / "touch" / STAGE.name)
     results = json.loads((handouts / "results.json").read_text(encoding="utf-8"))
     script = folder / "touch" / "measured.js"
-    script.write_text(measured(results), encoding="utf-8", newline="\n")
+    script.write_text(make_script(results), encoding="utf-8", newline="\n")
 
 
-def figures_in(text: str) -> list[str]:
+def find_figures(text: str) -> list[str]:
     return re.findall(r"\]\((figures/[^)]+)\)", text)
 
 
-def scripts_of(text: str, handouts: Path) -> str:
-    """What a page loads to make those of its figures movable that have a script in touch/."""
-    names = [Path(figure).stem for figure in figures_in(text)]
+def list_scripts(text: str, handouts: Path) -> str:
+    """Return the tags that make those figures of a page movable that have a script in touch/."""
+    names = [Path(figure).stem for figure in find_figures(text)]
     kinds = dict.fromkeys(each for name in names for each in (name, name.partition("-")[0]))
     movable = [name for name in kinds if (handouts / "touch" / f"{name}.js").is_file()]
     if not movable:
@@ -104,70 +104,70 @@ def scripts_of(text: str, handouts: Path) -> str:
     return "\n".join(['<link rel="stylesheet" href="touch/touch.css">', *tags, ""])
 
 
-def in_order(texts: Mapping[str, str]) -> dict[str, str]:
-    """The pages by name as the first one links to them, without what only the site needs."""
+def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
+    """Sort the pages as the first one links to them, without what only the site needs."""
     linked = re.findall(r"\]\(([\w-]+\.md)\)", texts.get(START, ""))
     names = [name for name in dict.fromkeys([START, *linked, *texts]) if name in texts]
     return {name: SITE_ONLY.sub("", texts[name]) for name in names}
 
 
-def as_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
-    """One of the pages; a link to a handout that is none of them becomes plain words."""
+def make_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
+    """Make one page; a link to a handout that is not among the pages becomes plain words."""
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
     sections = []
     for token, after in zip(tokens, [*tokens[1:], None], strict=True):
         if token.type == "heading_open" and after is not None:
-            token.attrSet("id", anchor(after.content))
+            token.attrSet("id", make_anchor(after.content))
             sections += [after.content] if token.tag == "h2" else []
         mend_links(token.children or [], texts)
     body = reader.renderer.render(tokens, reader.options, {})
     heading, end, rest = body.partition("</h1>\n")
     return PAGE.format(
-        title=html.escape(title_of(texts[name])),
+        title=html.escape(find_title(texts[name])),
         style=STYLE,
         scripts=scripts,
-        ways=ways(name, texts, "Pages"),
-        body=heading + end + contents(sections) + with_reach(rest),
-        ways_below=ways(name, texts, "Next and previous page"),
+        ways=make_links(name, texts, "Pages"),
+        body=heading + end + list_sections(sections) + make_scrollable(rest),
+        ways_below=make_links(name, texts, "Next and previous page"),
     )
 
 
-def title_of(text: str) -> str:
+def find_title(text: str) -> str:
     return next(line[2:] for line in text.splitlines() if line.startswith("# "))
 
 
-def as_html(name: str) -> str:
+def html_name(name: str) -> str:
     return name.removesuffix(".md") + ".html"
 
 
-def ways(name: str, texts: Mapping[str, str], label: str) -> str:
-    """Links to the first page and to those before and after this one."""
+def make_links(name: str, texts: Mapping[str, str], label: str) -> str:
+    """Link to the first page and to those before and after this one."""
     names = list(texts)
     at = names.index(name)
     found = [("", "Start", names[0])] if at else []
     found += [("previous", "Previous", names[at - 1])] if at else []
     found += [("next", "Next", names[at + 1])] if at + 1 < len(names) else []
     links = (
-        f'<a class="{rel}" href="{as_html(to)}">{words}'
-        + f": {html.escape(title_of(texts[to]))}" * bool(rel)
+        f'<a class="{rel}" href="{html_name(to)}">{words}'
+        + f": {html.escape(find_title(texts[to]))}" * bool(rel)
         + "</a>"
         for rel, words, to in found
     )
     return f'<nav class="pages" aria-label="{label}">{" ".join(links)}</nav>'
 
 
-def contents(sections: list[str]) -> str:
-    """The list of a page's sections, for pages that have some."""
+def list_sections(sections: list[str]) -> str:
+    """List a page's sections, for pages that have some."""
     if len(sections) < FEWEST:
         return ""
-    words = [(anchor(each), html.escape(re.sub(r"[`*]", "", each))) for each in sections]
+    words = [(make_anchor(each), html.escape(re.sub(r"[`*]", "", each))) for each in sections]
     items = "\n".join(f'<li><a href="#{to}">{word}</a></li>' for to, word in words)
     return f'<nav aria-label="On this page">\n<ul>\n{items}\n</ul>\n</nav>\n'
 
 
-def with_reach(body: str) -> str:
-    """Whatever may be wider than the window is reached and moved by keys."""
+def make_scrollable(body: str) -> str:
+    """Let keys reach and scroll whatever may be wider than the window."""
     body = body.replace("<table>", '<div class="wide" tabindex="0">\n<table>')
     return body.replace("</table>", "</table>\n</div>").replace("<pre>", '<pre tabindex="0">')
 
@@ -179,12 +179,12 @@ def mend_links(tokens: list[Token], pages: Iterable[str]) -> None:
             name, mark, place = str(token.attrGet("href")).partition("#")
             page = name.endswith(".md")
             kept = not page or name in pages
-            token.attrSet("href", (as_html(name) if page else name) + mark + place)
+            token.attrSet("href", (html_name(name) if page else name) + mark + place)
         if token.type in ("link_open", "link_close"):
             token.hidden = not kept
 
 
-def anchor(heading: str) -> str:
-    """What a link to this heading names."""
+def make_anchor(heading: str) -> str:
+    """Return the name of this heading in links."""
     words = re.sub(r"[^\w\s-]", "", heading).strip().lower()
     return re.sub(r"[\s-]+", "-", words)

@@ -1,4 +1,4 @@
-"""What a release has for practice at home: some of each case of *predict a number*, answered."""
+"""Make what a release has for practice: some answered cases of *predict a number*."""
 
 import msgspec
 
@@ -6,30 +6,30 @@ from grader.judge.course import Course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.questions.cases import MAKERS
 from grader.questions.practice import Cases, Practice
-from grader.questions.program import Program, Unlike, opened_program
+from grader.questions.program import CannotAsk, Program, open_program
 from grader.questions.question import Question
-from grader.questions.sheet import Asks, in_turn
+from grader.questions.sheet import Asks, take_turns
 
 EACH = 12  # cases of a maker
 SEED = "practice at home"  # no sheet is drawn from it: its seeds are numbers
 
 
-def practice_of(course: Course) -> bytes:
-    """The file for a course's release: the same for the same kit."""
+def make_practice(course: Course) -> bytes:
+    """Return the file for a course's release: always the same for the same kit."""
     options = Options(shipped_reference(), trusted=True, course=course)
-    with opened_program(KIT / "solution", options) as program:
-        cases = tuple(cases_of(each, program) for each in in_turn(MAKERS, program))
+    with open_program(KIT / "solution", options) as program:
+        cases = tuple(draw_cases(each, program) for each in take_turns(MAKERS, program))
         practice = Practice(course.questions, program.given, cases)
     return msgspec.json.encode(practice, order="sorted")
 
 
-def cases_of(maker: Asks, program: Program) -> Cases:
-    """Some questions of one maker, no two alike; each holds by the closed form and by a run."""
+def draw_cases(maker: Asks, program: Program) -> Cases:
+    """Draw some questions of one maker, no two the same; each holds in closed form and by a run."""
     found: dict[str, Question] = {}
     for number in range(EACH):
         try:
             question = maker.ask(program, f"{SEED}/{number}", 1)
-        except Unlike:
+        except CannotAsk:
             continue
         found[question.text] = question
     return Cases(maker.name, maker.todos, maker.slot, tuple(found.values()))

@@ -27,6 +27,7 @@ from grader.text import clean
 LINES = 16  # before the prompt
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
 COLUMNS = 80  # at most
+STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
 CAUSES = ("Meaning", "Got", "Expected", "Look at", "We ran")  # in the order of getting lines
 
 
@@ -83,10 +84,10 @@ class Screen:
     def list_states(self, result: Result, apart: TodoResult | None) -> list[Line]:
         """Return the points and the TODOs by state, without the one with lines of its own."""
         rows: list[Line] = []
-        for states in (["passed"], ["error"], ["not yet"], ["not started", "waiting"]):
-            parts = [list_ids(result, state, apart) for state in STYLES if state in states]
+        for states in STATE_LINES:
+            parts = [list_ids(result, state, apart) for state in states]
             words = "   ".join(filter(None, parts))
-            style = STYLES[next(state for state in STYLES if state in states)]
+            style = STYLES[states[0]]
             rows += [Line(each, style) for each in self.wrap(words, STATES)] if words else []
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0

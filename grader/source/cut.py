@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 
 def pruned(source: str, roots: Iterable[str]) -> str:
-    """The source without the definitions and imports that none of the `roots` leads to."""
+    """Return the source without the definitions and imports that none of the `roots` leads to."""
     tree = ast.parse(source)
     definitions = {name: node for node in tree.body for name in defined(node)}
     wanted = set(roots).union(*(used(node) for node in tree.body if not defined(node)))
@@ -31,7 +31,7 @@ def pruned(source: str, roots: Iterable[str]) -> str:
 
 
 def with_bodies(source: str, bodies: dict[str, str]) -> str:
-    """The source with these functions stripped of decorators, and with these lines for bodies."""
+    """Strip functions of their decorators, and put these lines in place of their bodies."""
     changes: dict[ast.stmt, str] = {}
     for node in ast.parse(source).body:
         if isinstance(node, ast.FunctionDef) and node.name in bodies:
@@ -44,7 +44,7 @@ def with_bodies(source: str, bodies: dict[str, str]) -> str:
 
 
 def replaced_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
-    """The source with other lines for whole statements; their comments above go with them."""
+    """Replace the lines of whole statements; their comments above go with them."""
     lines = source.splitlines()
     for node, text in sorted(changes.items(), key=lambda each: -each[0].lineno):
         decorators = getattr(node, "decorator_list", [])
@@ -56,7 +56,7 @@ def replaced_nodes(source: str, changes: dict[ast.stmt, str]) -> str:
 
 
 def without_gaps(lines: list[str]) -> Iterator[str]:
-    """No more than two empty lines on end, and none at the end."""
+    """Yield lines with at most two empty ones in a row, and none at the end."""
     text = "\n".join(lines).rstrip()
     empty = 0
     for line in text.splitlines():
@@ -66,7 +66,7 @@ def without_gaps(lines: list[str]) -> Iterator[str]:
 
 
 def defined(node: ast.stmt) -> Iterator[str]:
-    """The names that a statement of a module binds."""
+    """Yield the names that a statement of a module binds."""
     match node:
         case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
             yield name
@@ -84,7 +84,7 @@ def bound_by(alias: ast.alias) -> str:
 
 
 def used(node: ast.AST) -> set[str]:
-    """The names that a statement reads."""
+    """Return the names that a statement reads."""
     return {
         each.id
         for each in ast.walk(node)
@@ -93,7 +93,7 @@ def used(node: ast.AST) -> set[str]:
 
 
 def asked_of(source: str, module: str) -> set[str]:
-    """The names of `grader.checks.<module>` that a file uses, imported or as attributes."""
+    """Return the names of `grader.checks.<module>` that a file uses, imported or as attributes."""
     names: set[str] = set()
     if module not in source:
         return names

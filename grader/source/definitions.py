@@ -1,4 +1,4 @@
-"""Where a submission defines a function: the definition that Python would run, told from the text.
+"""Find where a submission defines a function, by its text: what Python would run.
 
 A folder often holds more than runs: a kept copy of the starter, a second try, a file of notes. So
 the names of imports are followed from the program's module to the one definition that counts.
@@ -90,7 +90,7 @@ class Module:
     imports: dict[str, None] = field(default_factory=dict)
 
     def bindings(self, path: str, first: str) -> list[Binding]:
-        """What may say something about a path, the last statement first."""
+        """Return what may say something about a path, the last statement first."""
         found = [*self.names.get(first, ()), *self.stars]
         if path != first:
             found += self.names.get(path, ())
@@ -105,7 +105,7 @@ class Program:
     """
 
     def __init__(self, texts: Mapping[Path, str]) -> None:
-        """`texts`: the text of each file, by its path inside the submission's folder."""
+        """Take the text of each file, by its path inside the submission's folder."""
         self.texts = texts
         self.paths: dict[str, Path] = {}  # by the dotted name of a module
         for path in sorted(texts, key=lambda each: each.name != "__init__.py"):
@@ -117,15 +117,15 @@ class Program:
         self.found: dict[tuple[str, str], Definition | None] = {}  # of one question
 
     def tree(self, module: str) -> list[ast.stmt]:
-        """The statements of a module; none where it is no Python."""
+        """Return the statements of a module; none where it is no Python."""
         return statements(self.texts[self.paths[module]])
 
     def source(self, module: str, function: Function) -> str:
-        """The lines of a function of a module, moved to the left edge."""
+        """Return the lines of a function of a module, moved to the left edge."""
         return source_of(self.texts[self.paths[module]], function)
 
     def definition(self, module: str, path: str) -> Definition | None:
-        """Where `module` gets `name` or `Class.name` from."""
+        """Find where `module` gets `name` or `Class.name` from."""
         self.found = {}
         found = self._bound(module, path)
         if found is not None and found.function is not None:
@@ -135,7 +135,7 @@ class Program:
         return next((each for each in others if each and each.function), found)
 
     def loaded(self, module: str) -> list[str]:
-        """The submission's modules that importing `module` loads, by name."""
+        """Return the submission's modules that importing `module` loads, by name."""
         seen: set[str] = set()
         waiting = [module]
         while waiting:
@@ -182,7 +182,7 @@ class Program:
         return self.modules[name]
 
     def _summary(self, name: str) -> Module:
-        """All that is kept of a module's tree."""
+        """Summarise a module's tree."""
         text = self.texts[self.paths[name]]
         if self.read + len(text) > MAX_READ:
             self.unread.append(self.paths[name])
@@ -216,7 +216,7 @@ class Program:
         return module
 
     def _imports(self, module: str, tree: list[ast.stmt]) -> Iterator[str]:
-        """The modules of the submission that an import loads, wherever in the file it stands."""
+        """Yield the submission's modules that imports anywhere in a file load."""
         for node in ast.walk(ast.Module(tree, [])):
             if isinstance(node, ast.Import):
                 for alias in node.names:
@@ -228,13 +228,13 @@ class Program:
                 yield from (each for each in names if each in self.paths)
 
     def _known(self, name: str) -> Iterator[str]:
-        """A module and the packages around it, as far as they are the submission's."""
+        """Yield a module and the packages around it, as far as they are the submission's."""
         parts = name.split(".", self.depth)[: self.depth]
         paths = (".".join(parts[: number + 1]) for number in range(len(parts)))
         return (each for each in paths if each in self.paths)
 
     def _source(self, module: str, node: ast.ImportFrom) -> str:
-        """The module that a `from ... import` takes its names from."""
+        """Return the module that a `from ... import` takes its names from."""
         if not node.level:
             return node.module or ""
         package = module.split(".")
@@ -245,7 +245,7 @@ class Program:
     # ------------------------------------------------------------ following a name
 
     def _bound(self, module: str, path: str, hops: int = 0) -> Definition | None:
-        """What a name of a module, or `Class.name`, is bound to at last."""
+        """Return what a name of a module, or `Class.name`, is bound to at last."""
         if module not in self.paths or hops > MAX_HOPS:
             return None
         if (module, path) not in self.found:
@@ -283,7 +283,7 @@ class Program:
         return Definition(module, None) if known.empty else None  # nothing to tell
 
     def _in_class(self, module: str, owner: Class, name: str, hops: int) -> Definition | None:
-        """A method of a class, its own or one that it inherits."""
+        """Return a method of a class, its own or one that it inherits."""
         match owner.members.get(name):
             case Function() as function:
                 return Definition(module, function)
@@ -310,7 +310,7 @@ def class_at(node: ast.ClassDef) -> Class:
 
 
 def dotted_name(node: ast.expr) -> str:
-    """`a.b.c` as it stands there; empty for what is no name."""
+    """Return `a.b.c` as it stands there; empty for what is no name."""
     parts = []
     while isinstance(node, ast.Attribute):
         parts.append(node.attr)
@@ -319,13 +319,13 @@ def dotted_name(node: ast.expr) -> str:
 
 
 def dotted(path: PurePath) -> str:
-    """The name by which a file is imported, from the submission's folder."""
+    """Return the name by which a file is imported, from the submission's folder."""
     parts = path.with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
 def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements that run when a module or class is made, those under `if` and `try` too.
+    """Yield the statements that run when a module or class is made, those under `if` and `try` too.
 
     In the order of the text; without recursion, since an `elif` may follow on thousands of others.
     """
@@ -346,13 +346,13 @@ def top_level(body: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
 
 
 def statements(text: str) -> list[ast.stmt]:
-    """The statements of a source text; none where it is no Python."""
+    """Return the statements of a source text; none where it is no Python."""
     tree = parsed(text)
     return tree.body if tree else []
 
 
 def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
-    """The definition of `name` or `Class.name` among the statements of a file."""
+    """Return the definition of `name` or `Class.name` among the statements of a file."""
     owner, _, name = path.rpartition(".")
     if owner:
         body = [
@@ -366,6 +366,6 @@ def function_named(body: list[ast.stmt], path: str) -> ast.FunctionDef | None:
 
 
 def source_of(text: str, function: Function | ast.FunctionDef) -> str:
-    """The lines of a function, moved to the left edge."""
+    """Return the lines of a function, moved to the left edge."""
     lines = text.splitlines()[function.lineno - 1 : function.end_lineno]
     return textwrap.dedent("\n".join(lines))

@@ -53,12 +53,12 @@ class Changed:
 
     @property
     def to_type(self) -> str:
-        """What `check --restore` takes for it; an import goes with its file."""
+        """Return what `check --restore` takes for it; an import goes with its file."""
         return self.name if self.name.replace(".", "").isidentifier() else self.file
 
     @property
     def how(self) -> str:
-        """What is different, in a sentence without its full stop."""
+        """Return what is different, in a sentence without its full stop."""
         if self.theirs and self.theirs == self.given:
             return f"`{self.theirs}` has been moved, to line {self.line} of {self.file}"
         if not self.theirs:
@@ -68,7 +68,7 @@ class Changed:
 
 
 def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed]:
-    """What differs in those given files that a submission has, both by their names."""
+    """Return what differs in those given files that a submission has, both by their names."""
     found: list[Changed] = []
     for name, text in given.items():
         own = theirs.get(name)
@@ -80,7 +80,7 @@ def changes(theirs: Mapping[str, str], given: Mapping[str, str]) -> list[Changed
 
 
 def restored(text: str, undone: Iterable[Changed]) -> str:
-    """A file's text with these changes of it undone."""
+    """Return a file's text with these changes of it undone."""
     lines = text.splitlines()
     for each in sorted(undone, key=lambda change: (-change.start, -change.stop)):
         lines[each.start : each.stop] = each.lines
@@ -88,12 +88,12 @@ def restored(text: str, undone: Iterable[Changed]) -> str:
 
 
 def as_given(text: str, given: str) -> str:
-    """A file as it was handed out, with the TODO regions of another one; may raise RegionError."""
+    """Return a given file with the TODO regions of another one; may raise RegionError."""
     return replaced(given, {region.id: region.lines for region in regions_in(text)})
 
 
 def outside(text: str) -> list[str]:
-    """The lines of a file outside its regions; all of them where the markers do not pair up."""
+    """Return the lines of a file outside its regions."""
     lines = text.splitlines()
     for region in reversed(read_regions(text)[0]):
         del lines[region.start + 1 : region.stop]
@@ -104,7 +104,7 @@ def outside(text: str) -> list[str]:
 
 
 def changes_of(file: str, text: str, given: str) -> Iterator[Changed]:
-    """What differs in a file; where it is no Python, the file as a whole."""
+    """Yield what differs in a file; where it is no Python, the file as a whole."""
     body = statements(text)
     lines, right = text.splitlines(), given.splitlines()
     if not body:
@@ -143,7 +143,7 @@ def change_of_file(file: str, text: str, given: str) -> Iterator[Changed]:
 def gone(
     name: str, file: str, body: list[ast.stmt], piece: Piece, wanted: tuple[str, ...], count: int
 ) -> Changed:
-    """A piece that is not there any more; it comes back behind the imports, its class or all."""
+    """Put a piece that is gone back behind the imports, its class, or all else."""
     place = end_of_imports(body) if piece.constant else end_of(body, piece.owner, count)
     gap = () if piece.constant else ("",) if piece.owner else ("", "")
     return Changed(name, file, place + 1, "", first_code(wanted), place, place, (*gap, *wanted))
@@ -152,7 +152,7 @@ def gone(
 def difference(
     name: str, file: str, lines: list[str], there: Piece, kept: tuple[str, ...]
 ) -> Iterator[Changed]:
-    """The change of one piece, or nothing; `kept` is the given one with the regions of theirs."""
+    """Yield the change of a piece, if any; `kept` is the given one with their regions."""
     mine = tuple(lines[there.start : there.stop])
     if meaning_of(mine) == meaning_of(kept):
         return
@@ -162,7 +162,7 @@ def difference(
 
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:
-    """A given function with the regions of theirs; None where theirs lacks a marker of it."""
+    """Return a given function with their regions; None where a marker is missing."""
     own = {region.id: region.lines for region in read_regions("\n".join(theirs))[0]}
     asked = {region.id for region in read_regions("\n".join(given))[0]}
     if not asked <= own.keys():
@@ -171,7 +171,7 @@ def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ..
 
 
 def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, str, str]:
-    """The index of their first line that tells, that line, and the given one in its place.
+    """Return the index of their first line that tells, that line, and the given one in its place.
 
     A line that stands there as often as it was given has been moved, and is both of these.
     """
@@ -192,7 +192,7 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
 
 
 def code_lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
-    """The lines that are neither empty nor a comment alone, with their indices."""
+    """Yield the lines that are neither empty nor a comment alone, with their indices."""
     for number, line in enumerate(lines):
         text = line.strip()
         if text and not text.startswith("#"):
@@ -204,7 +204,7 @@ def first_code(lines: Sequence[str]) -> str:
 
 
 def cut(line: str) -> str:
-    """A line without its comment at the end, and not too long to be told."""
+    """Return a line without its comment at the end, and not too long to be told."""
     text = line.strip()
     if '"' not in text and "'" not in text:
         text = text.partition("  #")[0].rstrip()
@@ -220,7 +220,7 @@ def given_pieces(text: str) -> dict[str, Piece]:
 
 
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
-    """The pieces with the last region in each, which may stand behind its last statement."""
+    """Return the pieces with the last region in each, which may stand behind its last statement."""
     lines, regions = text.splitlines(), read_regions(text)[0]
     return {name: with_last_region(piece, regions, lines) for name, piece in found.items()}
 
@@ -241,7 +241,7 @@ def indent_of(line: str) -> int:
 
 
 def pieces(body: Iterable[ast.stmt], owner: str = "") -> dict[str, Piece]:
-    """Functions, constants and classes by name; of two with one name the last, as for Python."""
+    """Return functions, constants and classes by name; of two the last, as Python does."""
     found: dict[str, Piece] = {}
     for node in body:
         start, stop = first_line(node) - 1, node.end_lineno or node.lineno
@@ -263,13 +263,13 @@ def first_line(node: ast.stmt) -> int:
 
 
 def names_in(target: ast.expr) -> str:
-    """`WIDTH` or `WIDTH, HEIGHT`; nothing for what is no name."""
+    """Return `WIDTH` or `WIDTH, HEIGHT`; nothing for what is no name."""
     each = target.elts if isinstance(target, ast.Tuple) else [target]
     return ", ".join(filter(None, map(dotted_name, each)))
 
 
 def meaning_of(lines: Sequence[str]) -> str:
-    """The same for two pieces that do the same: without layout, comments and docstring."""
+    """Return the same for two pieces that do the same, whatever layout and comments."""
     body = statements(shifted(lines))
     for node in body:
         if isinstance(node, Definition) and ast.get_docstring(node, clean=False) is not None:
@@ -278,7 +278,7 @@ def meaning_of(lines: Sequence[str]) -> str:
 
 
 def shifted(lines: Sequence[str]) -> str:
-    """Lines moved to the left by the indent of the first."""
+    """Move lines to the left by the indent of the first."""
     indent = indent_of(lines[0]) if lines else 0
     return "\n".join(line[indent:] if not line[:indent].strip() else line for line in lines)
 
@@ -287,7 +287,7 @@ def shifted(lines: Sequence[str]) -> str:
 
 
 def imports_in(body: Iterable[ast.stmt]) -> Iterator[tuple[str, str, str]]:
-    """Each imported name, with the module (and dots) it comes from, and what it is called there."""
+    """Yield each imported name, the module it comes from, and what it is called there."""
     for node in body:
         if isinstance(node, ast.Import):
             for each in node.names:
@@ -303,7 +303,7 @@ def imported_names(body: Iterable[ast.stmt]) -> set[str]:
 
 
 def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterator[str]:
-    """The given imports, as lines, of names that nothing binds in this file, and that it reads.
+    """Yield the given imports of names that this file reads and nothing binds.
 
     Of a file that passes its names on, all of them.
     """
@@ -316,7 +316,7 @@ def missing_imports(body: list[ast.stmt], given: str, passed_on: bool) -> Iterat
 
 
 def end_of_imports(body: list[ast.stmt]) -> int:
-    """The index of the line behind the last import, or behind the docstring."""
+    """Return the index of the line behind the last import, or behind the docstring."""
     ends = [each.end_lineno or 0 for each in body if isinstance(each, ast.Import | ast.ImportFrom)]
     first = body[0]
     doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
@@ -324,6 +324,6 @@ def end_of_imports(body: list[ast.stmt]) -> int:
 
 
 def end_of(body: list[ast.stmt], owner: str, count: int) -> int:
-    """The index behind the last line of a class, or of the file."""
+    """Return the index behind the last line of a class, or of the file."""
     ends = [n.end_lineno or 0 for n in body if isinstance(n, ast.ClassDef) and n.name == owner]
     return ends[-1] if ends else count

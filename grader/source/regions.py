@@ -1,4 +1,4 @@
-"""The marked regions of the student's files: `# TODO 4: …` to `# END TODO 4`."""
+"""Read the marked regions of the student's files: `# TODO 4: …` to `# END TODO 4`."""
 
 import ast
 import re
@@ -39,12 +39,12 @@ class Region:
 
     @property
     def shape(self) -> str:
-        """What the region says, comments and layout aside; its text where it is no Python."""
+        """Return the region's code without comments and layout; its text if no Python."""
         return shape_of("\n".join(self.lines))
 
 
 def shape_of(source: str) -> str:
-    """A text that is equal for two pieces of code exactly if they differ in layout alone."""
+    """Return a text that is equal for two pieces of code if they differ in layout alone."""
     text = textwrap.dedent(source)
     tree = parsed(text, MAX_SHAPE)
     with suppress(ValueError, RecursionError, MemoryError):
@@ -53,7 +53,7 @@ def shape_of(source: str) -> str:
 
 
 def parsed(text: str, most: int = MAX_SOURCE) -> ast.Module | None:
-    """The tree of a source text; None where it is no Python, or longer than any program's.
+    """Return the tree of a source text; None where it is no Python, or longer than any program's.
 
     The judge parses what students wrote here and nowhere else.
     """
@@ -109,7 +109,7 @@ def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
 
 
 def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
-    """`text` with the lines of each region named in `contents` put in place of its own."""
+    """Put lines in the place of those of each region that is named in `contents`."""
     lines = text.splitlines(keepends=True)
     for region in reversed(regions_in(text)):
         if region.id in contents:
@@ -118,7 +118,7 @@ def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
 
 
 def python_files(tree: Path) -> Iterator[Path]:
-    """A tree's Python files in a fixed order; links, hidden folders and giants are left out."""
+    """Yield a tree's Python files in a fixed order, without links, hidden ones and giants."""
     for path in sorted(tree.rglob("*.py")):
         parts = path.relative_to(tree).parts
         if path.is_symlink() or not path.is_file() or any(p.startswith(".") for p in parts):
@@ -128,5 +128,5 @@ def python_files(tree: Path) -> Iterator[Path]:
 
 
 def read_source(path: Path) -> str:
-    """A submission's file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
+    """Return a file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
     return path.read_bytes().decode("utf-8-sig", "replace").replace("\r\n", "\n")

@@ -8,8 +8,8 @@ What happens, in this order:
 3. confine (confinement.py): the child gives up its rights, before it sees a line of the submission.
 4. serve (child.py): the child imports the submission and answers requests until the judge hangs up.
 5. answer: subject.py calls functions and turns objects into plain numbers; play.py runs whole
-   programs, on the clock of scripted.py; output.py keeps what is printed; film.py takes the states
-   for replays.
+   programs, on the clock of scripted.py; output.py keeps what is printed; recorder.py records
+   states for replays.
 
 Once a child runs the submission, every byte it sends may be made up, for the submission can change
 all of Python around it. So nothing here decides a mark: the judge checks types and values.

@@ -24,8 +24,6 @@ from grader.protocol import (
     Channel,
     ChannelClosed,
     ChildSetup,
-    Film,
-    Filmed,
     Get,
     Import,
     Integrate,
@@ -36,16 +34,17 @@ from grader.protocol import (
     Play,
     ProtocolError,
     Ready,
+    Record,
     Remembered,
     Reply,
     Request,
     Returned,
     Set,
     Simulate,
+    WithMoments,
     cut,
 )
 from grader.worker.confinement import confine
-from grader.worker.film import Camera
 from grader.worker.filter import refuse_system_calls
 from grader.worker.frame import Frame
 from grader.worker.imports import ImportRule
@@ -53,6 +52,7 @@ from grader.worker.lines import LineCounter
 from grader.worker.memory import Memory
 from grader.worker.output import Output
 from grader.worker.play import call_stepping, play, simulate
+from grader.worker.recorder import Recorder
 from grader.worker.scripted import ScriptedClock
 from grader.worker.subject import ContractError, Subject, refs_in
 
@@ -86,33 +86,37 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
     clock.install()
     ImportRule(files, setup.bans).install()
     subject = Subject(folder)
-    camera = Camera(subject)
+    recorder = Recorder(subject)
     while True:
         try:
             asked = decoder.decode(channel.receive())
         except ChannelClosed:
             return
-        reply: Reply | Filmed
+        reply: Reply | WithMoments
         match asked.request:
-            case Film(request) as film:
-                camera.start(film)
+            case Record(request) as recording:
+                recorder.start(recording)
                 requests = [*asked.first, request]
-                reply = camera.finish(attempt(subject, clock, output, camera, requests))
+                reply = recorder.finish(attempt(subject, clock, output, recorder, requests))
             case request:
                 requests = [*asked.first, request]
-                reply = attempt(subject, clock, output, camera, requests)
+                reply = attempt(subject, clock, output, recorder, requests)
         send(channel, Answered(asked.number, reply, output.take()))
 
 
 def attempt(
-    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, requests: list[Request]
+    subject: Subject,
+    clock: ScriptedClock,
+    output: Output,
+    recorder: Recorder,
+    requests: list[Request],
 ) -> Reply:
     """Return the answer to the last of these requests, or what came instead of one.
 
     BaseException, because a submission may call sys.exit() or raise KeyboardInterrupt anywhere.
     """
     try:
-        return [answer(subject, clock, output, camera, request) for request in requests][-1]
+        return [answer(subject, clock, output, recorder, request) for request in requests][-1]
     except ContractError as error:
         return Missing(cut(str(error), MAX_TEXT))
     except BaseException as error:
@@ -128,7 +132,7 @@ def send(channel: Channel, answered: Answered) -> None:
 
 
 def answer(
-    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Request
+    subject: Subject, clock: ScriptedClock, output: Output, recorder: Recorder, request: Request
 ) -> Reply:
     """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
@@ -155,7 +159,7 @@ def answer(
                 subject.encode(subject.called(request.ref, subject.make_world(request)))
             )
         case Simulate():
-            return simulate(subject, camera, request)
+            return simulate(subject, recorder, request)
         case Integrate(twice=True):
             frame = Frame(subject, (), [])
             answers = subject.integrate(request)
@@ -164,7 +168,7 @@ def answer(
         case Integrate():
             return Returned(subject.integrate(request))
         case Play():
-            return play(subject, clock, output, camera, request)
+            return play(subject, clock, output, recorder, request)
 
 
 def call(subject: Subject, request: Call) -> Returned:

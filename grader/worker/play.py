@@ -16,6 +16,7 @@ from typing import Any, Literal
 
 import pygame
 import pymunk
+from pymunk.constraints import PinJoint
 
 from grader.protocol import (
     MAX_LINES,
@@ -32,11 +33,11 @@ from grader.protocol import (
     SpaceBody,
     cut,
 )
-from grader.worker import film
+from grader.worker import recorder as recorders
 from grader.worker import subject as subjects
-from grader.worker.film import Camera, lesson_state
 from grader.worker.lines import OpcodeCounter, codes_of
 from grader.worker.output import Output
+from grader.worker.recorder import Recorder, lesson_state
 from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.start import start
@@ -148,7 +149,7 @@ def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Retu
 
 
 def play(
-    subject: Subject, clock: ScriptedClock, output: Output, camera: Camera, request: Play
+    subject: Subject, clock: ScriptedClock, output: Output, recorder: Recorder, request: Play
 ) -> Played:
     """Run a program on a scripted clock, and tell what it did in each frame.
 
@@ -171,13 +172,13 @@ def play(
         times.append(clock.elapsed - request.step_ms * counter.in_frame)  # before its steps
         counter.in_frame = 0
         window.record(len(steps) - 1, clock.flips)
-        camera.record(clock.elapsed / 1000, counter.total)
+        recorder.record(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
     output.take()
     clock.start(request.frames, request.events, frame_over)
     window = Window(request.pictures, request.photos)
-    camera.watch_worlds(owner, len(request.frames) + 1)
+    recorder.watch_worlds(owner, len(request.frames) + 1)
     ended: Literal["returned", "stopped", "runaway"] = "returned"
     try:
         start(subject, request.module, steps, len(request.frames))
@@ -190,7 +191,7 @@ def play(
     finally:
         window.restore()
     frame_over()
-    camera.stop_watching()
+    recorder.stop_watching()
     return Played(
         steps=steps,
         clock=times,
@@ -277,7 +278,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     if isinstance(world, pymunk.Space):
         found = []
         for joint in world.constraints:
-            if isinstance(joint, pymunk.PinJoint):
+            if isinstance(joint, PinJoint):
                 begin = joint.a.local_to_world(joint.anchor_a)
                 end = joint.b.local_to_world(joint.anchor_b)
                 found.append(((end - begin).length, joint.distance))
@@ -290,7 +291,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
     return found
 
 
-def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
+def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
     """Step a world, and record the watched bodies (and contacts) after every so many steps.
 
     The watched bodies are read one by one, not through the world, whose own list may be wrong.
@@ -300,11 +301,11 @@ def simulate(subject: Subject, camera: Camera, request: Simulate) -> Simulated:
     frames: list[list[float]] = []
     contacts: list[list[ContactRow]] = []
     counter = OpcodeCounter(OURS) if request.priced else None
-    camera.expect(request.steps)
+    recorder.expect(request.steps)
     with counter or nullcontext():
         for number in range(1, request.steps + 1):
             world.step(request.dt)
-            camera.record(number * request.dt, number)
+            recorder.record(number * request.dt, number)
             if number % request.every:
                 continue
             row: list[float] = []
@@ -340,4 +341,6 @@ def contact_row(subject: Subject, contact: Any) -> ContactRow:
     )
 
 
-OURS = codes_of(film, subjects, sys.modules[__name__])  # what reads a world, beside what steps it
+OURS = codes_of(
+    recorders, subjects, sys.modules[__name__]
+)  # what reads a world, beside what steps it

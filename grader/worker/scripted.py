@@ -96,7 +96,13 @@ class ScriptedClock:
             def now(cls, tz: datetime.tzinfo | None = None) -> "ScriptedDatetime":
                 return cls.fromtimestamp(clock.read() / 1000, tz)
 
-            today = utcnow = now
+            @classmethod
+            def today(cls) -> "ScriptedDatetime":
+                return cls.now()
+
+            @classmethod
+            def utcnow(cls) -> "ScriptedDatetime":
+                return cls.now()
 
         return ScriptedDatetime
 

@@ -20,6 +20,7 @@ from typing import Any
 
 import pygame
 import pymunk
+from pymunk.constraints import Constraint, SlideJoint
 
 from grader.protocol import (
     MAX_FRAMES,
@@ -334,7 +335,7 @@ class Subject:
             not shape.sensor and shape.filter == pymunk.ShapeFilter(),
         )
 
-    def _joint(self, joint: pymunk.Constraint) -> SpaceJoint:
+    def _joint(self, joint: Constraint) -> SpaceJoint:
         """Return a pymunk constraint; anchors in world coordinates, where it has any."""
         anchor_a, anchor_b = (
             Vec(*body.local_to_world(getattr(joint, name))) if hasattr(joint, name) else None
@@ -347,7 +348,7 @@ class Subject:
             anchor_a,
             anchor_b,
             getattr(joint, "distance", None),
-            (joint.min, joint.max) if isinstance(joint, pymunk.SlideJoint) else None,
+            (joint.min, joint.max) if isinstance(joint, SlideJoint) else None,
         )
 
     # ------------------------------------------------------------ what went wrong
@@ -458,7 +459,7 @@ def as_number(value: Any, what: str) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise ContractError(f"{what} is {describe(value)}; expected a number")
-    if isinstance(value, int) and abs(value) <= LARGEST_INT:
+    if isinstance(value, int) and abs(int.__int__(value)) <= LARGEST_INT:
         return int.__int__(value)
     try:
         return float.__float__(value) if isinstance(value, float) else float(value)

@@ -6,12 +6,13 @@ from pathlib import Path
 import pytest
 
 from grader.bank.halfway import halfway
-from grader.bank.verify import graded_halfway
+from grader.bank.verify import judge_halfway
 from grader.checks.exact import Disc, Lever, Rect, Touch, circle_box
-from grader.judge.diagnosis import Diagnosis, relation, seen_of
+from grader.judge.diagnosis import Diagnosis
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import load_known
 from grader.judge.names import Names, handed_out
+from grader.judge.narrowing import find_relation, read_questions
 
 STATES = [*halfway()]
 BOX = Rect(0, 0, 40, 20)
@@ -30,7 +31,7 @@ def drawn() -> list[str]:
 @pytest.mark.parametrize("name", drawn())
 def test_the_first_failure_of_a_state_says_what_it_must(name: str):
     (state,) = [each for each in STATES if each.name == name]
-    assert graded_halfway(state).complaint == ""
+    assert judge_halfway(state).complaint == ""
 
 
 def test_there_are_states_of_every_todo_and_each_can_be_built(tmp_path: Path):
@@ -56,7 +57,7 @@ def turned(disc: Disc) -> Observation:
 
 
 def told(todo: str, observations: list[Observation]) -> str:
-    return Diagnosis(todo, observations).of(observations)
+    return Diagnosis(todo, observations).describe(observations)
 
 
 def test_a_mistake_is_told_by_the_branch_that_it_shows_in():
@@ -96,7 +97,7 @@ def test_right_answers_and_too_few_of_them_tell_nothing():
 def test_a_part_that_is_wrong_in_another_way_each_time_has_no_relation():
     load_known("1")
     wrong = [seen(disc, depth=depth) for disc, depth in zip(INSIDE, (1, 90, 2, 80), strict=True)]
-    assert relation("the depth", list(seen_of(wrong))) == ""
+    assert find_relation("the depth", list(read_questions(wrong))) == ""
 
 
 def test_a_step_is_shown_where_its_samples_are_wrong():

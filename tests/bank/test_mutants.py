@@ -340,10 +340,10 @@ def test_a_name_is_wrong_where_something_else_is_wrong_as_well():
 def test_an_exception_is_an_answer_that_a_mistake_can_be_told_by():
     box, inside, apart = Rect(0, 0, 40, 20), Disc(5, -15, 8), Disc(0, -60, 10)
     failed = Observation("circle_box", (inside, box), "ZeroDivisionError")
-    found = misconceptions.named("1", [failed, Observation("circle_box", (apart, box), None)])
+    found = misconceptions.name_mistake("1", [failed, Observation("circle_box", (apart, box), None)])
     assert found is not None and found.id == "inside-normalises-zero"
     everywhere = Observation("circle_box", (apart, box), "ZeroDivisionError")
-    assert misconceptions.named("1", [failed, everywhere]) is None
+    assert misconceptions.name_mistake("1", [failed, everywhere]) is None
 
 
 def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
@@ -351,9 +351,9 @@ def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
     still = rod._replace(mass_a=0.0, mass_b=0.0)
     solved = Observation("rod", (rod,), (*rod_solved(rod), rod.offset))
     failed = Observation("rod", (still,), "ZeroDivisionError")
-    found = misconceptions.named("3", [solved, failed])
+    found = misconceptions.name_mistake("3", [solved, failed])
     assert found is not None and found.id == "divides-by-a-k-of-0"
-    assert misconceptions.named("3", [Observation("rod", (rod,), failed.answer), failed]) is None
+    assert misconceptions.name_mistake("3", [Observation("rod", (rod,), failed.answer), failed]) is None
 
 
 # ---------------------------------------------------------------- what comes of them

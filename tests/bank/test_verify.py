@@ -10,14 +10,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 from msgspec.structs import replace as replace_in
 from rich.console import Console
 
 from grader.bank import kept, traces, verify
-from grader.bank.kept import Kept, key_of
+from grader.bank.kept import StoredResults, make_key
 from grader.bank.members import Entry, Member, members
-from grader.bank.verify import Report, Verdict, complaint_of, grade_member, summary, verdicts
+from grader.bank.verify import Report, Verdict, find_complaint, grade_member, summarize, judge_members
 from grader.judge.grade import KIT
 from grader.judge.result import Result, TodoResult
 
@@ -43,10 +44,10 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_a_run_that_was_stopped_goes_on_where_it_was(tmp_path: Path, graded: list[str]):
-    stopped = verdicts(BANK, 1, Kept(tmp_path), fresh=False)
+    stopped = judge_members(BANK, 1, StoredResults(tmp_path), fresh=False)
     first = [next(stopped), next(stopped)]
     stopped.close()
-    again = [*verdicts(BANK, 1, Kept(tmp_path), fresh=False)]
+    again = [*judge_members(BANK, 1, StoredResults(tmp_path), fresh=False)]
     assert graded == ["a", "b", "c", "d"]
     assert [each.member.name for each in again if each.earlier] == ["a", "b"]
     assert [(each.result, each.seconds) for each in again] == [(RIGHT, 1.0)] * 4
@@ -65,29 +66,29 @@ def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded,
     usual = verify.grade_all
     with monkeypatch.context() as patched:
         patched.setattr(verify, "grade_all", edited)
-        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=True)]) == 1
+        assert len([*judge_members([member], 1, StoredResults(tmp_path / "kept"), fresh=True)]) == 1
     for _ in range(2):
-        assert len([*verdicts([member], 1, Kept(tmp_path / "kept"), fresh=False)]) == 1
+        assert len([*judge_members([member], 1, StoredResults(tmp_path / "kept"), fresh=False)]) == 1
     assert graded == ["5-x", "5-x"]
 
 
 def test_what_is_wanted_fresh_is_graded_anew(tmp_path: Path, graded: list[str]):
     for fresh in (False, False, True):
-        assert len([*verdicts(BANK[:1], 1, Kept(tmp_path), fresh)]) == 1
+        assert len([*judge_members(BANK[:1], 1, StoredResults(tmp_path), fresh)]) == 1
     assert graded == ["a", "a"]
 
 
 def test_a_complaint_is_looked_into_again(tmp_path: Path, graded: list[str]):
     bad = [replace(BANK[0], name="z")]
     for _ in range(2):
-        (verdict,) = verdicts(bad, 1, Kept(tmp_path), fresh=False)
+        (verdict,) = judge_members(bad, 1, StoredResults(tmp_path), fresh=False)
         assert verdict.complaint and not verdict.earlier
     assert graded == ["z", "z"]
 
 
 def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Path, graded):
-    Kept(tmp_path).write(BANK[0], Result(1, "ann", 99, 100, 0, [], []), 1.0)
-    (verdict,) = verdicts(BANK[:1], 1, Kept(tmp_path), fresh=False)
+    StoredResults(tmp_path).write(BANK[0], Result(1, "ann", 99, 100, 0, [], []), 1.0)
+    (verdict,) = judge_members(BANK[:1], 1, StoredResults(tmp_path), fresh=False)
     assert graded == ["a"] and verdict.result == RIGHT
 
 
@@ -102,7 +103,7 @@ def test_marks_that_are_no_longer_the_right_ones_are_not_taken_over(tmp_path: Pa
     ],
 )
 def test_a_bad_file_is_as_good_as_none(tmp_path: Path, damage):
-    book = Kept(tmp_path)
+    book = StoredResults(tmp_path)
     book.write(BANK[0], RIGHT, 1.0)
     assert book.read(BANK[0]) == (RIGHT, 1.0)
     path = book.file(BANK[0])
@@ -115,14 +116,14 @@ def test_a_bad_file_is_as_good_as_none(tmp_path: Path, damage):
 
 def test_a_result_is_written_whole_and_alone(tmp_path: Path):
     for _ in range(2):
-        Kept(tmp_path).write(BANK[0], RIGHT, 1.0)
+        StoredResults(tmp_path).write(BANK[0], RIGHT, 1.0)
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == [
-        Kept(tmp_path).file(BANK[0])
+        StoredResults(tmp_path).file(BANK[0])
     ]
 
 
 def test_each_form_of_a_member_has_a_file_of_its_own():
-    files = [Kept(Path()).file(member) for member in members(KIT)]
+    files = [StoredResults(Path()).file(member) for member in members(KIT)]
     assert len(files) == len(set(files))
 
 
@@ -132,21 +133,21 @@ def test_all_that_decides_about_marks_is_in_the_key(
     source = tmp_path / "5-x.py"
     source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
     member = Member("wrong", "5-x", "package", Entry(), source)
-    usual = key_of(member)
-    assert key_of(replace(member, form="single file")) != usual
-    assert key_of(replace(member, entry=Entry(points=98))) != usual
+    usual = make_key(member)
+    assert make_key(replace(member, form="single file")) != usual
+    assert make_key(replace(member, entry=Entry(points=98))) != usual
     source.write_text("# TODO 5: damp\n\n# END TODO 5\n", encoding="utf-8")
-    assert key_of(member) != usual
-    rest = kept.everything_else.__wrapped__
+    assert make_key(member) != usual
+    rest = kept.hash_surroundings.__wrapped__
     monkeypatch.setattr(kept, "fingerprint", lambda: "the judge, changed")
-    assert rest() != kept.everything_else()
+    assert rest() != kept.hash_surroundings()
     monkeypatch.undo()
-    assert rest() == kept.everything_else()
+    assert rest() == kept.hash_surroundings()
     monkeypatch.setattr(sys, "version", "another Python")
-    assert rest() != kept.everything_else()
+    assert rest() != kept.hash_surroundings()
     monkeypatch.undo()
     monkeypatch.setattr(kept, "DECIDING", ("bank.py",))
-    assert rest() != kept.everything_else()
+    assert rest() != kept.hash_surroundings()
 
 
 def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
@@ -154,14 +155,14 @@ def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
     for name in ("a.py", "mini/b.py", ".cache/c", "mini/__pycache__/b.pyc"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text(name, encoding="utf-8")
-    rows = kept.contents(tree, *kept.BESIDES)
+    rows = kept.hash_contents(tree, *kept.BESIDES)
     assert [row.partition(" ")[0] for row in rows] == ["tree/a.py", "tree/mini/b.py"]
     (tree / "mini" / "b.py").write_text("other", encoding="utf-8")
-    assert kept.contents(tree, *kept.BESIDES) != rows
+    assert kept.hash_contents(tree, *kept.BESIDES) != rows
 
 
 def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(verify, "KEPT", tmp_path)
+    monkeypatch.setattr(verify, "RESULTS", tmp_path)
     told = []
     for _ in range(2):
         console = Console(file=io.StringIO(), width=120)
@@ -180,26 +181,26 @@ def test_every_kind_is_counted_by_itself():
     wrong = Member("wrong", "5-x", "package", Entry(), None)
     hostile = Member("hostile", "x", "package", Entry(), None)
     right = [Verdict(member, RIGHT, 1.0, "") for member in BANK]
-    lines = [*summary([*right, Verdict(wrong, RIGHT, 1.0, "loses nothing")])]
+    lines = [*summarize(Report([*right, Verdict(wrong, RIGHT, 1.0, "loses nothing")]))]
     assert lines[:2] == [
         "right: 4, of which 0 with a complaint",
         "wrong: 1, of which 1 with a complaint",
     ]
     fell_over = Verdict(hostile, None, 1.0, "the judge fell over")
-    assert next(summary([fell_over])) == "hostile: 1, of which 1 with a complaint"
+    assert next(summarize(Report([fell_over]))) == "hostile: 1, of which 1 with a complaint"
 
 
 def test_a_wrong_name_for_a_mistake_is_a_complaint():
     member = next(each for each in members(KIT) if each.name == "5-spin-is-not-damped")
     lost = [TodoResult("5", "Damping", "not yet", 0, 8, "spin-is-not-damped", [])]
     result = replace_in(RIGHT, todos=lost)
-    assert complaint_of(member, result, 1.0) == ""
+    assert find_complaint(member, result, 1.0) == ""
     other = replace(member, name="5-rates-are-swapped")
-    assert complaint_of(other, result, 1.0) == "its mistake is named spin-is-not-damped"
+    assert find_complaint(other, result, 1.0) == "its mistake is named spin-is-not-damped"
 
 
-def rung(path: Path, points: int) -> Verdict:
-    member = Member("ladder", f"5-{path.stem}", "package", Entry(), path)
+def judge_rung(sheet: Path, name: str, points: int) -> Verdict:
+    member = Member("ladder", f"5-{name}", "package", Entry(code="pass"), sheet)
     todo = TodoResult("5", "Damping", "not yet", points, 8, None, [])
     return Verdict(member, replace_in(RIGHT, points=points, todos=[todo]), 1.0, "")
 
@@ -214,16 +215,15 @@ def rung(path: Path, points: int) -> Verdict:
     ],
 )
 def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complaint: str):
-    paths = [tmp_path / "5" / f"{name}.py" for name in ("0-a", "1-b", "2-c", "3-d")]
-    paths[0].parent.mkdir()
-    for path in paths:
-        path.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
-    report = Report([rung(*each) for each in zip(paths, points, strict=True)])
+    names, sheet = ("0-a", "1-b", "2-c", "3-d"), tmp_path / "5.toml"
+    sheet.write_text("".join(f'[{each}]\ncode = "pass"\n' for each in names), encoding="utf-8")
+    rungs = zip(names, points, strict=True)
+    report = Report([judge_rung(sheet, *each) for each in rungs])
     (ladder,) = report.ladders
     assert ladder.complaint == complaint
     assert report.sound == (not complaint)
     assert (
-        next(summary(report.verdicts))
+        next(summarize(report))
         == f"ladder: 1, of which {int(not report.sound)} with a complaint"
     )
     assert not Report(report.verdicts[1:2]).ladders[0].complaint  # as `--only` may have it
@@ -253,7 +253,7 @@ def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def left_by(tmp_path: Path, leak, name: str = "") -> str:
-    with traces.watched(tmp_path / "own", name) as seen:
+    with traces.watch_traces(tmp_path / "own", name) as seen:
         leak()
     return seen.complaint
 
@@ -349,9 +349,9 @@ def test_members_that_leave_files_name_them_after_themselves():
         "|".join(map(re.escape, (*traces.OPEN_TO_ALL, "expanduser", "home()")))
     )
     for member in members(KIT):
-        if member.source is None:
-            continue
-        files = [member.source] if member.source.is_file() else member.source.rglob("*.py")
-        for path in files:
-            text = path.read_text(encoding="utf-8", errors="replace")
-            assert not open_to_all.search(text) or member.name in text, path
+        texts = [msgspec.json.encode(member.entry).decode()]
+        if member.source is not None and member.source.suffix != ".toml":
+            files = [member.source] if member.source.is_file() else member.source.rglob("*.py")
+            texts += [path.read_text(encoding="utf-8", errors="replace") for path in files]
+        for text in texts:
+            assert not open_to_all.search(text) or member.name in text, member.name

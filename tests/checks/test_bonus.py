@@ -20,7 +20,7 @@ from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.wording import total
-from grader.release.notebooks import engine_notebook
+from grader.release.notebooks import make_engine_notebook
 from grader.report.files import as_json
 from grader.report.sinks.classroom50 import NEEDED, write_classroom50
 from grader.report.sinks.github import write_annotations, write_outputs
@@ -206,6 +206,6 @@ def test_a_dashboard_lists_the_bonus_tasks_that_somebody_began(
 
 
 def test_the_notebook_with_the_marks_is_worth_100():
-    cells = engine_notebook(load_rubric())["cells"]
+    cells = make_engine_notebook(load_rubric())["cells"]
     points = [cell["metadata"].get("nbgrader", {}).get("points", 0) for cell in cells]
     assert sum(points) == 100

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from command_line import run_grader
 
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.cli import hand_in as packing
 from grader.cli.hand_in import PACKED, find_missing, pack_tree
 from grader.errors import Stop
@@ -19,7 +19,7 @@ from grader.judge.grade import KIT
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
     """A student's folder, with what lies about in one."""
-    for name, path in students_files(KIT).items():
+    for name, path in list_students_files(KIT).items():
         target = tmp_path / "lab" / name
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(path.read_bytes())

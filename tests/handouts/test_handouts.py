@@ -20,7 +20,7 @@ import integrators
 import mini_engine
 from grader.cli.main import grade_command
 from grader.release.formulas import typeset
-from grader.release.pages import as_page
+from grader.release.pages import make_page
 from grader.source.regions import python_files, regions_in
 
 KIT = Path(__file__).parents[2]
@@ -455,5 +455,5 @@ def test_formulas_are_set_without_a_script():
     assert count >= 5 and made.count('<div class="formula"') == made.count("<math ") == count
     assert "```math" not in made and "\\frac" not in made
     assert made.count("<mfrac>") >= 6  # fractions are fractions
-    page = as_page("lesson.md", {"lesson.md": text})
+    page = make_page("lesson.md", {"lesson.md": text})
     assert page.count("<math ") == count and "&lt;math" not in page

@@ -10,12 +10,12 @@ import pytest
 from page_readers import Screen, chromium
 
 from grader.judge.course import FULL
-from grader.release.measured import measured
+from grader.release.measured import make_script
 from grader.release.pages import write_pages
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text("utf-8"))
-SCRIPT = measured(RESULTS).partition("= ")[2].removesuffix(";\n")
+SCRIPT = make_script(RESULTS).partition("= ")[2].removesuffix(";\n")
 PAGE = (HANDOUTS / "accuracy.md").read_text("utf-8")
 
 

@@ -18,7 +18,7 @@ from grader.checks import exact
 from grader.checks.exact import Disc, Lever, Rect, Rod
 from grader.judge.course import FULL
 from grader.release.pages import SHARED as LOADED
-from grader.release.pages import figures_in, write_pages
+from grader.release.pages import find_figures, write_pages
 
 KIT = Path(__file__).parents[2]
 TOUCH = KIT / "handouts" / "touch"
@@ -37,7 +37,7 @@ METHODS = ["explicit_euler", "semi_implicit_euler", "velocity_verlet", "rk4"]
 
 def test_each_has_a_still_picture_that_the_lesson_shows() -> None:
     texts = [(KIT / "handouts" / name).read_text("utf-8") for name in SHOWING]
-    shown = [Path(each).stem for text in texts for each in figures_in(text)]
+    shown = [Path(each).stem for text in texts for each in find_figures(text)]
     kinds = {name.partition("-")[0] for name in shown}
     assert len(NAMES) >= 10 and set(NAMES) <= {*shown, *kinds}
 

@@ -170,7 +170,7 @@ SLOW = """
     import sys, time, ctypes
     frame = sys._getframe()
     while frame is not None:
-        camera = frame.f_locals.get("camera")
+        recorder = frame.f_locals.get("recorder")
         if {where} and not getattr(sys, "rested", False):
             sys.rested = True
             ctypes.CDLL(None).usleep(1_900_000)
@@ -189,7 +189,7 @@ def test_who_rests_only_in_pictures_rests_a_few_times(tmp_path: Path):
         text = (
             text[:begin]
             + f"    # TODO {todo}: x"
-            + SLOW.format(where="getattr(camera, 'film', None)")
+            + SLOW.format(where="getattr(recorder, 'recording', None)")
             + text[end:]
         )
     tree = tmp_path / "tree"

@@ -34,14 +34,14 @@ from grader.judge.course import FULL, Course, Late, WrongCourse, read_course, sp
 from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.judge.wording import told
-from grader.release.build import build, wrong_submissions
-from grader.release.handed_out import students_tree, write_tree
-from grader.release.handouts import handouts_of
-from grader.release.leaks import leaks_in_text, secrets_of
+from grader.judge.wording import withhold_reasons
+from grader.release.build import build, build_wrong_members
+from grader.release.handed_out import make_students_tree, write_tree
+from grader.release.handouts import make_handouts
+from grader.release.leaks import find_leaks_in_text, find_secrets
 from grader.release.nbgrader_course import make_course
-from grader.release.notebooks import notebooks_of
-from grader.release.pages import anchor
+from grader.release.notebooks import make_notebooks
+from grader.release.pages import make_anchor
 from grader.report.sinks.gradescope import write_gradescope
 from grader.source.regions import regions_in
 
@@ -215,7 +215,7 @@ def test_the_course_comes_from_the_environment_as_make_gives_it(tmp_path: Path):
 
 @pytest.mark.parametrize("course", EACH)
 def test_the_solution_earns_all_and_what_is_handed_out_nothing(course: Course, tmp_path: Path):
-    write_tree(students_tree(KIT, course), tmp_path / "handed-out")
+    write_tree(make_students_tree(KIT, course), tmp_path / "handed-out")
     most = course.rubric.max_points
     full = graded(KIT / "solution", course)
     assert (full.points, full.max_points) == (most, most)
@@ -348,8 +348,8 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
     ]
     one = TodoResult("1", "x", "not yet", 0, 16, None, checks)
     result = Result(1, "ann", 0, 16, 0, [], [one])
-    assert told(result, course, day) == result == told(result, FULL)
-    before = told(result, course, day - timedelta(seconds=1)).todos[0]
+    assert withhold_reasons(result, course, day) == result == withhold_reasons(result, FULL)
+    before = withhold_reasons(result, course, day - timedelta(seconds=1)).todos[0]
     hidden = {each.id for each in todo.checks if each.hidden}
     assert hidden
     for check, full in zip(before.checks, checks, strict=True):
@@ -366,7 +366,7 @@ def test_why_a_hidden_check_failed_is_shown_from_the_courses_day_on():
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_what_is_left_out_comes_done_with_a_line_that_says_so(course: Course):
-    files = students_tree(KIT, course)
+    files = make_students_tree(KIT, course)
     texts = {name: files[name].decode() for name in files if name.endswith(".py")}
     left = {region.id for text in texts.values() for region in regions_in(text)}
     assert left == {todo.id for todo in course.rubric.todos if todo.function}
@@ -378,8 +378,8 @@ def test_what_is_left_out_comes_done_with_a_line_that_says_so(course: Course):
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_no_page_asks_for_what_is_left_out(course: Course):
-    pages = handouts_of(KIT / "handouts", course)
-    readme = students_tree(KIT, course)["README.md"].decode()
+    pages = make_handouts(KIT / "handouts", course)
+    readme = make_students_tree(KIT, course)["README.md"].decode()
     modules = {todo.module for todo in load_rubric().todos} - set(course.modules)
     for page in (pages["lab-sheet.md"], pages.get("bonus.md", ""), readme):
         for todo in course.given:
@@ -399,12 +399,14 @@ MEASURED = ("effects.md",)  # tells of what was measured in the whole lab
 def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
     """With one bonus task there is a page of them, and not all that others link to on it."""
     course = Course(todos=tuple(dict.fromkeys(("1", todo))))
-    texts = handouts_of(KIT / "handouts", course)
+    texts = make_handouts(KIT / "handouts", course)
     others = "|".join({each.id for each in course.given if each.bonus})
     for name, text in texts.items():
         for _, page, at in re.findall(r"(?<!!)\[([^\]]+)\]\(([\w-]+\.md)?#([\w-]+)\)", text):
             there = texts[page or name]
-            headings = {anchor(re.sub("[`*]", "", h)) for h in re.findall(r"(?m)^#+ (.*)$", there)}
+            headings = {
+                make_anchor(re.sub("[`*]", "", h)) for h in re.findall(r"(?m)^#+ (.*)$", there)
+            }
             assert at in headings | set(re.findall(r'id="([\w-]+)"', there)), f"{name}: #{at}"
         if name not in MEASURED:
             assert not re.findall(rf"(?<![\w.#-])(?:{others})(?![\w-])", text), name
@@ -412,7 +414,7 @@ def test_the_pages_of_a_course_of_one_task_name_no_other(todo: str):
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
-    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    sheet = make_handouts(KIT / "handouts", course)["lab-sheet.md"]
     tasks = [todo for todo in course.rubric.counted if todo.function]
     rows = re.findall(r"^\| \[(\w+)\]\([^)]*\) \| \d+ \| (\d+) \|", sheet, re.M)
     assert rows == [(todo.id, str(todo.max_points)) for todo in tasks]
@@ -421,7 +423,7 @@ def test_the_lab_sheet_has_the_courses_todos_and_points(course: Course):
 
 def test_students_are_told_until_when_and_what_to_hand_in():
     course = Course(todos=("8a", "1"), due=datetime(2027, 5, 4, 23, 59, tzinfo=UTC))
-    sheet = handouts_of(KIT / "handouts", course)["lab-sheet.md"]
+    sheet = make_handouts(KIT / "handouts", course)["lab-sheet.md"]
     assert "**Hand in until 4 May 2027 23:59 (UTC).**" in sheet
     assert "`make hand-in`" in sheet and "`mini_engine` and `integrators.py`," in sheet
 
@@ -466,7 +468,7 @@ def test_the_sources_of_the_site_follow_the_course(tmp_path: Path, monkeypatch: 
 
 
 def test_the_pages_of_the_full_course_are_as_they_lie_there():
-    for name, page in handouts_of(KIT / "handouts", FULL).items():
+    for name, page in make_handouts(KIT / "handouts", FULL).items():
         text = (KIT / "handouts" / name).read_text(encoding="utf-8")
         plain = re.sub(
             r"<!--% else %-->.*?(?=<!--% endif)|<!--% elif.*?(?=<!--% endif)", "", text, flags=re.S
@@ -478,13 +480,13 @@ def test_the_pages_of_the_full_course_are_as_they_lie_there():
 
 def test_notebooks_ask_what_the_course_has():
     folder = KIT / "solution" / "notebooks"
-    every = notebooks_of(folder, FULL)
+    every = make_notebooks(folder, FULL)
     assert every == {path.name: path.read_bytes() for path in folder.glob("*.ipynb")}
-    engine = notebooks_of(folder, COURSES["engine"])
+    engine = make_notebooks(folder, COURSES["engine"])
     assert "integrators.ipynb" not in engine
     cells = json.loads(engine["engine.ipynb"])["cells"]
     assert [cell["id"] for cell in cells] == ["title", *(f"todo-{n}" for n in range(1, 7))]
-    few = notebooks_of(folder, COURSES[CHEAP])
+    few = make_notebooks(folder, COURSES[CHEAP])
     assert {"integrators.ipynb", "accuracy.ipynb"} <= few.keys()
     assert b'"quiz-3"' in few["quiz.ipynb"] and b'"quiz-5"' not in few["quiz.ipynb"]
 
@@ -509,13 +511,13 @@ def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
 
 def test_code_that_is_given_is_no_secret_and_the_rest_is():
     course = COURSES["engine"]
-    secrets = secrets_of(KIT, course)
+    secrets = find_secrets(KIT, course)
     named = " ".join(secret.what for secret in secrets)
     assert "TODO 3" in named and "TODO 7a" not in named and "TODO B1" not in named
-    for name, content in students_tree(KIT, course).items():
-        assert not [*leaks_in_text(name, content.decode("utf-8", "replace"), secrets)]
+    for name, content in make_students_tree(KIT, course).items():
+        assert not [*find_leaks_in_text(name, content.decode("utf-8", "replace"), secrets)]
     solution = (KIT / "solution" / "mini_engine" / "joints.py").read_text(encoding="utf-8")
-    assert [*leaks_in_text("joints.py", solution, secrets)]
+    assert [*find_leaks_in_text("joints.py", solution, secrets)]
 
 
 # ---------------------------------------------------------------- verify and release
@@ -555,7 +557,7 @@ def test_all_of_a_courses_bank_is_as_it_must(course: Course):
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES)
 def test_the_release_of_a_course_builds(course: Course, tmp_path: Path):
     """Its own proof is that the students' copy gives the solution all and the tree nothing."""
-    wrong = list(wrong_submissions(tmp_path / "wrong", course))[:3]
+    wrong = list(build_wrong_members(tmp_path / "wrong", course))[:3]
     built = build(tmp_path / "work", wrong, course)
     assert [path.suffix for path in sorted(built.iterdir())][-1] == ".zip"
     sheet = (tmp_path / "work" / "physics-engine" / "handouts" / "lab-sheet.html").read_text(

@@ -12,7 +12,7 @@ from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.lab import Lab
 from grader.judge.result import Result
-from grader.protocol import Answered, Film, Import, Request
+from grader.protocol import Answered, Import, Record, Request
 
 SOME = frozenset({"2", "B5"})
 ALL = frozenset[str]()
@@ -23,7 +23,7 @@ ask = Child.ask
 asked: dict[int, list[bytes]] = {}  # by the child
 
 
-def so_far(child: Child, request: Request | Film) -> Asked:
+def so_far(child: Child, request: Request | Record) -> Asked:
     if isinstance(request, Import):
         asked[id(child)] = []
     history = asked.setdefault(id(child), [])
@@ -40,7 +40,7 @@ def right_answers(only: frozenset[str], patch: pytest.MonkeyPatch) -> dict[Asked
     """What the solution answers to the usual questions."""
     answers: dict[Asked, Answered] = {}
 
-    def ask_and_note(child: Child, request: Request | Film) -> Answered:
+    def ask_and_note(child: Child, request: Request | Record) -> Answered:
         asked_so_far = so_far(child, request)
         answers[asked_so_far] = answered = ask(child, request)
         return answered
@@ -62,7 +62,7 @@ def test_who_knows_the_usual_answers_by_heart_earns_nothing_under_a_seed(
 ):
     known = right_answers(only, monkeypatch)
 
-    def by_heart(child: Child, request: Request | Film) -> Answered:
+    def by_heart(child: Child, request: Request | Record) -> Answered:
         answered = known.get(so_far(child, request))
         if answered is None:
             raise ChildEnded("nobody has asked that before")

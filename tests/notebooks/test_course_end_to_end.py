@@ -27,7 +27,7 @@ from handed_in import (
     write,
 )
 
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.classroom.marks import ENGINE
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -195,7 +195,7 @@ def test_the_release_is_what_the_starter_holds(course):
 
 def test_the_release_holds_no_solution_hidden_test_or_answer(course):
     release = course / "release" / ASSIGNMENT
-    for name, path in students_files(KIT).items():
+    for name, path in list_students_files(KIT).items():
         if name.endswith(".py"):
             assert (release / name).read_bytes() == path.read_bytes()
     for name in NAMES:

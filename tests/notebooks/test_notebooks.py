@@ -26,7 +26,7 @@ from handed_in import (
 
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
-from grader.release.notebooks import PRACTICE, engine_notebook, tidied, with_practice
+from grader.release.notebooks import PRACTICE, add_practice, make_engine_notebook, tidy
 
 RUNNER = Path(__file__).with_name("run_cells.py")
 MISSING = {  # what Run All says in the end of a notebook as it was handed out
@@ -76,11 +76,11 @@ def test_cells_say_what_they_are_by_schema_3(name, folder):
 
 @ALL
 def test_a_notebook_holds_no_traces_of_a_run(name):
-    assert read(SOURCE / f"{name}.ipynb") == tidied(read(SOURCE / f"{name}.ipynb"))
+    assert read(SOURCE / f"{name}.ipynb") == tidy(read(SOURCE / f"{name}.ipynb"))
 
 
 def test_the_engine_notebook_has_the_rubrics_todos_and_points():
-    assert read(SOURCE / "engine.ipynb") == engine_notebook(load_rubric())
+    assert read(SOURCE / "engine.ipynb") == make_engine_notebook(load_rubric())
     points = {c["id"]: details(c)["points"] for c in cells("engine") if "task" in kind(c)}
     assert points == {f"todo-{todo.id}": todo.max_points for todo in load_rubric().counted}
     assert sum(points.values()) == 100
@@ -97,7 +97,7 @@ def test_no_graded_cell_ends_in_a_value(name):
 def test_the_quiz_begins_with_the_pages_questions_for_practice():
     page = (KIT / "handouts" / "quiz.md").read_text(encoding="utf-8")
     notebook = read(SOURCE / "quiz.ipynb")
-    assert with_practice(notebook, page) == notebook, "run: make notebooks"
+    assert add_practice(notebook, page) == notebook, "run: make notebooks"
     practice = [cell for cell in notebook["cells"] if cell["id"].startswith(PRACTICE)]
     assert len(practice) == len(re.findall(r"^\*\*\d", page, re.M)) >= 5
     assert all(kind(cell) == "" and source(cell).count("<details>") == 4 for cell in practice)

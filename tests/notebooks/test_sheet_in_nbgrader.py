@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.questions.notebook import notebook
+from grader.questions.notebook import write_notebook
 from grader.questions.question import Picture, Question, Sheet
 
 pytestmark = pytest.mark.soak
@@ -52,7 +52,7 @@ def test_nbgrader_hands_out_a_sheet_without_answers_and_marks_it(tmp_path: Path)
     )
     source = tmp_path / "source" / NAME / "questions.ipynb"
     source.parent.mkdir(parents=True)
-    source.write_bytes(notebook(SHEET, "Physics"))
+    source.write_bytes(write_notebook(SHEET, "Physics"))
     run(tmp_path, "generate_assignment", NAME)
     released = (tmp_path / "release" / NAME / "questions.ipynb").read_text(encoding="utf-8")
     assert not any(secret in released for secret in ("962", "bdac", "because", "== 2"))

@@ -7,13 +7,13 @@ import pytest
 from command_line import run_grader
 from handed_in import NAMES, RELEASED, hand_in, read
 
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
 from grader.errors import Stop
 from grader.judge.course import Course
 from grader.judge.grade import KIT
 from grader.release import nbgrader_course as courses
-from grader.release.nbgrader_course import make_course, newest_release
+from grader.release.nbgrader_course import find_newest_release, make_course
 from grader.source.regions import python_files, regions_in
 
 
@@ -43,7 +43,7 @@ def taken(classroom, course):
 def test_the_source_holds_every_notebook_and_the_students_files(course):
     source = course / "source" / ASSIGNMENT
     assert sorted(path.stem for path in source.glob("*.ipynb")) == NAMES
-    for name, path in students_files(KIT).items():
+    for name, path in list_students_files(KIT).items():
         if not name.startswith("."):
             assert (source / name).read_bytes() == path.read_bytes()
 
@@ -172,7 +172,9 @@ def test_students_get_the_checks_of_a_release(tmp_path):
         out.writestr("physics-engine/MANIFEST.txt", "\n".join(rows) + "\n")
         released = (KIT / "starter" / "integrators.py").read_bytes() + b"# released\n"
         out.writestr("physics-engine/integrators.py", released)
-    assert newest_release(tmp_path) == archive and newest_release(tmp_path / "none") is None
+    assert (
+        find_newest_release(tmp_path) == archive and find_newest_release(tmp_path / "none") is None
+    )
     taken = Course(todos=("8a", "8b", "8c"))
     files = make_course(tmp_path / "course", release=archive, taken=taken)
     source = tmp_path / "course" / "source" / ASSIGNMENT
@@ -188,7 +190,7 @@ def test_students_get_the_checks_of_a_release(tmp_path):
 
 
 def test_a_course_without_checks_is_only_made_where_it_is_asked_for(tmp_path, monkeypatch):
-    monkeypatch.setattr(courses, "newest_release", lambda folder: None)
+    monkeypatch.setattr(courses, "find_newest_release", lambda folder: None)
     words = ["course", str(tmp_path / "course")]
     done = run_grader("nbgrader", *words)
     assert done.exit_code == 2 and "make release" in " ".join(done.output.split())

@@ -32,18 +32,24 @@ from grader.judge.submission import CannotGrade
 from grader.questions import films, making
 from grader.questions import sheet as sheets
 from grader.questions.cases import MAKERS
-from grader.questions.marking import Marked, mark_answers, read_keys, write_points
-from grader.questions.moodle import moodle_xml
-from grader.questions.notebook import notebook
-from grader.questions.numbers import drawn
-from grader.questions.page import page
-from grader.questions.pictures import Film, Look, frame_of
+from grader.questions.marking import Marking, mark_answers, read_keys, write_points
+from grader.questions.moodle import write_moodle
+from grader.questions.notebook import write_notebook
+from grader.questions.numbers import draw_numbers
+from grader.questions.page import make_page
+from grader.questions.pictures import Film, Look, find_bounds
 from grader.questions.practice import Practice
-from grader.questions.program import Program, Unlike, opened_program
-from grader.questions.question import Question, Sheet, Unreadable, earned, meant
-from grader.questions.sheet import in_turn, made
+from grader.questions.program import CannotAsk, Program, open_program
+from grader.questions.question import (
+    Question,
+    Sheet,
+    Unreadable,
+    find_misunderstanding,
+    grade_answer,
+)
+from grader.questions.sheet import ask_some, take_turns
 from grader.questions.tally import add_class, write_bank
-from grader.release.practice import practice_of
+from grader.release.practice import make_practice
 from grader.report.files import write_json, write_whole
 from grader.source.regions import python_files, read_source, regions_in
 
@@ -55,12 +61,12 @@ RIGHT = [each for each in members(KIT) if each.kind == "right" and not each.bonu
 @contextmanager
 def program_of(folder: Path, result: Result) -> Iterator[Program]:
     """A program that is taken to be right where the result says so."""
-    with opened_program(folder, OPTIONS, shared_worker(), result) as program:
+    with open_program(folder, OPTIONS, shared_worker(), result) as program:
         yield program
 
 
-def sheet_of(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
-    return sheets.sheet_of(program, student, seed, asked, MAKERS)
+def make_sheet(program: Program, student: str, seed: str, asked: Asked) -> Sheet:
+    return sheets.make_sheet(program, student, seed, asked, MAKERS)
 
 
 # ---------------------------------------------------------------- numbers
@@ -70,17 +76,17 @@ def test_each_case_is_answered_in_two_ways_and_no_wrong_answer_counts(solution: 
     with program_of(KIT / "solution", solution) as program:
         questions = [each.ask(program, "a seed/ada", 2) for each in MAKERS]
     for question in questions:
-        assert earned(question, question.answer) == 2
+        assert grade_answer(question, question.answer) == 2
         assert len(question.wrong) >= 2, question.name
         for wrong in question.wrong:
-            assert earned(question, wrong.answer) == 0
-            assert meant(question, wrong.answer) == wrong.why
+            assert grade_answer(question, wrong.answer) == 0
+            assert find_misunderstanding(question, wrong.answer) == wrong.why
 
 
 def test_no_two_of_two_hundred_seeds_draw_the_same_numbers():
-    chosen = list(in_turn(MAKERS, program_with(ALL)))[:3]
-    sheets = {str([drawn(each, f"{seed}/ada")[0] for each in chosen]) for seed in range(200)}
-    names = {str([drawn(each, f"7/student {n}")[0] for each in chosen]) for n in range(200)}
+    chosen = list(take_turns(MAKERS, program_with(ALL)))[:3]
+    sheets = {str([draw_numbers(each, f"{seed}/ada")[0] for each in chosen]) for seed in range(200)}
+    names = {str([draw_numbers(each, f"7/student {n}")[0] for each in chosen]) for n in range(200)}
     assert len(sheets) == len(names) == 200
 
 
@@ -91,14 +97,14 @@ def program_with(right: Iterable[str], given: Iterable[str] = ()) -> Program:
 
 
 def test_every_todo_right_asks_everybody_alike():
-    names = [each.name for each in in_turn(MAKERS, program_with(ALL))][:3]
+    names = [each.name for each in take_turns(MAKERS, program_with(ALL))][:3]
     assert names == ["impulse", "steps", "verlet"]
-    names = [each.name for each in in_turn(MAKERS, program_with({"5", "8a"}))]
+    names = [each.name for each in take_turns(MAKERS, program_with({"5", "8a"}))]
     assert names == ["semi-implicit", "damping"]
 
 
 def test_nothing_is_asked_twice_while_there_is_something_else():
-    names = [each.name for each in in_turn(MAKERS, program_with(ALL))]
+    names = [each.name for each in take_turns(MAKERS, program_with(ALL))]
     assert len(set(names)) == len(names) == len(MAKERS)
     assert names.index("purse") > names.index("fall"), "steps was about TODO 6 already"
 
@@ -106,18 +112,18 @@ def test_nothing_is_asked_twice_while_there_is_something_else():
 def test_the_last_reason_is_about_the_function_whose_lines_are_shown(solution: Result):
     todos = [todo for todo in solution.todos if todo.id in ("3", "5", "7b")]
     with program_of(KIT / "solution", solution.with_todos(todos)) as program:
-        found = sheet_of(program, "ada", "5", Asked(number=0, film=0))
+        found = make_sheet(program, "ada", "5", Asked(number=0, film=0))
     assert [each.todos for each in found.questions] == [("3",), ("5",), ("7b",)]
 
 
 def test_what_flies_above_the_scene_is_in_the_picture():
     usual, flies = film_of([-100.0] * 5), film_of([-100.0, 20.0, 20.0, 20.0, 20.0])
-    assert frame_of([usual]) == (0.0, 30.0, 900.0, 560.0)
-    assert frame_of([usual, flies]) == (0.0, -30.0, 900.0, 620.0)
+    assert find_bounds([usual]) == (0.0, 30.0, 900.0, 560.0)
+    assert find_bounds([usual, flies]) == (0.0, -30.0, 900.0, 620.0)
 
 
 def test_what_a_course_hands_out_done_takes_part_and_is_not_asked_about():
-    names = [each.name for each in in_turn(MAKERS, program_with({"4"}, ALL - {"4"}))]
+    names = [each.name for each in take_turns(MAKERS, program_with({"4"}, ALL - {"4"}))]
     assert names == ["friction"]
 
 
@@ -129,7 +135,7 @@ def test_a_program_that_tells_false_numbers_is_not_asked_about_them(
     assert false != text
     folder = hand_in("solution", mini_engine__solver_py=false)
     with program_of(folder, solution) as program:
-        sheet = sheet_of(program, "eve", "1", Asked(film=0, line=0, why=0))
+        sheet = make_sheet(program, "eve", "1", Asked(film=0, line=0, why=0))
     assert [each.name for each in sheet.questions] == ["steps", "verlet", "friction"]
     (words,) = sheet.dropped
     assert words.startswith("impulse: closed form and their program differ")
@@ -141,20 +147,20 @@ def test_a_program_that_tells_false_numbers_is_not_asked_about_them(
 @pytest.mark.parametrize("answer", ["962", "962 kg px/s", " 9.62e2", "962,1", "+962"])
 def test_an_answer_is_read_as_people_write_it(answer: str):
     question = Question("x", "number", ("1",), "", 2, "962", 20.0, "kg px/s")
-    assert earned(question, answer) == 2
+    assert grade_answer(question, answer) == 2
 
 
 @pytest.mark.parametrize("answer", ["", "about 900", "1,036", "12 or 13", "--3", "nan"])
 def test_what_is_no_number_is_never_counted_as_a_wrong_one(answer: str):
     with pytest.raises(Unreadable):
-        earned(Question("x", "number", ("1",), "", 2, "962", 20.0, "kg px/s"), answer)
+        grade_answer(Question("x", "number", ("1",), "", 2, "962", 20.0, "kg px/s"), answer)
 
 
 def test_films_count_one_by_one():
     question = Question("x", "film", ("1",), "", 4, "badc")
-    assert [earned(question, each) for each in ("BADC", "b, a, c, d", "abcd")] == [4, 2, 0]
+    assert [grade_answer(question, each) for each in ("BADC", "b, a, c, d", "abcd")] == [4, 2, 0]
     with pytest.raises(Unreadable):
-        earned(question, "bad")
+        grade_answer(question, "bad")
 
 
 @pytest.mark.parametrize("error", [OverflowError, ZeroDivisionError, RecursionError, IndexError])
@@ -163,7 +169,7 @@ def test_numbers_that_make_no_sense_drop_a_question_and_not_the_class(error: typ
         raise error
 
     dropped: list[str] = []
-    assert made(iter([("it", ask)]), 1, dropped) == []
+    assert ask_some(iter([("it", ask)]), 1, dropped) == []
     assert dropped == [f"it: it could not be worked out ({error.__name__})"]
 
 
@@ -172,7 +178,7 @@ def test_a_ball_of_no_earthly_mass_is_not_asked_about(hand_in: HandIn, solution:
     false = text.replace("radius**2 / 100", "5e-324")
     assert false != text
     with program_of(hand_in("solution", mini_engine__scenes_py=false), solution) as program:
-        sheet = sheet_of(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
+        sheet = make_sheet(program, "eve", "1", Asked(number=1, film=0, line=0, why=0))
     assert [each.name for each in sheet.questions] == ["steps"]
     assert sheet.dropped[0].startswith("impulse: ")
 
@@ -184,7 +190,7 @@ def test_a_program_whose_scene_breaks_has_a_sheet_all_the_same(hand_in: HandIn, 
     folder = hand_in("solution", mini_engine__scenes_py=breaks)
     todos = [todo for todo in solution.todos if todo.id in ("1", "3")]
     with program_of(folder, solution.with_todos(todos)) as program:
-        sheet = sheet_of(program, "eve", "1", Asked())
+        sheet = make_sheet(program, "eve", "1", Asked())
     assert [each.name for each in sheet.questions] == [
         "depth",
         "why-centre-inside",
@@ -204,10 +210,10 @@ def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Re
     leaves = ends.replace("raise SystemExit", "__import__('os')._exit(3)")
     with program_of(hand_in("solution", mini_engine__scenes_py=leaves), solution) as program:
         for _ in range(4):
-            with pytest.raises((Unlike, Broke)):
+            with pytest.raises((CannotAsk, Broke)):
                 MAKERS[0].ask(program, "1", 2)
         assert program.own.deaths == 3
-        with pytest.raises(Unlike, match="too often"):
+        with pytest.raises(CannotAsk, match="too often"):
             MAKERS[0].ask(program, "1", 2)
 
 
@@ -218,7 +224,7 @@ def test_a_program_that_keeps_ending_is_left_alone(hand_in: HandIn, solution: Re
 def whole_sheet(solution: Result) -> Sheet:
     """The sheet of somebody who has the solution."""
     with program_of(KIT / "solution", solution) as program:
-        return sheet_of(program, "ada", "5", Asked())
+        return make_sheet(program, "ada", "5", Asked())
 
 
 def test_a_sheet_has_every_kind_and_the_points_of_the_course(whole_sheet: Sheet):
@@ -227,7 +233,7 @@ def test_a_sheet_has_every_kind_and_the_points_of_the_course(whole_sheet: Sheet)
     assert whole_sheet.points == 3 * 2 + 4 + 3 + 2 * 3
     assert not whole_sheet.dropped
     for each in whole_sheet.questions:
-        assert earned(each, each.answer) == each.by_machine
+        assert grade_answer(each, each.answer) == each.by_machine
 
 
 def test_films_are_different_pictures_of_one_scene_that_run_no_script(whole_sheet: Sheet):
@@ -262,19 +268,19 @@ def test_a_film_shows_a_change_by_what_the_lesson_lets_one_expect():
     falls = [100.0, 50.0, 0.0, 0.0, 0.0]
     usual, bounces = film_of([*falls[:3], 160.0, 0.0], 3.0), film_of([*falls[:3], 400.0, 0.0], 3.0)
     stays, slides, buzzes = (film_of(falls, turns) for turns in (3.0, 0.0, 6.0))
-    assert films.rise(usual) == pytest.approx(1.6)
-    assert films.turning(buzzes) == pytest.approx(6.0)
+    assert films.measure_rise(usual) == pytest.approx(1.6)
+    assert films.measure_turning(buzzes) == pytest.approx(6.0)
 
     def told(**shown: Film) -> bool:
         changed = {named[name.replace("_", "-")]: film for name, film in shown.items()}
-        return films.all_told({films.AS_IT_IS: usual} | changed)
+        return films.can_tell_apart({films.AS_IT_IS: usual} | changed)
 
     assert told(bouncy=bounces, no_bounce=stays) and not told(bouncy=usual)
     assert told(ice=slides) and not told(ice=film_of(falls, 2.5))
     assert told(no_spin=buzzes) and not told(no_spin=buzzes, ice=buzzes)
     assert not told(bouncy=bounces, all_at_once=bounces), "who could tell these two?"
     lower = film_of([*falls[:3], films.SEEN - 1, 0.0])
-    assert films.rise(lower) == 0.0, "a rise along the way down is not seen on paper"
+    assert films.measure_rise(lower) == 0.0, "a rise along the way down is not seen on paper"
 
 
 def test_nearly_every_scene_has_films_to_ask_about(solution: Result):
@@ -282,8 +288,8 @@ def test_nearly_every_scene_has_films_to_ask_about(solution: Result):
     with program_of(KIT / "solution", solution) as program:
         for seed in range(6):
             try:
-                found.append(films.film_question(program, f"scene {seed}", 4))
-            except Unlike:
+                found.append(films.ask_films(program, f"scene {seed}", 4))
+            except CannotAsk:
                 continue
     assert len(found) >= 5
     assert len({each.choices for each in found}) > 1
@@ -321,7 +327,7 @@ def test_what_is_asked_of_a_line_is_how_the_student_wrote_it(hand_in: HandIn, so
     )
     assert by_hand != text
     with program_of(hand_in("solution", mini_engine__solver_py=by_hand), solution) as program:
-        sheet = sheet_of(program, "bob", "1", Asked(number=0, film=0, line=0, why=1))
+        sheet = make_sheet(program, "bob", "1", Asked(number=0, film=0, line=0, why=1))
     (question,) = sheet.questions
     assert (question.name, question.code) == ("why-clamp-by-hand", ("if total > limit:",))
     assert question.by_hand == question.points == len(question.rubric)
@@ -343,7 +349,7 @@ def test_a_program_whose_films_lie_is_not_asked_about_them(
     text = (KIT / "solution/mini_engine/world.py").read_text()
     folder = hand_in("solution", mini_engine__world_py=f"{text}\n\n{LIAR}")
     with program_of(folder, solution) as program:
-        sheet = sheet_of(program, "eve", "1", Asked(number=1, line=0, why=0))
+        sheet = make_sheet(program, "eve", "1", Asked(number=1, line=0, why=0))
     assert [each.kind for each in sheet.questions] == ["number", "number"]
     assert any(words.startswith("films: its film of") for words in sheet.dropped)
 
@@ -352,7 +358,7 @@ def test_a_quarter_of_the_todos_is_enough_for_a_sheet(solution: Result):
     right = {"5", "8a", "7b"}
     todos = [t if t.id in right else structs.replace(t, state="not yet") for t in solution.todos]
     with program_of(KIT / "solution", solution.with_todos(todos)) as program:
-        sheet = sheet_of(program, "cy", "1", Asked())
+        sheet = make_sheet(program, "cy", "1", Asked())
     assert [each.kind for each in sheet.questions].count("number") == 3
     assert {each.kind for each in sheet.questions} == {"number", "line", "why"}
     assert right.issuperset(todo for each in sheet.questions for todo in each.todos)
@@ -369,7 +375,7 @@ def handed_back(tmp_path: Path, whole_sheet: Sheet) -> Path:
     return tmp_path / "out"
 
 
-def marked(out: Path, answers: str) -> Marked:
+def marked(out: Path, answers: str) -> Marking:
     table = out / "answers.csv"
     table.write_text(answers, encoding="utf-8")
     return mark_answers(table, out / "keys")
@@ -465,7 +471,7 @@ READ_BY_MOODLE = {
 
 
 def test_moodle_gets_what_its_importer_reads_with_pictures_in_it(whole_sheet: Sheet):
-    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A/B"))
+    quiz = ElementTree.fromstring(write_moodle([whole_sheet], "A/B"))
     category, *questions = quiz
     assert category.findtext("category/text") == "$course$/top/A//B/ada"
     kinds = [each.get("type") for each in questions]
@@ -486,7 +492,7 @@ def test_moodle_gets_what_its_importer_reads_with_pictures_in_it(whole_sheet: Sh
 
 
 def test_moodle_counts_right_what_the_key_does(whole_sheet: Sheet):
-    quiz = ElementTree.fromstring(moodle_xml([whole_sheet], "A"))
+    quiz = ElementTree.fromstring(write_moodle([whole_sheet], "A"))
     numerical, _, _, matching, multichoice = quiz[1:6]
     first, film, line = (whole_sheet.questions[number] for number in (0, 3, 4))
     right, *wrong = numerical.iter("answer")
@@ -518,7 +524,7 @@ def run_cells(cells: list[dict[str, Any]], answers: dict[str, object]) -> dict[s
 
 
 def test_a_notebook_marks_itself_as_the_key_does(whole_sheet: Sheet):
-    cells = json.loads(notebook(whole_sheet, "Physics"))["cells"]
+    cells = json.loads(write_notebook(whole_sheet, "Physics"))["cells"]
     ids = [each["metadata"]["nbgrader"]["grade_id"] for each in cells]
     assert len(set(ids)) == len(ids)
     points = [each["metadata"]["nbgrader"].get("points", 0) for each in cells]
@@ -541,7 +547,7 @@ def test_a_notebook_marks_itself_as_the_key_does(whole_sheet: Sheet):
 
 
 def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
-    text = notebook(whole_sheet, "Physics").decode()
+    text = write_notebook(whole_sheet, "Physics").decode()
     for each in json.loads(text)["cells"]:
         source = "".join(each["source"])
         source = re.sub(r"### BEGIN (SOLUTION|HIDDEN TESTS).*?### END \1", "", source, flags=re.S)
@@ -556,7 +562,7 @@ def test_what_nbgrader_hands_out_has_no_answer(whole_sheet: Sheet):
 
 @pytest.fixture(scope="module")
 def practice() -> Practice:
-    return msgspec.json.decode(practice_of(FULL), type=Practice)
+    return msgspec.json.decode(make_practice(FULL), type=Practice)
 
 
 def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
@@ -564,18 +570,18 @@ def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
     for each in practice.cases:
         assert len({question.text for question in each.questions}) >= 10, each.name
         for question in each.questions:
-            assert earned(question, question.answer) == question.points
-            assert not any(earned(question, wrong.answer) for wrong in question.wrong)
+            assert grade_answer(question, question.answer) == question.points
+            assert not any(grade_answer(question, wrong.answer) for wrong in question.wrong)
 
 
 def test_at_home_all_kinds_are_asked_without_a_reference(practice: Practice, solution: Result):
     with program_of(KIT / "solution", solution) as program:
         alone = Program(program.own, None, program.right, practice.given)
         some, others = (
-            sheets.sheet_of(alone, "practice", seed, practice.asked, practice.cases)
+            sheets.make_sheet(alone, "practice", seed, practice.asked, practice.cases)
             for seed in ("1", "2")
         )
-        known = {each.answer for each in sheet_of(program, "ada", "5", Asked()).questions[:3]}
+        known = {each.answer for each in make_sheet(program, "ada", "5", Asked()).questions[:3]}
     kinds = [each.kind for each in some.questions]
     assert kinds == ["number"] * 3 + ["film", "line", "why", "why"]
     assert some.points == 3 * 2 + 4 + 3 + 2 * 3
@@ -684,12 +690,12 @@ def test_no_line_of_the_solution_is_shown_to_who_wrote_another(tmp_path: Path, s
     member.build(KIT, folder)
     todos = [t for t in solution.todos if t.id in ("8a", "8b", "8c")]
     with program_of(folder, solution.with_todos(todos)) as program:
-        sheet = sheet_of(program, "dee", "1", Asked(number=0, film=0))
+        sheet = make_sheet(program, "dee", "1", Asked(number=0, film=0))
         own = "\n".join(program.own.texts.values())
     assert [each.kind for each in sheet.questions] == ["line", "why", "why"]
     theirs = {line for line in solution_lines() if line not in own}
     assert theirs
-    pages = page(sheet, "x", "sheet") + page(sheet, "x", "key")
+    pages = make_page(sheet, "x", "sheet") + make_page(sheet, "x", "key")
     assert not [line for line in theirs if str(escape(line)) in pages]
 
 
@@ -701,7 +707,7 @@ def test_every_right_member_of_the_bank_gets_a_whole_sheet(
     folder = tmp_path / "handed-in"
     member.build(KIT, folder)
     with program_of(folder, solution) as program:
-        sheet = sheet_of(program, member.name, "bank", Asked())
+        sheet = make_sheet(program, member.name, "bank", Asked())
     assert len(sheet.questions) == 7
     assert {each.kind for each in sheet.questions} >= {"number", "line", "why"}
 
@@ -711,7 +717,7 @@ def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, wh
     pages = []
     for kind in ("sheet", "key", "practice"):
         pages.append(tmp_path / f"{kind}.html")
-        pages[-1].write_text(page(whole_sheet, "Us", kind), encoding="utf-8")
+        pages[-1].write_text(make_page(whole_sheet, "Us", kind), encoding="utf-8")
     shown = "svg => getComputedStyle([...svg.querySelectorAll('g')].pop()).opacity"
     with chromium() as browser:
         tab = browser.new_page()

@@ -64,12 +64,11 @@ def want_energy(lab: Lab, x: float, v: float) -> None:
 HINTS = (
     '\n9 = [\n  "Which two things store energy?",\n  "Add them.",\n  "Half of v², and so on.",\n]\n'
 )
-WRONG = '''"""Forgets the energy of the motion."""
-
-# TODO 9: add both kinds of energy
-total = 0.5 * (OMEGA * x) ** 2
-# END TODO 9
-'''
+WRONG = """
+[forgets-the-motion]
+why = "Forgets the energy of the motion."
+code = "total = 0.5 * (OMEGA * x) ** 2"
+"""
 ROW = "| [9](#todo-9-the-energy-of-the-spring) | 3 | 2 | `integrators.py` | `energy` |\n"
 SECTION = """## TODO 9: the energy of the spring
 
@@ -102,7 +101,7 @@ def add_todo_9(kit: Path) -> None:
     )
     edit(sheet, row, row + ROW)
     edit(sheet, "## Done when", f"{SECTION}## Done when")
-    wrong = kit / "tests" / "bank" / "wrong" / "9-forgets-the-motion.py"
+    wrong = kit / "tests" / "bank" / "wrong" / "9.toml"
     wrong.write_text(WRONG, encoding="utf-8")
 
 

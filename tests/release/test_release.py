@@ -19,7 +19,7 @@ from page_readers import barriers, chromium
 from rich.console import Console
 
 from grader.bank.members import Member, members
-from grader.bank.sync import students_files
+from grader.bank.sync import list_students_files
 from grader.bank.verify import Report, shared_worker
 from grader.checks import exact
 from grader.judge import misconceptions, recorded
@@ -28,10 +28,17 @@ from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, load_rubric, visible
 from grader.release import build as releases
 from grader.release import students_copy
-from grader.release.build import Refused, build, build_wheel, look_for_leaks, pinned, prove
-from grader.release.leaks import Secret, leaks_in_text, secrets_of, texts_in
-from grader.release.pages import as_page
-from grader.release.students_copy import Tree, cut_checks, hidden_checks, record
+from grader.release.build import (
+    Refused,
+    build,
+    build_wheel,
+    look_for_leaks,
+    prove,
+    strip_build_packages,
+)
+from grader.release.leaks import Secret, find_leaks_in_text, find_secrets, read_texts
+from grader.release.pages import make_page
+from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, record_answers
 from grader.source.cut import pruned, with_bodies
 from grader.source.regions import replaced
 
@@ -39,7 +46,7 @@ WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" an
 REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
 for todo in REGIONS:
     misconceptions.load_known(todo)
-KNOWN = {f"{mistake.todo}-{mistake.id}" for mistake in misconceptions.known}
+KNOWN = {f"{mistake.todo}-{mistake.id}" for mistake in misconceptions.known_mistakes}
 NAMED = [member for member in WRONG if not member.bonus and member.name in KNOWN]
 EACH = list({REGIONS[min(member.todos)]: member for member in NAMED}.values())  # one a file
 SAMPLE = EACH[::3]  # the soak has them all
@@ -80,7 +87,7 @@ class Released:
         """What `check` says in the students' copy of the grader."""
         asked = "\n".join(json.dumps([str(path), sorted(todos)]) for path, todos in submissions)
         done = subprocess.run(
-            releases.alone(self.installed, f"exec({GRADE!r})"),
+            releases.make_command(self.installed, f"exec({GRADE!r})"),
             cwd=self.installed,
             input=asked,
             capture_output=True,
@@ -128,7 +135,7 @@ def released(once, expected_runs: bytes) -> Released:
         marks = {"solution": most}
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(releases, "record_expected", lambda *_: expected_runs)
-            patched.setattr(students_copy, "record", recorded_for_some)
+            patched.setattr(students_copy, "record_answers", recorded_for_some)
             patched.setattr(
                 releases,
                 "grade_with",
@@ -141,12 +148,12 @@ def released(once, expected_runs: bytes) -> Released:
 
 def recorded_for_some(wrong: Iterable[Tree], rubric: Rubric) -> recorded.Recorded:
     """The right answers of those TODOs alone that `make test` asks of the copy."""
-    return record(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
+    return record_answers(wrong, Rubric([todo for todo in rubric.todos if todo.id in ASKED]))
 
 
 @pytest.fixture(scope="session")
 def secrets() -> list[Secret]:
-    return secrets_of(KIT)
+    return find_secrets(KIT)
 
 
 # ---------------------------------------------------------------- the students' grader
@@ -284,7 +291,7 @@ def test_students_can_practise_questions_about_their_own_program(
     code = "sys.argv = ['grader', 'questions', *{!r}]; from grader.cli.main import main; main()"
 
     def asked(*words: str) -> subprocess.CompletedProcess[str]:
-        command = releases.alone(released.installed, code.format(words))
+        command = releases.make_command(released.installed, code.format(words))
         return subprocess.run(command, cwd=own, capture_output=True, text=True)
 
     done = asked("--seed", "3")
@@ -305,7 +312,9 @@ def test_students_can_practise_questions_about_their_own_program(
 def test_every_region_has_something_to_look_for(secrets: list[Secret]):
     named = " ".join(secret.what for secret in secrets)
     assert not [todo for todo in REGIONS if f"TODO {todo}" not in named]
-    assert {f"{name}" for name in hidden_checks(load_rubric())} <= {each.text for each in secrets}
+    assert {f"{name}" for name in list_hidden_checks(load_rubric())} <= {
+        each.text for each in secrets
+    }
 
 
 def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: Released):
@@ -318,7 +327,7 @@ def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: 
         *("program", "question", "reasons", "scene", "sheet"),
     }
     texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
-    for name in hidden_checks(load_rubric()):
+    for name in list_hidden_checks(load_rubric()):
         assert not [text for text in texts if name in text]
     theirs = (released.installed / "grader" / "checks" / "exact.py").read_text(encoding="utf-8")
     for name in recorded.oracles:
@@ -346,14 +355,14 @@ RENAMED = {
 @pytest.mark.parametrize("todo", RENAMED)
 def test_a_line_is_found_under_other_names(todo: str, secrets: list[Secret]):
     text = f"Two lines.\nWrite `{RENAMED[todo]}` there.\n"
-    found = list(leaks_in_text("page.md", text, secrets))
+    found = list(find_leaks_in_text("page.md", text, secrets))
     assert found and found[0].line == 2
     assert f"TODO {todo}" in found[0].what
 
 
 def test_what_students_have_anyway_is_no_leak(secrets: list[Secret]):
-    for path in [*students_files(KIT).values(), *(KIT / "handouts").glob("*.md")]:
-        assert not list(leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
+    for path in [*list_students_files(KIT).values(), *(KIT / "handouts").glob("*.md")]:
+        assert not list(find_leaks_in_text(path.name, path.read_text(encoding="utf-8"), secrets))
 
 
 def packed(name: str, text: str | bytes) -> bytes:
@@ -378,8 +387,8 @@ FORMS = {
 def test_a_line_is_found_in_every_kind_of_file(name: str, secrets: list[Secret]):
     found = [
         leak
-        for file, text in texts_in(name, FORMS[name])
-        for leak in leaks_in_text(file, text, secrets)
+        for file, text in read_texts(name, FORMS[name])
+        for leak in find_leaks_in_text(file, text, secrets)
     ]
     assert {leak.what for leak in found} == {"TODO 4"}
 
@@ -388,7 +397,7 @@ def test_planted_leaks_stop_the_release(
     released: Released, secrets: list[Secret], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """A solution line in the starter, in a handout, in the hints and in the wheel's code."""
-    monkeypatch.setattr(releases, "secrets_of", lambda *_: secrets)  # found out once
+    monkeypatch.setattr(releases, "find_secrets", lambda *_: secrets)  # found out once
     tree = tmp_path / releases.NAME
     shutil.copytree(released.tree, tree)
     solver = (KIT / "solution" / "mini_engine" / "solver.py").read_text(encoding="utf-8")
@@ -444,7 +453,7 @@ def test_no_file_of_a_release_holds_a_condition_of_our_pages(released: Released)
     texts = [
         (name, text)
         for path in sorted(path for path in released.built.rglob("*") if path.is_file())
-        for name, text in texts_in(path.name, path.read_bytes())
+        for name, text in read_texts(path.name, path.read_bytes())
     ]
     assert any(name.endswith("/README.md") for name, _ in texts)
     assert not [name for name, text in texts if re.search("<!--[%=]", text)]
@@ -464,12 +473,12 @@ def test_the_readme_names_what_is_there(released: Released):
 
 
 def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
-    files = students_files(KIT)
+    files = list_students_files(KIT)
     for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
         files[f"notebooks/{path.name}"] = path
     assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(files)
     made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
-    there = [name for name, _ in releases.files_in(released.tree)]
+    there = [name for name, _ in releases.list_files(released.tree)]
     assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
     for name in set(files) - made:
         assert (released.tree / name).read_bytes() == files[name].read_bytes()
@@ -518,7 +527,7 @@ def test_the_pages_are_for_all(released: Released):
 
 def test_a_page_keeps_words_of_links_that_lead_nowhere():
     text = "# A <title>\n\n[here](b.md#c), [there](none.md)\n\n## C, d\n"
-    page = as_page("a.md", {"a.md": text, "b.md": "# B\n"})
+    page = make_page("a.md", {"a.md": text, "b.md": "# B\n"})
     assert '<a href="b.html#c">here</a>, there' in page
     assert "<title>A &lt;title&gt;</title>" in page and 'id="c-d"' in page
 
@@ -529,7 +538,7 @@ def test_the_manifest_knows_every_file(released: Released):
     content = rows.pop(0).split()[-1]
     assert re.fullmatch("[0-9a-f]{64}", content) and content[:8] in released.archive.name
     sums = dict(reversed(row.split("  ")) for row in rows if not row.startswith("#"))
-    files = dict(releases.files_in(released.tree))
+    files = dict(releases.list_files(released.tree))
     assert set(sums) == set(files) - {"MANIFEST.txt"}
     assert all(releases.sha256(files[name].read_bytes()) == sums[name] for name in sums)
 
@@ -592,7 +601,7 @@ def test_the_release_is_the_same_wherever_and_whenever_it_is_built(tmp_path: Pat
 @pytest.mark.soak
 def test_two_builds_are_the_same_byte_by_byte(tmp_path: Path):
     once, again = (make(tmp_path / name, SAMPLE) for name in ("once", "again"))
-    files = [dict(releases.files_in(each.built)) for each in (once, again)]
+    files = [dict(releases.list_files(each.built)) for each in (once, again)]
     assert set(files[0]) == set(files[1])
     assert all(files[0][name].read_bytes() == files[1][name].read_bytes() for name in files[0])
 
@@ -603,7 +612,7 @@ def test_only_what_runs_is_required():
         "setuptools==84.0 \\\n    --hash=sha256:bb\n    # via kit (pyproject.toml:build)\n"
         "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n    # via rich\n"
     )
-    assert pinned(lock) == (
+    assert strip_build_packages(lock) == (
         "rich==15.0.0 \\\n    --hash=sha256:aa\n"
         "tzdata==1.0 ; sys_platform == 'win32' \\\n    --hash=sha256:cc\n"
     )
@@ -625,7 +634,7 @@ def test_a_student_unpacks_checks_and_hands_in(
     def types(*words: str) -> tuple[int, str]:
         argv = ["grader", *words]
         code = f"import runpy; sys.argv = {argv!r}; runpy.run_module('grader', run_name='__main__')"
-        command = releases.alone(released.installed, first + code)
+        command = releases.make_command(released.installed, first + code)
         done = subprocess.run(command, cwd=tree / folder, capture_output=True, text=True)
         assert not done.stderr
         return done.returncode, done.stdout
@@ -660,7 +669,7 @@ def test_a_student_unpacks_installs_and_checks(released: Released, tmp_path: Pat
     status, words = check(tree)
     most = visible(load_rubric()).max_points
     assert status == 1 and f"0 / {most}" in words, words
-    for name, path in releases.files_in(KIT / "solution"):
+    for name, path in releases.list_files(KIT / "solution"):
         if name.endswith(".py") and (tree / name).is_file():
             shutil.copyfile(path, tree / name)
     status, words = check(tree / "mini_engine")

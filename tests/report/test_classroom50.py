@@ -16,7 +16,7 @@ import pytest
 from grader.bank.members import make_mistake
 from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric, visible
-from grader.release.students_copy import hidden_checks
+from grader.release.students_copy import list_hidden_checks
 from grader.report.sinks.classroom50 import BUNDLE, write_bundle
 
 ALL_BUT_THE_DOWNLOAD = """
@@ -137,7 +137,7 @@ def test_the_page_says_how_many_points_there_are_to_have():
     page = (KIT / "handouts" / "instructor" / "ci.md").read_text(encoding="utf-8")
     assert f"out of {most}: the other {100 - most} come" in " ".join(page.split())
     guide = (KIT / "handouts" / "instructor" / "guide.md").read_text(encoding="utf-8")
-    hidden = hidden_checks(load_rubric())
+    hidden = list_hidden_checks(load_rubric())
     assert len(hidden) == 7 and f"Seven checks, {100 - most} points, ask" in guide
 
 

@@ -7,10 +7,10 @@ import pytest
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 
 from grader.judge.result import CheckResult, Result, TodoResult, Where
-from grader.player.film import Line, Take
-from grader.player.page import page
-from grader.player.pairing import replay
-from grader.protocol import BodyLook, BodyRow, ShapeLook, Shot
+from grader.player.page import make_page
+from grader.player.pairing import pair_runs
+from grader.player.runs import Line, Run
+from grader.protocol import BodyLook, BodyRow, Moment, ShapeLook
 from grader.report.html import write_report
 
 
@@ -44,8 +44,8 @@ def result(name: str = "ada", words: str = "words", replay: str | None = None) -
 def little_replay() -> str:
     look = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
     row = BodyRow(1, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0)
-    line = Line("call", "1", [Shot(0.0, 0, [row], [], [])], code="it()")
-    return page("A replay", [], replay([Take("", [line, line], {1: look})], []), "print()")
+    line = Line("call", "1", [Moment(0.0, 0, [row], [], [])], code="it()")
+    return make_page("A replay", [], pair_runs([Run("", [line, line], {1: look})], []), "print()")
 
 
 def written(tmp_path: Path, made: Result) -> Reader:

@@ -9,10 +9,17 @@ from conftest import KIT
 from programs import BONUS, SOLUTION, STARTER, TODOS, copy_of, edit, regions
 
 from grader.bank import sync as sync_module
-from grader.bank.sync import LAID_IN, OutOfStep, given_files, laid_in, students_files, sync
+from grader.bank.sync import (
+    LAID_IN,
+    OutOfStep,
+    is_laid_in,
+    list_given_files,
+    list_students_files,
+    sync,
+)
 from grader.source.regions import RegionError, python_files, regions_in, replaced
 
-IN_BOTH = [name for name in given_files(SOLUTION) if not laid_in(name)]
+IN_BOTH = [name for name in list_given_files(SOLUTION) if not is_laid_in(name)]
 TREES = pytest.mark.parametrize("tree", [SOLUTION, STARTER], ids=["solution", "starter"])
 
 
@@ -33,16 +40,16 @@ def test_sync_finds_nothing_to_do():
 
 
 def test_the_starter_has_the_solutions_files_but_those_that_are_laid_in():
-    assert given_files(STARTER) == IN_BOTH
+    assert list_given_files(STARTER) == IN_BOTH
     assert "mini_engine/world.py" in IN_BOTH
 
 
 def test_students_get_all_the_files_of_the_solution_and_no_region_of_it():
-    files = students_files(KIT)
-    assert sorted(files) == given_files(SOLUTION)
+    files = list_students_files(KIT)
+    assert sorted(files) == list_given_files(SOLUTION)
     for name, path in files.items():
-        assert path == (SOLUTION if laid_in(name) else STARTER) / name
-        assert not laid_in(name) or path.read_bytes() == emptied(path), "a TODO to be handed out"
+        assert path == (SOLUTION if is_laid_in(name) else STARTER) / name
+        assert not is_laid_in(name) or path.read_bytes() == emptied(path), "a TODO to be handed out"
 
 
 def test_all_that_is_laid_in_is_there():
@@ -96,7 +103,7 @@ def copies(tmp_path, monkeypatch):
 
 
 def contents(tree: Path) -> dict[str, bytes]:
-    return {name: (tree / name).read_bytes() for name in given_files(tree)}
+    return {name: (tree / name).read_bytes() for name in list_given_files(tree)}
 
 
 def change_a_given_line(tree: Path) -> str:

@@ -5,7 +5,6 @@ where it was refused. `make verify` grades them with all layers.
 """
 
 import os
-import re
 import shutil
 import sys
 from collections.abc import Iterator
@@ -14,7 +13,7 @@ from pathlib import Path
 import pytest
 from test_security import SWITCHES, expected_layers
 
-from grader.bank.members import patch
+from grader.bank.members import patch, read_marks
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import KIT, Options, sandbox_for
 from grader.judge.submission import Submission
@@ -32,7 +31,7 @@ MEMBERS = {
     for path in sorted((KIT / "tests" / "bank" / "hostile").glob("*.py"))
     if "refused: no points" in path.read_text(encoding="utf-8")
 }
-WHY = re.compile(r'^\[hostile\.(\S+)\]\nwhy = "(.+)"\n', re.MULTILINE)
+MARKS = read_marks(KIT / "tests" / "bank", "hostile")
 NAMESPACES = {"user-namespace", "network-namespace", "pid-namespace"}
 ALONE = {  # a column of the table, and what its world has
     "filter": {"system-calls"},
@@ -98,11 +97,10 @@ def test_what_stops_it_is_what_the_page_says(member: str, workers, tmp_path: Pat
     }
     assert not through["everything"]
     assert through["nothing"] or member in NEEDS_RIGHTS, "this is no attack: nothing refuses it"
-    why = dict(WHY.findall((KIT / "tests" / "bank" / "bank.toml").read_text(encoding="utf-8")))
     stopped = {world: not through[world] for world in ALONE}
     if member in NEEDS_RIGHTS and os.geteuid() != 0:
         return  # an ordinary user may do some of these to processes of the same account
-    assert on_the_page(member) == row(member, why[member], stopped)
+    assert on_the_page(member) == row(member, MARKS[member].why, stopped)
 
 
 def test_every_attack_is_on_the_page():

@@ -210,13 +210,14 @@ SIDES = (-1, 0), (1, 0), (0, -1), (0, 1)
 CORNERS = (-1, -1), (-1, 1), (1, -1), (1, 1)
 SCALES = (1.0, 1 / 8, 256.0, 1 / 4)
 PLACES = (-48.0, 32.0), (500_000.0, -40_000.0)  # px, near and far away
-MIDDLE, CLOSE, HARDLY = 0.5, 1 / 64, 63 / 64  # shares of a way
+CLOSE, HARDLY = 1 / 64, 63 / 64  # shares of a way
 
 
 def regions(size: Size, share: float) -> Iterator[Pair]:
     """Places of a centre, as seen from the middle of the box: one in every region there is.
 
-    `share`, from 0 to 1, says how far inside or outside they are.
+    `share`, from 0 to 1, says how far inside or outside they are. All shares are parts of 64, so
+    that sums are exact.
     """
     hx, hy, r = size
     least = min(hx, hy)
@@ -225,9 +226,14 @@ def regions(size: Size, share: float) -> Iterator[Pair]:
         for way in (-share * least / 2, share * r, CLOSE * r, HARDLY * r, 0.0, r * (1 + share)):
             yield (sx * (hx + way), along) if sx else (along, sy * (hy + way))
     for sx, sy in CORNERS:  # two inner faces are nearly as near, and then the other way round
-        yield sx * (hx - 0.7 * least), sy * (hy - 0.5 * least)
-        yield sx * (hx - 0.5 * least), sy * (hy - 0.6 * least)
-        for across, down in ((0.6, 0.75 * share), (CLOSE, MIDDLE), (0.75, 0.75), (0.6, 0.8)):
+        yield sx * (hx - 45 / 64 * least), sy * (hy - least / 2)
+        yield sx * (hx - least / 2), sy * (hy - 39 / 64 * least)
+        for across, down in (
+            (5 / 8, 3 / 4 * share),
+            (CLOSE, 1 / 2),
+            (3 / 4, 3 / 4),
+            (3 / 8, 5 / 8),
+        ):
             yield sx * (hx + across * r), sy * (hy + down * r)
         yield sx * hx, sy * hy
     yield 0.0, 0.0

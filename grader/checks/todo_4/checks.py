@@ -79,8 +79,9 @@ def rub(
     last = motion(lab.state(a), lab.state(b))
     rubbing = rubbed(discs, first, last)
     want_opposite(lab, discs, first, last, max(closing / discs.k, 0.0), rubbing)
-    lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
-    if spin:
+    if not spin:
+        lab.saw("friction", (discs.mu, discs.k, closing, slip), rubbing)
+    else:
         want_contact(lab, world, discs, max(closing / discs.k, 0.0), rubbing)
     return rubbing
 
@@ -231,7 +232,7 @@ WEIGHTS = 1.0, 1024.0, 1 / 1024  # times the mass
 OFF = math.sin(1 / 64), math.cos(1 / 64)  # hardly off an upright normal
 NORMALS = (ASLANT, OFF, (-1.0, 0.0), (-0.8, 0.6), (0.0, -1.0), (OFF[1], -OFF[0]), (-0.28, -0.96))
 SPINS = 0.0625, -0.0625, 2.0, -2.0  # rad/s
-SHARES = 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 4.0, -4.0, 100.0, -100.0
+SHARES = 4.0, -4.0, 0.25, -0.25, 63 / 64, -63 / 64, 65 / 64, -65 / 64, 100.0, -100.0
 
 
 def slips(discs: Discs, closing: float) -> Iterator[float]:
@@ -266,7 +267,8 @@ def any_two_bodies_rub_within_their_limit(
     for n, (kind, weight) in enumerate(product(KINDS, WEIGHTS)):
         normal = nearly if n == 4 else NORMALS[n % 7]
         mass_a, mass_b = (weight * m * each for m, each in zip(mass, kind, strict=True))
-        discs = Discs((mu, mu[::-1], (1.5, 3.0))[n % 3], (mass_a, mass_b), normal, radius, drift)
+        rough = (mu, (mu[1], mu[0]), (1.5, 3.0))[n % 3]
+        discs = Discs(rough, (mass_a, mass_b), normal, radius, drift)
         if n % 2:
             discs = discs._replace(drift=(slow, -slow))
         for number, slip in enumerate(slips(discs, closing)):

@@ -6,8 +6,7 @@ from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, clamped
-from grader.judge.misconceptions import Undecided, mistake, truth
-from grader.judge.misconceptions import known as registered
+from grader.judge.misconceptions import Undecided, known_mistakes, mistake, truth
 
 Limit = Callable[[Pair, float], float]  # both frictions, jn -> the limit
 Rule = Callable[[float, float, float], float]  # total so far, total wanted, limit -> new total
@@ -270,7 +269,7 @@ RULES: tuple[tuple[str, Rule], ...] = (
 
 
 def meaning_of(name: str) -> str:
-    return next(each.meaning for each in registered if (each.todo, each.id) == ("4", name))
+    return next(each.meaning for each in known_mistakes if (each.todo, each.id) == ("4", name))
 
 
 for limit_name, limit_of in LIMITS.items():

@@ -154,7 +154,7 @@ def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
     }
 
 
-@given(examples=1, shrinks=False, rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
+@given(examples=1, rate=frame_rates, mixed=frame_lists, asked=frames_to_advance())
 def any_frames_lose_nothing_but_what_the_cap_cuts(
     lab: Lab, rate: int, mixed: list[int], asked: list[tuple[float, float]]
 ) -> None:

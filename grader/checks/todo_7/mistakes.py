@@ -9,7 +9,7 @@ from functools import partial
 
 from grader.checks import exact
 from grader.judge.lab import STEP, Pair
-from grader.judge.misconceptions import Model, Undecided, alike, always, mistake, truth
+from grader.judge.misconceptions import Model, Undecided, always, are_close, mistake, truth
 
 # ---------------------------------------------------------------- 7a: the gravity, px/s²
 
@@ -138,7 +138,7 @@ def length_off(off: int) -> Callable[[list[Rod]], int]:
     """A rod in the right place that is too long (1) or too short (-1)."""
 
     def model(rods: list[Rod]) -> int:
-        if not alike(rods, right_rod()):
+        if not are_close(rods, right_rod()):
             raise Undecided
         return off
 

@@ -6,7 +6,7 @@ from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
-from grader.judge.misconceptions import mistake, right, truth
+from grader.judge.misconceptions import mistake, right_models, truth
 
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 Force = Sequence[float]
@@ -55,7 +55,7 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
         about,
         "the-spring-itself",
         "The acceleration of the lesson's spring is used, whatever force is asked about: accel(x).",
-        lambda x, v, dt, force, about=about: right[about](x, v, dt, SPRING),
+        lambda x, v, dt, force, about=about: right_models[about](x, v, dt, SPRING),
     )
 
 
@@ -369,7 +369,7 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
             about,
             f"step-of-{words.replace('/', '-')}",
             f"Every step is taken to last {words} s; it lasts dt.",
-            lambda x, v, dt, force, about=about, seconds=seconds: right[about](
+            lambda x, v, dt, force, about=about, seconds=seconds: right_models[about](
                 x, v, seconds, force
             ),
         )
@@ -379,21 +379,21 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
             about,
             "velocity-returned-first",
             "The pair is the wrong way round: return x first, then v.",
-            lambda x, v, dt, force, about=about: right[about](x, v, dt, force)[::-1],
+            lambda x, v, dt, force, about=about: right_models[about](x, v, dt, force)[::-1],
         )
     mistake(
         todo,
         about,
         "x-is-not-moved",
         "x comes back as it was: it must move.",
-        lambda x, v, dt, force, about=about: (x, right[about](x, v, dt, force)[1]),
+        lambda x, v, dt, force, about=about: (x, right_models[about](x, v, dt, force)[1]),
     )
     mistake(
         todo,
         about,
         "v-is-not-changed",
         "v comes back as it was: the acceleration must change it.",
-        lambda x, v, dt, force, about=about: (right[about](x, v, dt, force)[0], v),
+        lambda x, v, dt, force, about=about: (right_models[about](x, v, dt, force)[0], v),
     )
 
 

@@ -1,10 +1,9 @@
 """What a recorded run must be, whoever recorded it: what touches nothing falls, and nothing jumps.
 
-A submission runs in one process with the camera, and can put a film of its own into the camera's
-place. So a film is not believed but compared with what can be worked out without the program: where
-the balls begin, and each step of a ball that is clear of all else. What touches something may be
-pushed, but it is near where it was, and at a speed that a fall can give. Who invents a film that
-passes has simulated it.
+A submission runs in one process with the recorder, and can send a recording of its own. So a
+recording is compared with what can be computed without the program: where the balls begin, and each
+step of a ball that is clear of all else. What touches something may be pushed, but it is near where
+it was, and at a speed that a fall can give. An invented recording that passes is a simulation.
 """
 
 import math

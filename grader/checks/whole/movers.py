@@ -101,7 +101,7 @@ def columns(played: Played, last: list[Moment]) -> Iterator[tuple[int, float]]:
         if isinstance(body, SpaceBody) and body.kind == "dynamic" and body.shapes:
             shape = body.shapes[0]
             if shape.kind == "Circle":
-                yield nearest(last, tuple(body.pos)), shape.radius
+                yield nearest(last, (body.pos.x, body.pos.y)), shape.radius
 
 
 def nearest(row: list[Moment], place: tuple[float, float]) -> int:

@@ -18,7 +18,7 @@ from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
-from grader.judge.wording import told
+from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import write_gradescope
@@ -71,7 +71,7 @@ def grade_submission(submission: Path) -> bytes:
         console.print(clean(note))
     show(result, console)
     show_isolation(result, console)
-    return write_gradescope(told(result, course), course)
+    return write_gradescope(withhold_reasons(result, course), course)
 
 
 def explain(why: str, next_step: str) -> bytes:

@@ -4,6 +4,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -222,10 +223,8 @@ def open_gradebook(course: Path, api: ModuleType) -> Iterator[Any]:
 
 def load_nbgrader() -> ModuleType:
     try:
-        import nbgrader.api
+        return import_module("nbgrader.api")
     except ImportError as error:
         raise Stop(
             "nbgrader is not installed here: python -m pip install nbgrader matplotlib"
         ) from error
-    api: ModuleType = nbgrader.api
-    return api

@@ -1,32 +1,32 @@
 "use strict";
 (() => {
   const byId = (id) => document.getElementById(id);
-  const film = JSON.parse(byId("film").textContent);
+  const replay = JSON.parse(byId("replay").textContent);
   const canvas = byId("picture"), stage = stageOn(canvas), { digits } = stage;
-  const slider = byId("frame");
+  const slider = byId("moment");
   const FIELDS = ["x", "y", "vx", "vy", "angle", "omega"];
   const UNITS = { x: "px", y: "px", vx: "px/s", vy: "px/s", angle: "rad", omega: "rad/s", mass: "kg", moment: "kg px²" };
 
-  // ---------------------------------------------------------------- frames
+  // ---------------------------------------------------------------- moments
 
   const starts = [];
   let count = 0;
-  for (const scene of film.scenes) {
+  for (const scene of replay.scenes) {
     stage.prepare(scene);
     starts.push(count);
     count += scene.mine.length;
   }
-  const partAt = film.parting ? starts[film.parting.scene] + film.parting.frame : null;
+  const partAt = replay.parting ? starts[replay.parting.scene] + replay.parting.moment : null;
 
   function at(position) {
     let number = starts.length - 1;
     while (starts[number] > position) number -= 1;
-    const scene = film.scenes[number], frame = position - starts[number];
-    const line = scene.lines.findLast((each) => each.at <= frame);
-    return { scene, number, frame, line, mine: scene.mine[frame], right: scene.right[frame] };
+    const scene = replay.scenes[number], moment = position - starts[number];
+    const line = scene.lines.findLast((each) => each.at <= moment);
+    return { scene, number, moment, line, mine: scene.mine[moment], right: scene.right[moment] };
   }
 
-  // How far apart the runs are in a frame, in px of the picture; a body that one of them lacks is.
+  // How far apart the runs are in a moment, in px of the picture; a body that one of them lacks is.
   function apart(position) {
     const { scene, mine, right } = at(position);
     if (!right) return 0;
@@ -41,15 +41,15 @@
   }
 
   const SEEN = 2; // px of the picture
-  for (const scene of film.scenes) scene.scale = stage.scaleOf(scene);
+  for (const scene of replay.scenes) scene.scale = stage.scaleOf(scene);
   const gaps = Array.from({ length: count }, (_, position) => apart(position));
   const seenAt = gaps.findIndex((gap) => gap >= SEEN);
   const largestAt = gaps.reduce((best, gap, position) => (gap > gaps[best] ? position : best), 0);
   // ---------------------------------------------------------------- words and numbers
 
   // Where nothing is off to be seen, the end is the fullest picture.
-  const nowhere = partAt ?? (film.told ? count - 1 : 0);
-  let position = seenAt < 0 ? nowhere : seenAt, chosen = film.parting?.body || null;
+  const nowhere = partAt ?? (replay.note ? count - 1 : 0);
+  let position = seenAt < 0 ? nowhere : seenAt, chosen = replay.parting?.body || null;
 
   function showValues(now) {
     const { scene } = now;
@@ -67,7 +67,7 @@
     if (!scene.curve) {
       for (const name of ["mass", "moment"]) {
         const own = scene.looks[chosen]?.[name], other = scene.expected_looks[chosen]?.[name];
-        if (own !== null && own !== undefined) rows.push([name, UNITS[name], own, other ?? undefined]);
+        if (own !== null && own !== undefined) rows.push([name === "moment" ? "moment of inertia" : name, UNITS[name], own, other ?? undefined]);
       }
     }
     const body = byId("values").tBodies[0];
@@ -113,11 +113,11 @@
     const steps = now.mine.steps > 1 || now.right?.steps > 1
       ? ` · ${now.mine.steps} steps${now.right && now.right.steps !== now.mine.steps ? ` (expected ${now.right.steps})` : ""}` : "";
     const time = now.mine.time ? ` · ${now.mine.time.toFixed(3)} s` : "";
-    byId("moment").textContent = `frame ${position + 1} of ${count}${time}${steps}`;
-    slider.setAttribute("aria-valuetext", byId("moment").textContent);
+    byId("position").textContent = `moment ${position + 1} of ${count}${time}${steps}`;
+    slider.setAttribute("aria-valuetext", byId("position").textContent);
     byId("legend").textContent = legend(now);
-    byId("said").textContent = now.scene.said;
-    byId("said").hidden = film.scenes.length === 1;
+    byId("experiment").textContent = now.scene.experiment;
+    byId("experiment").hidden = replay.scenes.length === 1;
     byId("code").textContent = now.line?.code ?? "";
     const talks = Boolean(now.line && (now.line.yours || now.line.expected));
     byId("answers").hidden = !talks;
@@ -197,7 +197,7 @@
   function toParting(to) {
     if (partAt === null) return;
     if (timer !== null) stop();
-    if (film.parting.body) chosen = film.parting.body;
+    if (replay.parting.body) chosen = replay.parting.body;
     go(to);
   }
   const toSeen = () => toParting(seenAt < 0 ? partAt : seenAt);
@@ -237,8 +237,8 @@
     if (now.scene.curve) return;
     const { x, y, px } = stage.place(event);
     let best = Infinity, found = null;
-    for (const [frame, looks] of [[now.mine, now.scene.looks], [now.right, now.scene.expected_looks]]) {
-      for (const [number, state] of frame?.bodies ?? []) {
+    for (const [moment, looks] of [[now.mine, now.scene.looks], [now.right, now.scene.expected_looks]]) {
+      for (const [number, state] of moment?.bodies ?? []) {
         const look = looks[number];
         if (!look || !stage.isFinitePlace(state)) continue;
         const away = Math.hypot(state[0] - x, state[1] - y);
@@ -266,7 +266,7 @@
   // ---------------------------------------------------------------- the page
 
   const items = new Map();
-  film.scenes.forEach((scene, number) => {
+  replay.scenes.forEach((scene, number) => {
     for (const line of scene.lines.filter((each) => each.code)) {
       const item = document.createElement("li"), way = document.createElement("button");
       way.type = "button";
@@ -279,20 +279,20 @@
   });
 
   const words = byId("parting");
-  if (film.parting) {
+  if (replay.parting) {
     const seen = seenAt < 0
-      ? film.parting.body ? " Their places are never so far apart that one could see it." : ""
-      : ` One sees it from frame ${seenAt + 1} on; it is largest in frame ${largestAt + 1}.`;
-    words.textContent = `The runs part in frame ${partAt + 1} of ${count}: ${film.parting.words}.${seen}`;
+      ? replay.parting.body ? " The difference is too small to see." : ""
+      : ` You can see it from moment ${seenAt + 1} on; it is largest in moment ${largestAt + 1}.`;
+    words.textContent = `The runs part in moment ${partAt + 1} of ${count}: ${replay.parting.words}.${seen}`;
     words.className = "parting apart";
     const mark = byId("mark"), share = count > 1 ? position / (count - 1) : 0;
     mark.hidden = false;
     mark.style.left = `calc(${100 * share}% + ${0.5 - share}rem)`;
-  } else if (film.told) {
-    words.textContent = film.told;
-    byId("key-expected").hidden = !film.compared;
-    for (const each of document.querySelectorAll(".right")) each.hidden = !film.compared;
-  } else if (film.compared) {
+  } else if (replay.note) {
+    words.textContent = replay.note;
+    byId("key-expected").hidden = !replay.compared;
+    for (const each of document.querySelectorAll(".right")) each.hidden = !replay.compared;
+  } else if (replay.compared) {
     words.textContent = "Nothing is visibly off: the difference is in the numbers named above.";
   } else {
     words.textContent = "The right run is not known here: this is yours alone.";
@@ -308,7 +308,7 @@
     stage.draw(at(position), chosen);
   });
   new ResizeObserver(() => {
-    for (const scene of film.scenes) scene.arrows = undefined;
+    for (const scene of replay.scenes) scene.arrows = undefined;
     stage.draw(at(position), chosen);
   }).observe(canvas.parentElement);
   show();

@@ -1,6 +1,6 @@
-// The stage: draws one scene of a film on a canvas, frame by frame. It knows no page around it.
+// The stage: draws one scene of a replay on a canvas, moment by moment. It knows no page around it.
 //
-// A scene has `yours` and `expected`, both lists of frames, and the looks of the bodies in each. Where
+// A scene has `yours` and `expected`, both lists of moments, and the looks of the bodies in each. Where
 // nothing is expected, that list is empty.
 "use strict";
 
@@ -9,12 +9,12 @@ function stageOn(canvas) {
     value === undefined ? "" : value === null ? "not finite" : String(Number(value.toPrecision(count)));
   const pen = canvas.getContext("2d");
 
-  // ---------------------------------------------------------------- frames
+  // ---------------------------------------------------------------- moments
 
-  // A frame tells only what changed: [time, steps, bodies, touches, rods, gone].
-  function unfold(frames) {
+  // A moment tells only what changed: [time, steps, bodies, touches, rods, gone].
+  function unfold(moments) {
     let bodies = new Map(), touches = [], rods = [];
-    return frames.map(([time, steps, changed, newTouches, newRods, gone]) => {
+    return moments.map(([time, steps, changed, newTouches, newRods, gone]) => {
       bodies = new Map(bodies);
       for (const number of gone) bodies.delete(number);
       for (const [number, ...state] of changed) bodies.set(number, state);
@@ -24,7 +24,7 @@ function stageOn(canvas) {
     });
   }
 
-  // The frames of both runs as they are drawn, and what is in view.
+  // The moments of both runs as they are drawn, and what is in view.
   function prepare(scene) {
     scene.mine = unfold(scene.yours);
     scene.right = unfold(scene.expected);
@@ -50,10 +50,10 @@ function stageOn(canvas) {
   function around(box, x, y, r) {
     return [Math.min(box[0], x - r), Math.min(box[1], y - r), Math.max(box[2], x + r), Math.max(box[3], y + r)];
   }
-  function boundsOf(frames, looks, wanted) {
+  function boundsOf(moments, looks, wanted) {
     let box = NOTHING;
-    for (const frame of frames) {
-      for (const [number, state] of frame.bodies) {
+    for (const moment of moments) {
+      for (const [number, state] of moment.bodies) {
         const look = looks[number];
         if (!isFinitePlace(state) || !wanted(look)) continue;
         const [left, up, right, down] = extent(look);
@@ -67,8 +67,8 @@ function stageOn(canvas) {
   function viewOf(scene) {
     const both = [[scene.mine, scene.looks], [scene.right, scene.expected_looks]];
     const moves = (look) => look && look.mass !== null;
-    const join = (wanted) => both.reduce((box, [frames, looks]) => {
-      const other = boundsOf(frames, looks, wanted);
+    const join = (wanted) => both.reduce((box, [moments, looks]) => {
+      const other = boundsOf(moments, looks, wanted);
       return [Math.min(box[0], other[0]), Math.min(box[1], other[1]), Math.max(box[2], other[2]), Math.max(box[3], other[3])];
     }, NOTHING);
     let core = scene.right.length ? boundsOf(scene.right, scene.expected_looks, moves) : NOTHING;
@@ -94,10 +94,10 @@ function stageOn(canvas) {
 
   function curveView(scene) {
     let box = NOTHING;
-    for (const frames of [scene.mine, scene.right]) {
-      for (const frame of frames) {
-        const state = frame.bodies.get(1);
-        if (state && Number.isFinite(state[0])) box = around(box, frame.time, state[0], 0);
+    for (const moments of [scene.mine, scene.right]) {
+      for (const moment of moments) {
+        const state = moment.bodies.get(1);
+        if (state && Number.isFinite(state[0])) box = around(box, moment.time, state[0], 0);
       }
     }
     if (box[0] > box[2]) return [0, -1, 1, 1];
@@ -172,10 +172,10 @@ function stageOn(canvas) {
     pen.stroke();
   }
 
-  function rods(frame, colour) {
+  function rods(moment, colour) {
     pen.strokeStyle = colour;
     pen.lineWidth = 2.5;
-    for (const [ax, ay, bx, by] of frame.rods) {
+    for (const [ax, ay, bx, by] of moment.rods) {
       pen.beginPath();
       pen.moveTo(toX(ax), toY(ay));
       pen.lineTo(toX(bx), toY(by));
@@ -185,11 +185,11 @@ function stageOn(canvas) {
 
   // Points and normals. Where impulses are known, an arrow shows the one on the second body, and the
   // two lines of a cone how far friction may turn it from the normal.
-  function touches(frame, colour) {
+  function touches(moment, colour) {
     pen.strokeStyle = pen.fillStyle = colour;
-    const largest = Math.max(...frame.touches.map(([, , , , , jn, jt]) => Math.hypot(jn, jt)), 0);
-    for (const [x, y, nx, ny, , jn, jt, limit] of frame.touches) {
-      const px = toX(x), py = toY(y), length = frame.touches.length > 3 ? 14 : 26;
+    const largest = Math.max(...moment.touches.map(([, , , , , jn, jt]) => Math.hypot(jn, jt)), 0);
+    for (const [x, y, nx, ny, , jn, jt, limit] of moment.touches) {
+      const px = toX(x), py = toY(y), length = moment.touches.length > 3 ? 14 : 26;
       pen.lineWidth = 2;
       pen.beginPath();
       pen.arc(px, py, 3, 0, 2 * Math.PI);
@@ -214,10 +214,10 @@ function stageOn(canvas) {
   }
 
   // Arms, the axis of an impulse at their ends, and the velocity that a unit of it gives each end.
-  function drawMarks(scene, frame, marks) {
+  function drawMarks(scene, moment, marks) {
     const ends = [];
     for (const [number, x, y, axisX, axisY] of marks) {
-      const state = frame.bodies.get(number), look = scene.looks[number];
+      const state = moment.bodies.get(number), look = scene.looks[number];
       if (!state || !look) continue;
       const perMass = look.mass ? 1 / look.mass : 0, perMoment = look.moment ? 1 / look.moment : 0;
       const spin = (x * axisY - y * axisX) * perMoment;
@@ -258,9 +258,9 @@ function stageOn(canvas) {
     pen.textAlign = "left";
   }
 
-  function drawYours(scene, frame, speedScale, chosen) {
-    rods(frame, colours.ink);
-    for (const [number, state] of frame.bodies) {
+  function drawYours(scene, moment, speedScale, chosen) {
+    rods(moment, colours.ink);
+    for (const [number, state] of moment.bodies) {
       const look = scene.looks[number];
       if (!look || !isFinitePlace(state)) continue;
       const moves = look.mass !== null, radius = outline(state, look);
@@ -281,12 +281,12 @@ function stageOn(canvas) {
         arrow(toX(state[0]), toY(state[1]), state[2] * speedScale, state[3] * speedScale);
       }
     }
-    touches(frame, colours.ink);
+    touches(moment, colours.ink);
   }
 
-  function drawExpected(scene, frame, speedScale) {
+  function drawExpected(scene, moment, speedScale) {
     pen.setLineDash([5, 4]);
-    for (const [number, state] of frame.bodies) {
+    for (const [number, state] of moment.bodies) {
       const look = scene.expected_looks[number] ?? scene.looks[number];
       if (!look || !isFinitePlace(state) || look.mass === null) continue;
       pen.strokeStyle = colours.expected;
@@ -298,9 +298,9 @@ function stageOn(canvas) {
       arrow(toX(state[0]), toY(state[1]), state[2] * speedScale, state[3] * speedScale);
       pen.setLineDash([5, 4]);
     }
-    rods(frame, colours.expected);
+    rods(moment, colours.expected);
     pen.setLineDash([]);
-    touches(frame, colours.expected);
+    touches(moment, colours.expected);
   }
 
   function drawGap(mine, right) {
@@ -320,8 +320,8 @@ function stageOn(canvas) {
   // The fastest body's arrow takes an eighth of the picture.
   function arrowScale(scene, wide) {
     let fastest = 0;
-    for (const frame of [...scene.mine, ...scene.right]) {
-      for (const [, state] of frame.bodies) {
+    for (const moment of [...scene.mine, ...scene.right]) {
+      for (const [, state] of moment.bodies) {
         const speed = Math.hypot(state[2], state[3]);
         if (Number.isFinite(speed)) fastest = Math.max(fastest, speed);
       }
@@ -357,13 +357,13 @@ function stageOn(canvas) {
       pen.fillText(`${digits(time, 3)} s`, x(time), tall - 8);
     }
     pen.textAlign = "left";
-    const trace = (frames, colour, dash) => {
+    const trace = (moments, colour, dash) => {
       pen.strokeStyle = colour;
       pen.lineWidth = 2;
       pen.setLineDash(dash);
       pen.beginPath();
-      frames.forEach((frame, index) => {
-        const state = frame.bodies.get(1), time = scene.mine[index]?.time ?? frame.time;
+      moments.forEach((moment, index) => {
+        const state = moment.bodies.get(1), time = scene.mine[index]?.time ?? moment.time;
         if (!state || !Number.isFinite(state[0])) return;
         if (index && time > scene.mine[index - 1].time) pen.lineTo(x(time), y(state[0]));
         else pen.moveTo(x(time), y(state[0]));
@@ -373,8 +373,8 @@ function stageOn(canvas) {
     };
     trace(scene.mine, colours.yours, []);
     trace(scene.right, colours.expected, [6, 4]);
-    for (const [frame, colour] of [[now.right, colours.expected], [now.mine, colours.yours]]) {
-      const state = frame?.bodies.get(1);
+    for (const [moment, colour] of [[now.right, colours.expected], [now.mine, colours.yours]]) {
+      const state = moment?.bodies.get(1);
       if (!state || !Number.isFinite(state[0])) continue;
       pen.fillStyle = colour;
       pen.beginPath();
@@ -383,7 +383,7 @@ function stageOn(canvas) {
     }
   }
 
-  // `now` has a scene and its frames `mine` and `right`; the outline of a body can be picked out.
+  // `now` has a scene and its moments `mine` and `right`; the outline of a body can be picked out.
   function draw(now, chosen = null) {
     const { scene } = now;
     const [wide, tall] = fit(scene);

@@ -7,7 +7,7 @@ from pathlib import Path
 from grader.judge.isolation import unconfined
 from grader.judge.result import Result
 from grader.judge.wording import named_reasons
-from grader.player.page import filled, hashes, one_line
+from grader.player.page import clean_line, fill_template, hash_player
 from grader.report.files import write_whole
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -38,21 +38,23 @@ def write_report(
 
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
-    page = filled(TEMPLATES / "standing.html", read_style(), standing=standing, clean=one_line)
+    page = fill_template(
+        TEMPLATES / "standing.html", read_style(), standing=standing, clean=clean_line
+    )
     write_whole(page.encode("utf-8"), path)
 
 
 def render(result: Result, replays: Mapping[str, str], standing: Standing | None = None) -> str:
     """Return the page; `replays` are the pages to embed, by their paths in the result."""
-    return filled(
+    return fill_template(
         TEMPLATES / "report.html",
         read_style(),
-        around=hashes(),
+        around=hash_player(),
         result=result,
         replays=replays,
         standing=standing,
         unconfined=unconfined(result.isolation),
-        clean=one_line,
+        clean=clean_line,
         reasons=named_reasons,
     )
 

@@ -1,4 +1,4 @@
-"""What a replay is made of: takes, and the frames of two runs as its page reads them."""
+"""Hold the data of a replay: recorded runs, and the moments of two runs as the page reads them."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -12,11 +12,11 @@ from grader.protocol import (
     ContactValue,
     Items,
     Missing,
+    Moment,
     Played,
     Raised,
     Reply,
     Returned,
-    Shot,
     SpaceBody,
     SpaceValue,
     Value,
@@ -26,7 +26,9 @@ from grader.text import digits, printable
 
 MAX_ANSWER = 160  # characters
 
-Frame = list[Any]  # as the page reads it: time, steps, bodies that changed, touches, rods, gone
+PageMoment = list[
+    Any
+]  # as the page reads it: time, steps, bodies that changed, touches, rods, gone
 
 
 class Mark(Struct, frozen=True, array_like=True):
@@ -40,56 +42,56 @@ class Mark(Struct, frozen=True, array_like=True):
 
 
 class Line(Struct, frozen=True, omit_defaults=True):
-    """One request: what it was, what came back, and what was to be seen then."""
+    """One request, its answer, and the moments recorded meanwhile."""
 
-    sign: str  # its numbers aside; the two runs go together as far as these are equal
+    signature: str  # without its numbers; the runs go together as far as these are equal
     answer: str
-    shots: list[Shot]
-    sets_up: bool = False  # puts something in its place
+    moments: list[Moment]
+    is_setup: bool = False
     code: str = ""
     marks: list[Mark] = []
-    counted: bool = False  # what was asked is how many lines run
+    counts_work: bool = False  # the question is how many lines run
 
 
-class Take(Struct, omit_defaults=True):
-    """What ran from one scene, or one process, to the next."""
+class Run(Struct, omit_defaults=True):
+    """The requests of one process in one scene."""
 
-    said: str
+    experiment: str
     lines: list[Line] = []
     looks: dict[int, BodyLook] = {}  # of the bodies by number
     names: dict[int, str] = {}
     curve: bool = False  # no bodies, but an x over the time
 
 
-class Both(Struct, frozen=True):
-    """One request in both runs, and the frames in which it is on the screen."""
+class LinePair(Struct, frozen=True):
+    """One request in both runs, and the moments in which the page shows it."""
 
     code: str
     yours: str
     expected: str
-    at: int  # its first frame
+    at: int  # its first moment
     count: int
     marks: list[Mark] = []
 
 
 class Scene(Struct, frozen=True):
-    """A take and its counterpart, frame by frame."""
+    """A run and its counterpart, moment by moment."""
 
-    said: str
+    experiment: str
     curve: bool
     names: dict[int, str]
     looks: dict[int, BodyLook]
     expected_looks: dict[int, BodyLook]
-    lines: list[Both]
-    yours: list[Frame]
-    expected: list[Frame]  # shorter where the right run is not known
+    lines: list[LinePair]
+    yours: list[PageMoment]
+    expected: list[PageMoment]  # shorter where the right run is not known
 
 
 class Parting(Struct, frozen=True):
-    """The first frame in which the runs differ visibly, and in what."""
+    """The first moment in which the runs differ, and in what."""
 
     scene: int
-    frame: int
+    moment: int
     body: int  # its number, or 0
     words: str
 
@@ -97,27 +99,27 @@ class Parting(Struct, frozen=True):
 class Replay(Struct, frozen=True):
     scenes: list[Scene]
     parting: Parting | None
-    compared: bool  # whether any of it is held against the right run
-    told: str = ""  # in place of what is said of the right run
+    compared: bool  # whether any of it is compared with the right run
+    note: str = ""  # shown in place of a comparison
 
 
-# ---------------------------------------------------------------- frames
+# ---------------------------------------------------------------- moments
 
 
-def thinned(shots: Iterable[Shot]) -> Iterator[Frame]:
-    """Each frame with what changed since the one before, and who left."""
+def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
+    """Yield each moment with what changed since the one before, and which bodies are gone."""
     bodies: dict[int, list[float]] = {}
     touches: Any = []
     rods: Any = []
-    for shot in shots:
-        rows = {row.number: rounded(row) for row in shot.bodies}
+    for moment in moments:
+        rows = {row.number: round_row(row) for row in moment.bodies}
         changed = [row for number, row in rows.items() if bodies.get(number) != row]
         gone = [number for number in bodies if number not in rows]
-        new_touches = [[short(each) for each in numbers(row)] for row in shot.touches]
-        new_rods = [[short(each) for each in ends] for ends in shot.rods]
+        new_touches = [[round_number(each) for each in numbers_of(row)] for row in moment.touches]
+        new_rods = [[round_number(each) for each in ends] for ends in moment.rods]
         yield [
-            short(shot.time),
-            shot.steps,
+            round_number(moment.time),
+            moment.steps,
             changed,
             None if new_touches == touches else new_touches,
             None if new_rods == rods else new_rods,
@@ -126,35 +128,35 @@ def thinned(shots: Iterable[Shot]) -> Iterator[Frame]:
         bodies, touches, rods = rows, new_touches, new_rods
 
 
-def rounded(row: BodyRow) -> list[float]:
-    return [row.number, *(short(each) for each in numbers(row)[1:])]
+def round_row(row: BodyRow) -> list[float]:
+    return [row.number, *(round_number(each) for each in numbers_of(row)[1:])]
 
 
-def numbers(row: Struct) -> list[float]:
+def numbers_of(row: Struct) -> list[float]:
     return [getattr(row, name) for name in row.__struct_fields__]
 
 
-def short(value: float) -> float:
-    """Six digits; what is no number stays none (JSON has null for it)."""
+def round_number(value: float) -> float:
+    """Round to six digits; infinity and NaN stay (JSON has null for them)."""
     return float(f"{value:.6g}") + 0.0 if math.isfinite(value) else value
 
 
 # ---------------------------------------------------------------- in words
 
 
-def called(look: BodyLook, number: str) -> str:
-    """What a body is called on the page: what it is, a number if any, and what it weighs."""
+def describe_body(look: BodyLook, number: str) -> str:
+    """Return the name of a body on the page: its kind, a number if any, and its mass."""
     corners = [len(shape.points) for shape in look.shapes]
     kind = "ball" if corners == [1] else "box" if corners == [4] else "body"
     weight = "static" if look.mass is None else f"{digits(look.mass)} kg"
     return f"{f'{kind} {number}'.strip()}, {weight}"
 
 
-def in_words(reply: Reply) -> str:
-    """An answer on one line; a submission's words in it are cut and lose what is unprintable."""
+def describe_reply(reply: Reply) -> str:
+    """Return an answer on one line; a submission's words in it are cut and cleaned."""
     match reply:
         case Returned(value):
-            text = value_in_words(value)
+            text = describe_value(value)
         case Raised(error, message):
             text = f"{error}: {message}"
         case Missing(what):
@@ -168,7 +170,7 @@ def in_words(reply: Reply) -> str:
     return line if len(line) <= MAX_ANSWER else line[: MAX_ANSWER - 1] + "…"
 
 
-def value_in_words(value: Value) -> str:
+def describe_value(value: Value) -> str:
     match value:
         case bool() | None:
             return str(value)
@@ -180,13 +182,13 @@ def value_in_words(value: Value) -> str:
             return f"({digits(x)}, {digits(y)})"
         case ContactValue(normal=normal, depth=depth, point=point):
             return (
-                f"normal {value_in_words(normal)}, depth {digits(depth)}, "
-                f"point {value_in_words(point)}"
+                f"normal {describe_value(normal)}, depth {digits(depth)}, "
+                f"point {describe_value(point)}"
             )
         case Items(items):
-            return "[" + ", ".join(value_in_words(each) for each in items[:4]) + "]"
+            return "[" + ", ".join(describe_value(each) for each in items[:4]) + "]"
         case SpaceValue(gravity=gravity):
-            return f"a space with gravity {value_in_words(gravity)}"
+            return f"a space with gravity {describe_value(gravity)}"
         case SpaceBody(mass=mass, moment=moment):
             turning = "infinite" if moment is None else digits(moment)
             return f"a body of mass {digits(mass)}, moment {turning}"

@@ -1,6 +1,6 @@
-"""Records the bodies while a request is answered: for replays, made after all marks are decided.
+"""Record the bodies while a request is answered: for replays, made after all marks are decided.
 
-A shot is what is to be seen at one moment. Lengths are px, speeds px/s, angles rad, in the
+A moment is one recorded state of the bodies. Lengths are px, speeds px/s, angles rad, in the
 coordinates of the screen (y down).
 """
 
@@ -20,12 +20,12 @@ from grader.protocol import (
     BodyLook,
     BodyRow,
     Call,
-    Film,
-    Filmed,
+    Moment,
+    Record,
     Reply,
     ShapeLook,
-    Shot,
     TouchRow,
+    WithMoments,
 )
 from grader.worker.subject import Subject, field, field_number, field_pair, refs_in, shape_order
 
@@ -41,8 +41,8 @@ def lesson_state(body: Any) -> list[float]:
     return [pos.x, pos.y, vel.x, vel.y, *turning]
 
 
-class Camera:
-    """Takes shots of the submission's bodies while a filmed request is answered.
+class Recorder:
+    """Records moments of the submission's bodies while a request is answered.
 
     A submission may have made anything of its objects, so a thing that cannot be described is left
     out, and everything has an upper bound.
@@ -50,7 +50,7 @@ class Camera:
 
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
-        self.film: Film | None = None
+        self.recording: Record | None = None
         self.bodies: dict[int, Any] = {}  # the bodies by number
         self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
         self.hidden = 0  # so many objects belong to an earlier scene
@@ -61,51 +61,51 @@ class Camera:
 
     # ------------------------------------------------------------ one request
 
-    def start(self, film: Film) -> None:
-        """Get ready to film one request."""
-        self.given = refs_in(film.request) if isinstance(film.request, Call) else []
-        if film.cut:
+    def start(self, recording: Record) -> None:
+        """Get ready to record one request."""
+        self.given = refs_in(recording.request) if isinstance(recording.request, Call) else []
+        if recording.cut:
             self.hidden = len(self.subject.objects)
             self.bodies.clear()
             self.numbers.clear()
-        self._reset(film)
+        self._reset(recording)
 
-    def _reset(self, film: Film | None) -> None:
-        """Forget the shots taken; bodies keep their numbers as long as the scene goes on."""
-        self.film = film
-        self.shots: list[Shot] = []
+    def _reset(self, recording: Record | None) -> None:
+        """Forget the moments; bodies keep their numbers as long as the scene goes on."""
+        self.recording = recording
+        self.moments: list[Moment] = []
         self.looks: dict[int, BodyLook] = {}
         self.every = self.total = 1
-        self.moments = 0
+        self.states = 0
 
-    def expect(self, moments: int) -> None:
-        """Say how many moments a run has, so that the shots wanted are spread over all of it."""
-        self.total = moments
-        self.every = math.ceil(moments / self.film.most) if self.film else 1
+    def expect(self, states: int) -> None:
+        """Say how many states a run has, so that the moments are spread over all of it."""
+        self.total = states
+        self.every = math.ceil(states / self.recording.most) if self.recording else 1
 
     def record(self, time: float, steps: int) -> None:
-        """Note a moment of a run, at `time` in s. One in so many, and the last, becomes a shot."""
-        self.moments += 1
-        if self.film and (self.moments % self.every == 0 or self.moments == self.total):
-            self._take_shot(time, steps)
+        """Note a state of a run, at `time` in s. One in so many, and the last, becomes a moment."""
+        self.states += 1
+        if self.recording and (self.states % self.every == 0 or self.states == self.total):
+            self._add_moment(time, steps)
 
-    def finish(self, reply: Reply) -> Filmed:
-        """Return the reply with its shots: at least the one of how it ended."""
-        if not self.shots:
-            self._take_shot(0.0, 0)
-        filmed = Filmed(reply, self.looks, self.shots)
+    def finish(self, reply: Reply) -> WithMoments:
+        """Return the reply with its moments: at least the one of how it ended."""
+        if not self.moments:
+            self._add_moment(0.0, 0)
+        answer = WithMoments(reply, self.looks, self.moments)
         self._reset(None)
-        return filmed
+        return answer
 
     # ------------------------------------------------------------ a program's world
 
-    def watch_worlds(self, owner: type, moments: int) -> None:
-        """Film the latest World or Space that the program makes.
+    def watch_worlds(self, owner: type, states: int) -> None:
+        """Record the latest World or Space that the program makes.
 
         A program keeps its world in a local variable of main(), so we learn of it as it is made.
         """
-        self.expect(moments)
-        if self.film is None:
+        self.expect(states)
+        if self.recording is None:
             return
         self.owner, self.real = owner, owner.__init__  # type: ignore[misc]
 
@@ -121,15 +121,15 @@ class Camera:
             self.owner.__init__ = self.real  # type: ignore[misc]
             self.owner = None
 
-    # ------------------------------------------------------------ a shot
+    # ------------------------------------------------------------ a moment
 
-    def _take_shot(self, time: float, steps: int) -> None:
-        """Take a shot of all that can be described; with an error, of what came before it."""
-        shot = Shot(float(time), steps, [], [], [])
+    def _add_moment(self, time: float, steps: int) -> None:
+        """Add a moment with all that can be described; with an error, with what came before it."""
+        moment = Moment(float(time), steps, [], [], [])
         with suppress(Exception):
             for thing in self._visible():
-                self._add_visible(thing, shot)
-        self.shots.append(shot)
+                self._add_visible(thing, moment)
+        self.moments.append(moment)
 
     def _visible(self) -> list[Any]:
         """Return what to show: the running program's world, or what this scene has made and is
@@ -140,28 +140,28 @@ class Camera:
         given = [self.subject.objects[ref] for ref in self.given if ref in self.subject.objects]
         return [*given, *list(self.subject.objects.values())[self.hidden :]]
 
-    def _add_visible(self, thing: Any, shot: Shot) -> None:
+    def _add_visible(self, thing: Any, moment: Moment) -> None:
         """Add a world or space with all in it, or one thing alone."""
         if isinstance(thing, pymunk.Space):
             for body in (thing.static_body, *thing.bodies):
-                self._append(shot.bodies, MAX_BODIES, self._body, body)
+                self._append(moment.bodies, MAX_BODIES, self._body, body)
             for joint in thing.constraints:
-                self._append(shot.rods, MAX_RODS, pymunk_rod, joint)
+                self._append(moment.rods, MAX_RODS, pymunk_rod, joint)
         elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
             for name in ("bodies", "joints", "springs", "contacts"):
                 for each in islice(getattr(thing, name, ()), MAX_TOUCHES):
-                    self._add_thing(each, shot)
+                    self._add_thing(each, moment)
         else:
-            self._add_thing(thing, shot)
+            self._add_thing(thing, moment)
 
-    def _add_thing(self, thing: Any, shot: Shot) -> None:
+    def _add_thing(self, thing: Any, moment: Moment) -> None:
         """Add a body, contact, rod or spring; which it is shows by its attributes."""
         if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
-            self._append(shot.bodies, MAX_BODIES, self._body, thing)
+            self._append(moment.bodies, MAX_BODIES, self._body, thing)
         elif hasattr(thing, "normal"):
-            self._append(shot.touches, MAX_TOUCHES, touch, thing)
+            self._append(moment.touches, MAX_TOUCHES, touch, thing)
         elif hasattr(thing, "length") and hasattr(thing, "a"):
-            self._append(shot.rods, MAX_RODS, lesson_rod, thing)
+            self._append(moment.rods, MAX_RODS, lesson_rod, thing)
 
     def _append(
         self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any

@@ -1,0 +1,320 @@
+"""Narrow down what is wrong by numbers: in which questions, in what part of the answer, how much.
+
+That is what was observed, and no guess. It is found first, as a `Narrowed`, and worded then.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+from grader.judge.lab import Observation
+from grader.judge.misconceptions import (
+    Undecided,
+    are_close,
+    part_names,
+    predict,
+    right_models,
+    trait_models,
+)
+from grader.judge.recorded import key
+
+WHOLE = "the answer"  # the name of a part where an answer has none, or is another kind of thing
+CASE = "_case"  # the name of what a question is, in words
+FEWEST = 2  # answers that speak for anything
+MOST = 3  # clauses of one kind in a sentence
+LONGEST = 150  # characters of these
+
+Numbers = list[tuple[float, float]]  # of the answer, and of the right one
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question with its traits in words, and its answer beside the right one."""
+
+    about: str
+    inputs: tuple[Any, ...]
+    traits: dict[str, str]
+    answer: Any
+    right: Any
+
+    @cached_property
+    def misfit(self) -> str:
+        """Return what is wrong where the answer is no such thing as the right one; else empty."""
+        if isinstance(self.answer, str):
+            return f"the answer is {self.answer}"
+        if self.answer is None and self.right is not None:
+            return "there is no answer (None; is a return missing?)"
+        if self.right is None and self.answer is not None:
+            return "there is an answer where None is right"
+        ours, theirs = len(flatten(self.answer)), len(flatten(self.right))
+        return "" if ours == theirs else f"there are {ours} {self.about} instead of {theirs}"
+
+    @cached_property
+    def parts(self) -> dict[str, Any]:
+        """Return the parts of the answer by their names."""
+        return split(self.about, self.answer)
+
+    @cached_property
+    def right_parts(self) -> dict[str, Any]:
+        return split(self.about, self.right)
+
+    @cached_property
+    def wrong(self) -> frozenset[str]:
+        """Return the names of the parts that are wrong."""
+        if are_close(self.answer, self.right):
+            return frozenset()
+        names = [] if self.misfit else part_names.get(self.about, {})
+        off = [name for name in names if not are_close(self.parts[name], self.right_parts[name])]
+        return frozenset(off) or frozenset({WHOLE})
+
+
+def read_questions(observations: Sequence[Observation]) -> Iterator[Question]:
+    """Yield the questions with a right answer, each once."""
+    found = set()
+    for each in observations:
+        name = each.about, key(each.inputs)
+        if name in found or each.about not in right_models:
+            continue
+        found.add(name)
+        model = trait_models.get(each.about)
+        try:
+            right = predict(right_models[each.about], each.inputs)
+            traits = predict(model, each.inputs) if model else {}
+        except Undecided:
+            continue
+        yield Question(each.about, each.inputs, traits, each.answer, right)
+
+
+def split(about: str, answer: Any) -> dict[str, Any]:
+    """Return the parts of an answer; each is all of it where it is another kind of thing."""
+    numbers, found = flatten(answer), {WHOLE: answer}
+    for name, places in part_names.get(about, {}).items():
+        has = places and len(numbers) > max(places)
+        found[name] = [numbers[place] for place in places] if has else answer
+    return found
+
+
+def flatten(answer: Any) -> list[float]:
+    """Return the numbers of an answer, whatever its shape."""
+    if isinstance(answer, tuple | list):
+        return [number for each in answer for number in flatten(each)]
+    return [answer] if isinstance(answer, int | float) else []
+
+
+# ---------------------------------------------------------------- what was found
+
+
+@dataclass(frozen=True)
+class WrongPart:
+    """A part of the answers that is wrong: how, and in which questions, both in words."""
+
+    name: str
+    how: str
+    where: str
+
+
+@dataclass(frozen=True)
+class Narrowed:
+    """What is wrong in the answers, as far as their numbers tell."""
+
+    wrong: tuple[WrongPart, ...] = ()
+    fine: tuple[str, ...] = ()  # parts that are right in all answers
+    example: Question | None = None
+
+    @property
+    def is_local(self) -> bool:
+        """Return whether it tells questions with a wrong answer from others."""
+        return any(f" {each.where}".count(" where ") for each in self.wrong)
+
+    @property
+    def words(self) -> str:
+        if not self.wrong:
+            return ""
+        verb = "is" if len(self.fine) == 1 else "are"
+        fine = f" {capitalise(' and '.join(self.fine))} {verb} right." if self.fine else ""
+        return word_parts(self.wrong) + fine + (show(self.example) if self.example else "")
+
+
+def word_parts(wrong: Sequence[WrongPart]) -> str:
+    """Return `the normal is turned round where ..., and the depth is too large where ...`."""
+    if len({each.where for each in wrong}) == 1:
+        words = " and ".join(f"{each.name} {each.how}".strip() for each in wrong)
+        return capitalise(f"{words} {wrong[0].where}".strip()) + "."
+    clauses = (f"{each.name} {each.how} {each.where}".strip() for each in wrong[:2])
+    return " ".join(f"{capitalise(clause)}." for clause in clauses)
+
+
+def show(question: Question) -> str:
+    """Return the answer to one question beside the right one, where the question has words."""
+    case = question.traits.get(CASE)
+    ours, theirs = (word(flatten(each)) for each in (question.answer, question.right))
+    return f" In {case}: {ours} instead of {theirs}." if case else ""
+
+
+def capitalise(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def word(numbers: list[float]) -> str:
+    shown = ", ".join(f"{number + 0.0:.4g}" for number in numbers)
+    return shown if len(numbers) == 1 else f"({shown})"
+
+
+# ---------------------------------------------------------------- where
+
+
+def narrow(questions: Sequence[Question], first: Question, left: frozenset[str]) -> Narrowed:
+    """Find in which questions these parts are wrong as in the first one, and how."""
+    same = [each for each in questions if each.about == first.about]
+    if first.misfit:
+        return narrow_misfit(same, first)
+    answered = [each for each in same if not each.misfit]
+    names = list(part_names.get(first.about, {}))
+    wrong = [found for name in names if name in left and (found := narrow_part(answered, name))]
+    fine = [name for name in names if not any(name in each.wrong for each in answered)]
+    return Narrowed(tuple(wrong), tuple(fine), first)
+
+
+def narrow_misfit(same: list[Question], first: Question) -> Narrowed:
+    wrong = [each for each in same if each.misfit == first.misfit]
+    others = [each for each in same if each.misfit != first.misfit]
+    where = find_condition(wrong, others)
+    raised = isinstance(first.answer, str) and not others
+    return Narrowed((WrongPart(first.misfit, "", where),)) if where and not raised else Narrowed()
+
+
+def narrow_part(answered: list[Question], name: str) -> WrongPart | None:
+    wrong = [each for each in answered if name in each.wrong]
+    others = [each for each in answered if name not in each.wrong]
+    where, how = find_condition(wrong, others), find_relation(name, wrong)
+    if not where and not how:
+        return None
+    return WrongPart(
+        name, how or "is wrong", where or f"in {len(wrong)} of {len(answered)} questions"
+    )
+
+
+def find_condition(wrong: list[Question], others: list[Question]) -> str:
+    """Find a trait that tells the questions with a wrong answer from the others."""
+    if not others:
+        return "in every question" if len(wrong) > 1 else ""
+    kinds = list(dict.fromkeys(k for each in wrong for k in each.traits if k != CASE))
+    for ways in (1, 2):
+        for some in combinations(kinds, ways):
+            bad, good = count_traits(wrong, *some), count_traits(others, *some)
+            many = 2 * len(bad.keys() | good.keys()) > len(wrong) + len(others)
+            if many or None in bad or bad.keys() & good.keys():
+                continue
+            if is_readable(bad):
+                right_too = ways == 1 and is_readable(good)
+                return f"where {join(bad)}" + f", and right where {join(good)}" * right_too
+            if is_readable(good):
+                return f"but where {join(good)}"
+    return find_majority(wrong, others, kinds)
+
+
+def find_majority(wrong: list[Question], others: list[Question], kinds: list[str]) -> str:
+    """Find a trait of most of the wrong answers and few others; empty where there is none."""
+    best, least = "", len(others) // 2 + 1
+    for kind in kinds:
+        bad, good = count_traits(wrong, kind), count_traits(others, kind)
+        mixed = sum(good[each] for each in bad)
+        if is_readable(bad) and mixed < least:
+            count = f"in {len(wrong)} of {len(wrong) + mixed} questions"
+            best, least = f"{count} where {join(bad)}", mixed
+    return best
+
+
+def is_readable(clauses: Counter[Any]) -> bool:
+    return None not in clauses and len(clauses) <= MOST and len(join(clauses)) <= LONGEST
+
+
+def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:
+    """Count the questions by their traits of these kinds; None where they lack one."""
+    found: Counter[Any] = Counter()
+    for each in questions:
+        clauses = [each.traits.get(kind) for kind in kinds]
+        found[None if None in clauses else " and ".join(filter(None, clauses))] += 1
+    return found
+
+
+def join(clauses: Iterable[Any]) -> str:
+    """Join clauses by `or`; what all begin with is said once."""
+    words = [str(each) for each in clauses]
+    first, both, _ = words[0].partition(" and ") if len(words) > 1 else ("", "", "")
+    if both and all(each.startswith(first + both) for each in words):
+        return f"{first}, and {' or '.join(each.removeprefix(first + both) for each in words)}"
+    return " or ".join(words)
+
+
+# ---------------------------------------------------------------- by how much
+
+
+def find_relation(name: str, wrong: list[Question]) -> str:
+    """Find how a part differs from the right one in all of these; empty if it varies."""
+    vectors = [(flatten(each.parts[name]), flatten(each.right_parts[name])) for each in wrong]
+    pairs = [pair for ours, theirs in vectors for pair in zip(ours, theirs, strict=False)]
+    if len(vectors) >= FEWEST:
+        for holds, words in RELATIONS:
+            if holds(pairs):
+                return words
+        if are_swapped(vectors):
+            return "has its two numbers swapped"
+    factor = find_factor(pairs)
+    if factor is not None:
+        return f"is {factor:.4g} times what it must be"
+    ours, theirs = ({tuple(each[side]) for each in vectors} for side in (0, 1))
+    if len(theirs) > 1 == len(ours):
+        return f"is always {word(vectors[0][0])}"
+    off = find_offset(vectors)
+    if off:
+        return f"is {abs(off):.4g} too {'large' if off > 0 else 'small'}"
+    return compare(pairs)
+
+
+def times(factor: float) -> Callable[[Numbers], bool]:
+    return lambda pairs: all(are_close(ours, factor * theirs) for ours, theirs in pairs)
+
+
+RELATIONS: tuple[tuple[Callable[[Numbers], bool], str], ...] = (
+    (times(0.0), "is 0"),
+    (times(-1.0), "is turned round: it has the opposite sign"),
+    (times(2.0), "is twice what it must be"),
+    (times(0.5), "is half of what it must be"),
+)
+
+
+def are_swapped(vectors: list[tuple[list[float], list[float]]]) -> bool:
+    return all(len(ours) == 2 and are_close(ours[::-1], theirs) for ours, theirs in vectors)
+
+
+def find_factor(pairs: Numbers) -> float | None:
+    """Find the factor between all answers and the right ones; None where there is no one such."""
+    factors = [ours / theirs for ours, theirs in pairs if abs(theirs) > 1e-9]
+    if len(factors) < FEWEST or any(
+        abs(ours) > 1e-6 for ours, theirs in pairs if abs(theirs) <= 1e-9
+    ):
+        return None
+    same = all(math.isclose(each, factors[0], rel_tol=1e-6) for each in factors)
+    return factors[0] if same and len({round(theirs, 6) for _, theirs in pairs}) > 1 else None
+
+
+def find_offset(vectors: list[tuple[list[float], list[float]]]) -> float:
+    """Find by how much a single number is always off; 0 where it varies."""
+    offs = [ours[0] - theirs[0] for ours, theirs in vectors if len(ours) == len(theirs) == 1]
+    if len(offs) < max(FEWEST, len(vectors)):
+        return 0.0
+    return offs[0] if all(math.isclose(each, offs[0], rel_tol=1e-6) for each in offs) else 0.0
+
+
+def compare(pairs: Numbers) -> str:
+    """Say whether all the numbers that are off are too large, or too small."""
+    off = [(ours, theirs) for ours, theirs in pairs if not are_close(ours, theirs)]
+    for words, is_more in (("is too large", True), ("is too small", False)):
+        if all(a * b >= 0 and abs(a) != abs(b) and (abs(a) > abs(b)) == is_more for a, b in off):
+            return words
+    return ""

@@ -1,0 +1,244 @@
+"""Record a check: it runs once more, and each request is kept with what it does to the bodies.
+
+The recorder is the `send` of a lab's connection, so that all requests and answers pass through it.
+"""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import islice
+
+import msgspec
+
+from grader.judge.children import Child
+from grader.judge.failures import Failing
+from grader.judge.lab import Lab
+from grader.player.runs import Line, Mark, Run, describe_body, describe_reply
+from grader.player.script import Step, Translator, signature_of
+from grader.protocol import (
+    MAX_BODIES,
+    MAX_RODS,
+    MAX_TOUCHES,
+    Answered,
+    BodyRow,
+    Call,
+    Get,
+    Import,
+    Integrate,
+    Items,
+    MakeBody,
+    MakeWorld,
+    Missing,
+    Moment,
+    Piece,
+    Play,
+    Record,
+    Ref,
+    Reply,
+    Request,
+    Returned,
+    Set,
+    Value,
+    Vec,
+    WithMoments,
+)
+
+MAX_PER_REQUEST = 200  # moments
+MAX_MOMENTS = 1200  # of one check
+
+OpenChild = Callable[[int], Child]  # takes the budget in CPU seconds
+
+
+@dataclass
+class Recorder:
+    """Records the requests of a lab: a line of a run for each."""
+
+    translator: Translator
+    experiment: str = ""
+    scenes: list[list[Run]] = field(default_factory=lambda: [[]])
+    steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
+    _new_scene: bool = True
+    _new_run: bool = True
+    _count: int = 0
+
+    def begin_scene(self, text: str) -> None:
+        """Begin another experiment, which `text` describes."""
+        self.experiment = text
+        self._new_scene = self._new_run = True
+
+    def send(self, child: Child, request: Request) -> Answered:
+        """Ask the child, and record the request unless it only loads or reads."""
+        if isinstance(request, Import):
+            self._new_run = True
+            self.translator.forget()
+            return child.ask(request)
+        if isinstance(request, Get):
+            return self._ask_only(child, request)
+        return self._record(child, request)
+
+    def _ask_only(self, child: Child, request: Request) -> Answered:
+        answered = child.ask(request)
+        self._add_step(request, answered)
+        return answered
+
+    def _record(self, child: Child, request: Request) -> Answered:
+        cut = self._new_run
+        if cut:
+            self._begin_run()
+        if self._count >= MAX_MOMENTS:
+            return self._ask_only(child, request)
+        answered = child.ask(Record(let_steps_run(request), MAX_PER_REQUEST, cut))
+        if not isinstance(answered.reply, WithMoments):
+            return msgspec.structs.replace(answered, reply=Missing("a recording was asked for"))
+        record_again = answered.reply
+        answered = msgspec.structs.replace(answered, reply=record_again.reply)
+        self._add_line(request, answered, record_again)
+        return answered
+
+    def _begin_run(self) -> None:
+        if self._new_scene and self.scenes[-1]:
+            self.scenes.append([])
+            self.steps.append([])
+        self._new_scene = self._new_run = False
+        self.scenes[-1].append(Run(self.experiment))
+
+    def _add_line(self, request: Request, answered: Answered, record_again: WithMoments) -> None:
+        run = self.scenes[-1][-1]
+        step = self._add_step(request, answered)
+        step.place = run, len(run.lines)
+        moments = limit_moments(record_again.moments)
+        answer = describe_reply(record_again.reply) if isinstance(request, Call | Play) else ""
+        if isinstance(request, Integrate):
+            run.curve, run.names = True, {1: "it"}
+            answers = list_answers(record_again.reply)
+            moments = draw_curve(request, answers)
+            answer = describe_reply(Returned(answers[-1]) if answers else record_again.reply)
+        for number, look in islice(record_again.looks.items(), MAX_BODIES):
+            run.looks[number] = look
+            run.names[number] = describe_body(look, str(number))
+        self._count += len(moments)
+        if is_setup(request) and run.lines and run.lines[-1].is_setup:
+            run.lines[-1] = msgspec.structs.replace(run.lines[-1], moments=[])
+        run.lines.append(
+            Line(
+                signature_of(request),
+                answer,
+                moments,
+                is_setup(request),
+                "\n".join(step.code),
+                find_marks(request, run),
+                isinstance(request, Call) and request.work,
+            )
+        )
+        if moments:
+            step.bodies = {self._name_of(run, row.number): row for row in moments[-1].bodies}
+        elif len(run.lines) == 1:
+            step.bodies = {}  # those of another process
+
+    def _name_of(self, run: Run, number: int) -> str:
+        """Return a body's name in the script, or else its name on the page."""
+        ref = run.looks[number].ref if number in run.looks else 0
+        name = self.translator.names.get(ref, "")
+        return name if name.isidentifier() else run.names.get(number, "")
+
+    def _add_step(self, request: Request, answered: Answered) -> Step:
+        reply = answered.reply
+        assert not isinstance(reply, WithMoments)
+        code = self.translator.translate(request, reply)
+        before = self.steps[-1][-1].bodies if self.steps[-1] else {}
+        value = reply.value if isinstance(reply, Returned) else reply
+        watched = self.translator.watched_names(request)
+        step = Step(request, code, value is None, watched, before)
+        self.steps[-1].append(step)
+        return step
+
+    def scenes_to_show(self, every_scene: bool) -> slice:
+        """Return the last scene, or all where only all of them together say something."""
+        summed_up = self._new_scene and self.scenes[-1] != []
+        return slice(None) if every_scene or summed_up else slice(-1, None)
+
+
+class RecordingLab(Lab):
+    """A lab whose connection is recorded."""
+
+    def __init__(
+        self,
+        module: str,
+        open_child: Callable[[], Child],
+        pieces: list[Piece],
+        secret: str | None = None,
+    ) -> None:
+        self.recorder = Recorder(Translator(module))
+        super().__init__(module, open_child, pieces, self.recorder.send, secret)
+
+    def ran(self, text: str) -> None:
+        super().ran(text)
+        self.recorder.begin_scene(text)
+
+
+def let_steps_run(request: Request) -> Request:
+    """Let steps run where they are only counted: there is more to see."""
+    if isinstance(request, Play) and not request.trail_every:
+        return msgspec.structs.replace(request, physics=True)
+    return request
+
+
+def limit_moments(moments: list[Moment]) -> list[Moment]:
+    """Keep what our own recorder could have sent: a submission may send anything."""
+    return [
+        Moment(
+            each.time,
+            each.steps,
+            each.bodies[:MAX_BODIES],
+            each.touches[:MAX_TOUCHES],
+            each.rods[:MAX_RODS],
+        )
+        for each in moments[:MAX_PER_REQUEST]
+    ]
+
+
+def find_marks(request: Request, run: Run) -> list[Mark]:
+    """Return the arms and the axis of a question about the effective mass."""
+    match request:
+        case Call(target, [Ref(id=a), Ref(id=b), Vec() as ra, Vec() as rb, Vec() as axis]):
+            if not target.endswith(":effective_mass"):
+                return []
+            numbers = {look.ref: number for number, look in run.looks.items()}
+            arms = [
+                (numbers[ref], *arm, *axis) for ref, arm in ((a, ra), (b, rb)) if ref in numbers
+            ]
+            return [Mark(*each) for each in arms]
+    return []
+
+
+def is_setup(request: Request) -> bool:
+    """Return whether it sets something up; of several such in a row only the last is shown."""
+    return isinstance(request, MakeBody | MakeWorld | Set)
+
+
+def list_answers(reply: Reply) -> list[Value]:
+    """Return the answers of an integrator, step by step."""
+    match reply:
+        case Returned(Items(answers)):
+            return answers
+    return []
+
+
+def draw_curve(request: Integrate, answers: list[Value]) -> list[Moment]:
+    """Return an integrator's x and v over the time, as the one body of the picture."""
+    states = [Vec(request.x, request.v)]
+    states += [each for each in answers[: request.steps] if isinstance(each, Vec)]
+    return [
+        Moment(number * request.dt, number, [BodyRow(1, x, 0.0, v, 0.0, 0.0, 0.0)], [], [])
+        for number, (x, v) in enumerate(states)
+    ]
+
+
+def record_again(failing: Failing, open_child: OpenChild, pieces: list[Piece]) -> RecordingLab:
+    """Run a failed check once more, recorded; it fails again, or ends where it did."""
+    todo, check = failing.todo, failing.check
+    module = check.module or todo.module
+    lab = RecordingLab(module, lambda: open_child(check.cpu_seconds), pieces, failing.secret)
+    with lab.opened(), suppress(Exception):
+        failing.again(lab=lab)
+    return lab
