@@ -168,8 +168,10 @@ def want_turning_spokes(lab: Lab, shown: list[Picture]) -> None:
 
 
 def turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]], ...]]:
-    """Give the rings of each disc that has turned from one picture to the other."""
+    """Give the rings of each ball that has turned from one picture to the other."""
     for before, after in zip(one.discs, other.discs, strict=True):
+        if before.is_bob:  # its rod turns about it
+            continue
         angle = (after.angle - before.angle) % (2 * math.pi)
         rings = before.ring(0.6, SAMPLES), after.ring(0.6, SAMPLES)
         if TURNED < angle < 2 * math.pi - TURNED and all(map(is_clear, (*rings[0], *rings[1]))):
