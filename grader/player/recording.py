@@ -90,9 +90,9 @@ class Recorder:
         answered = child.ask(Record(let_steps_run(request), MAX_PER_REQUEST, cut))
         if not isinstance(answered.reply, WithMoments):
             return msgspec.structs.replace(answered, reply=Missing("a recording was asked for"))
-        record_again = answered.reply
-        answered = msgspec.structs.replace(answered, reply=record_again.reply)
-        self._add_line(request, answered, record_again)
+        recorded = answered.reply
+        answered = msgspec.structs.replace(answered, reply=recorded.reply)
+        self._add_line(request, answered, recorded)
         return answered
 
     def _begin_run(self) -> None:
@@ -102,18 +102,18 @@ class Recorder:
         self._new_scene = self._new_run = False
         self.scenes[-1].append(Run(self.experiment))
 
-    def _add_line(self, request: Request, answered: Answered, record_again: WithMoments) -> None:
+    def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]
         step = self._add_step(request, answered)
         step.place = run, len(run.lines)
-        moments = limit_moments(record_again.moments)
-        answer = describe_reply(record_again.reply) if isinstance(request, Call | Play) else ""
+        moments = limit_moments(recorded.moments)
+        answer = describe_reply(recorded.reply) if isinstance(request, Call | Play) else ""
         if isinstance(request, Integrate):
             run.curve, run.names = True, {1: "it"}
-            answers = list_answers(record_again.reply)
+            answers = list_answers(recorded.reply)
             moments = draw_curve(request, answers)
-            answer = describe_reply(Returned(answers[-1]) if answers else record_again.reply)
-        for number, look in islice(record_again.looks.items(), MAX_BODIES):
+            answer = describe_reply(Returned(answers[-1]) if answers else recorded.reply)
+        for number, look in islice(recorded.looks.items(), MAX_BODIES):
             run.looks[number] = look
             run.names[number] = describe_body(look, str(number))
         self._count += len(moments)

@@ -22,49 +22,9 @@ SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figur
 START = "index.md"  # its links are in the order in which the pages are read
 FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
-STYLE = """
-:root { color-scheme: light dark }
-html { background: Canvas; color: CanvasText }
-body { font: 1.05rem/1.55 system-ui, sans-serif; margin: 2rem auto }
-body { max-width: 52rem; padding: 0 1rem }
-img { max-width: 100%; background: white }
-@media screen and (prefers-color-scheme: dark) {
-  /* drawings are on white paper: turned round, their black is that of the page */
-  img[src$=".svg"] { filter: invert(1) hue-rotate(180deg); mix-blend-mode: screen }
-}
-.wide, .formula { overflow-x: auto }
-.formula { font-size: 1.15em; margin: 1rem 0 }
-table { border-collapse: collapse }
-td, th { border: 1px solid #8888; padding: .3rem .6rem; text-align: left; vertical-align: top }
-pre { background: #8882; padding: .8rem; overflow-x: auto }
-details { border-left: 3px solid #8888; padding-left: .8rem; margin: .6rem 0 }
-summary { cursor: pointer }
-main > nav ul { columns: 18rem }
-.pages { display: flex; flex-wrap: wrap; gap: .3rem 1.5rem }
-.pages .next { margin-left: auto }
-footer { border-top: 1px solid #8888; margin-top: 3rem; padding-top: 1rem }
-@media print {
-  h1, h2, h3 { break-after: avoid }
-  img, pre, tr { break-inside: avoid }
-  .pages { display: none }
-}
-"""
-PAGE = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>{title}</title>
-<style>{style}</style>
-{scripts}</head>
-<body>
-<header>{ways}</header>
-<main>
-{body}</main>
-<footer>{ways_below}</footer>
-</body>
-</html>
-"""
+HERE = Path(__file__).with_name("templates")
+STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
+PAGE = (HERE / "handout.html").read_text(encoding="utf-8")
 
 
 def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
