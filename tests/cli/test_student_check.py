@@ -157,7 +157,7 @@ def test_waiting_says_for_what(hand_in):
     fill_in(tree, "pymunk_scene.py", _7a="    space.gravity = 0, 980")
     out = check(tree, "whole", options=("--all",))
     assert re.search(r"^WAITING +whole", out, re.MULTILINE)
-    assert "exit is below 1 px: waiting for TODO 3, 5, 6" in " ".join(out.split())
+    assert "less than 1 px off: waiting for TODO 3, 5, 6" in " ".join(out.split())
     assert "the line below it says what" in out
 
 
@@ -180,7 +180,7 @@ def test_a_file_that_is_no_python_is_told_once_and_costs_its_own_todo(hand_in):
     assert out.count("SyntaxError") == 1 and len(out.splitlines()) <= 20
     assert re.search(r"^ERROR +3", out, re.MULTILINE)
     assert "(in mini_engine/joints.py, line 1: def broken(:" in " ".join(out.split())
-    assert all(re.search(rf"^PASSED +{todo}", out, re.MULTILINE) for todo in ("4", "8a"))
+    assert re.search(r"^PASSED +4 8a", out, re.MULTILINE)
 
 
 def test_a_string_that_python_warns_of_is_none_of_our_business():
@@ -312,14 +312,14 @@ import sys
 sys.path[:0] = {folders!r}
 if {others!r}:
     import constants
-import grader.judge.drawing
-from hypothesis import given, settings, strategies
-settings.load_profile("judge")
+from hypothesis import strategies
+from grader.judge.drawing import between, given, kept_examples
 drawn = []
-@given(strategies.lists(strategies.integers(-10**6, 10**6), min_size=20, max_size=20))
+@given(numbers=strategies.lists(between(-4000, 4000), min_size=20, max_size=20))
 def draw(numbers):
     drawn.append(numbers)
-draw()
+with kept_examples(draw, None):
+    draw()
 print(drawn)
 """
 

@@ -138,8 +138,8 @@ def test_it_works_without_fork(hand_in):
 
 def test_a_function_that_breaks_others_takes_their_points_too(open_session):
     session = open_session("solution")
-    loop = "for body in self.moving_bodies():\n            body.vel *= keep_vel"
-    out = session.save(WORLD, put(loop, "raise RuntimeError('what now')\n        " + loop))
+    share = "keep_vel = math.exp(-self.linear_damping * dt)"
+    out = session.save(WORLD, put(share, "raise RuntimeError('what now')\n        " + share))
     assert "TODO 5: 8 → 0 of 8, in all 10 → 2 of 10" in out
     assert "Got       RuntimeError: what now" in out
     assert session.is_up_to_date()
@@ -147,7 +147,8 @@ def test_a_function_that_breaks_others_takes_their_points_too(open_session):
 
 def test_given_code_is_watched_as_well(open_session):
     session = open_session("solution")
-    assert "TODO 5: 8 →" in session.save(WORLD, put("self.apply_damping(dt)\n", "pass\n"))
+    out = session.save(WORLD, put("self.apply_damping(dt)\n", "pass\n"))
+    assert "TODO 5: 8 of 8 as before" in out  # given code costs the whole alone
     assert session.is_up_to_date()
 
 

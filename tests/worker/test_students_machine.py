@@ -49,9 +49,10 @@ def test_a_habit_costs_nothing(habit: str, hand_in: HandIn):
 
 @pytest.mark.parametrize("library", ["scipy", "msgspec", "rich", "grader.checks.exact", "psutil"])
 def test_any_other_import_meets_the_rule_and_its_line(library: str, hand_in: HandIn):
+    """It stands in given code, so the TODO keeps its points: the whole loses them."""
     result = graded(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
     check = checks(result)[0]
-    assert result.points == 0 and RULE in check.got
+    assert RULE in check.got and result.points == result.max_points
     assert check.where is not None and (check.where.file, check.where.line) == ("integrators.py", 1)
 
 

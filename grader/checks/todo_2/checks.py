@@ -137,7 +137,7 @@ def any_two_bodies_agree_with_the_formula(
     nearly: Pair,
     fields: tuple[Fields, Fields],
 ) -> None:
-    """Two bodies of any mass and size, pushed anywhere along any axis, and then changed"""
+    """Two bodies of any mass and size, pushed anywhere, and then changed"""
     slow = [{**each, "omega": 1 / 64, "vel": (1 / 64, 0.0)} for each in fields]
     n = 0
     for quadrant in QUADRANTS:

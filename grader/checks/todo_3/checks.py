@@ -226,7 +226,7 @@ def any_rod_reaches_its_speed_and_keeps_the_momentum(
     spins: Pair,
     surfaces: tuple[Surface, Surface],
 ) -> None:
-    """Any rod: one pass gives the right speed and keeps the momentum; a static end never moves"""
+    """Any rod gets the right speed and keeps the momentum; a static end stays"""
     for n, (strain, kind) in enumerate(product(STRAINS, (BOTH, ONLY_A, ONLY_B, BOTH))):
         (x, y), weight = (nearly if n == 7 else DIRECTIONS[n % 7]), WEIGHTS[n % 3]
         vel_a, vel_b = (

@@ -52,7 +52,7 @@ PASSES = range(2, 21)  # of the solver: the lesson proposes to try 2 and 20, and
 
 
 def the_space_keeps_its_damping_and_settings(lab: Lab) -> None:
-    """The space has damping 0.95, and else pymunk's own settings or those of an experiment"""
+    """The space has damping 0.95 and pymunk's settings, or those of an experiment"""
     lab.ran("make_space, and looked at the space's settings")
     space = scene(lab)
     lab.want(space.damping == 0.95, "damping 0.95", f"damping {space.damping:g}")
@@ -175,7 +175,7 @@ def a_ball_resists_turning_as_a_full_disc(lab: Lab) -> None:
 
 @given(examples=2, seed=seeds, x=places_around, y=places_around)
 def every_ball_has_the_moment_of_its_own_size(lab: Lab, seed: int, x: float, y: float) -> None:
-    """Balls of all thirteen sizes have moments of their own, and are else as they were given"""
+    """Balls of all thirteen sizes have their own moments; nothing else changes"""
     space = lab.thing(lab.call("pymunk:Space"), "the space")
     lab.put(space, gravity=(3.5, 700.25), damping=0.8125, iterations=7)
     for number, radius in enumerate(RADII):

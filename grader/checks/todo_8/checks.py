@@ -184,7 +184,7 @@ def semi_implicit_euler_moves_with_the_new_velocity(
 
 
 def semi_implicit_euler_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    """The spring still swings after ten seconds, about as in the lesson's table"""
     want_a_swing(lab, SEMI_IMPLICIT_EULER)
 
 
@@ -197,7 +197,7 @@ def velocity_verlet_uses_the_accelerations_at_both_ends(
 
 
 def velocity_verlet_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    """The spring still swings after ten seconds, about as in the lesson's table"""
     want_a_swing(lab, VELOCITY_VERLET)
 
 
@@ -210,5 +210,5 @@ def rk4_weighs_four_samples(
 
 
 def rk4_keeps_the_spring_swinging(lab: Lab) -> None:
-    """The spring still swings after ten seconds, about as well as in the lesson's table"""
+    """The spring still swings after ten seconds, about as in the lesson's table"""
     want_a_swing(lab, RK4)

@@ -234,7 +234,7 @@ def want_rest(lab: Lab, balls: list[Mover]) -> None:
 
 
 def the_picture_shows_where_the_balls_are(lab: Lab) -> None:
-    """The window shows every ball where it is, with a spoke that turns, and nothing else"""
+    """The window shows every ball where it is, with a spoke that turns"""
     played = run(lab, 2.8, 30, photos=PHOTOGRAPHED)
     want_pictures(lab, played, movers(played), PHOTOGRAPHED)
 
