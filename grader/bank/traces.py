@@ -54,7 +54,8 @@ def watch_traces(own: Path, name: str) -> Iterator[Traces]:
     with redirect_home(own), note_new_files() as made:
         yield traces
     left = {*own.rglob("*"), *made} | {path for path, _ in find_named(name, shared) - files}
-    left = {path for path in left if CACHE not in (path, *path.parents)}  # the judge's own
+    ours = {CACHE.parent, CACHE}  # the judge keeps it, whatever it grades
+    left = {path for path in left if path not in ours and CACHE not in path.parents}
     kept = sorted(path for path in left if os.path.lexists(path))
     traces.left += [f"the file {path}" for path in kept[:3]]
     for process in list_descendants() - processes:

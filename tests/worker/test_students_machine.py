@@ -1,5 +1,6 @@
 """A submission runs as on its student's machine: in its folder, with what it may import."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -48,11 +49,19 @@ def test_a_habit_costs_nothing(habit: str, hand_in: HandIn):
 
 
 @pytest.mark.parametrize("library", ["scipy", "msgspec", "rich", "grader.checks.exact", "psutil"])
-def test_any_other_import_meets_the_rule_and_its_line(library: str, hand_in: HandIn):
+def test_any_other_import_in_a_todo_meets_the_rule(library: str, hand_in: HandIn):
+    program = re.sub("(# TODO 8a.*\n)", rf"\1    import {library}\n", INTEGRATORS)
+    result = graded(hand_in(integrators_py=program))
+    assert result.points == 0 and RULE in checks(result)[0].got
+
+
+@pytest.mark.parametrize("library", ["scipy", "grader.checks.exact"])
+def test_an_import_in_given_code_is_put_back(library: str, hand_in: HandIn):
     """It stands in given code, so the TODO keeps its points: the whole loses them."""
     result = graded(hand_in(integrators_py=f"import {library}\n{INTEGRATORS}"))
     check = checks(result)[0]
-    assert RULE in check.got and result.points == result.max_points
+    assert f"`import {library}`, was not there" in check.meaning
+    assert result.points == result.max_points
     assert check.where is not None and (check.where.file, check.where.line) == ("integrators.py", 1)
 
 
