@@ -235,13 +235,11 @@ def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: b
 
 def drop_backups(pieces: list[Piece], notes: list[str]) -> list[Piece]:
     """Leave out a desktop's copy that lies beside its original: that is somebody's backup."""
-    kept = [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
-    if not kept:
+    backups = [piece for piece in pieces if not piece.exact and is_backup(piece.path.name)]
+    if len(backups) == len(pieces):
         return pieces
-    for piece in pieces:
-        if piece not in kept:
-            notes.append(f"{piece.path} was left out as a backup")
-    return kept
+    notes += [f"{piece.path} was left out as a backup" for piece in backups]
+    return [piece for piece in pieces if piece.exact or not is_backup(piece.path.name)]
 
 
 def is_backup(name: str) -> bool:

@@ -60,11 +60,11 @@ from grader.judge.children import start_worker
 from grader.judge.course import read_course
 from grader.judge.grade import grade
 from grader.report.files import as_json
-from grader.cli.student import own_options
+from grader.cli.student import make_options
 worker = start_worker()
 for line in sys.stdin:
     path, todos = json.loads(line)
-    result = grade(Path(path), own_options(frozenset(todos), read_course()), worker)
+    result = grade(Path(path), make_options(frozenset(todos), read_course()), worker)
     print(as_json(result).decode().replace("\\n", ""))
 worker.close()
 """
