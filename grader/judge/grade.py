@@ -226,9 +226,11 @@ class Grading:
         for id in {id for id, _ in blame.seen}:
             answers = [each for key, each in loop.seen.items() if key[0] == id]
             self.observations[id] = [each for some in answers for each in some]
+        kept = []
         for key, blamed in blame.found.items():
             check, job = loop.results[key], loop.failed[key]
             if blamed.mended and self.keeps_points(job.todo):
+                kept.append(blamed)
                 hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
                 loop.failing.pop(key, None)
                 loop.results[key] = msgspec.structs.replace(
@@ -240,6 +242,26 @@ class Grading:
                     meaning=f"{blamed.in_words} {hint}".rstrip(),
                     where=blamed.place(check),
                 )
+        if kept:
+            self.charge_whole(loop, kept[0])
+
+    def charge_whole(self, loop: "CheckLoop", blamed: Blamed) -> None:
+        """Take a point of the whole for given code that a TODO needs, unless it lost one."""
+        whole = {key: check for key, check in loop.results.items() if key[0] == "whole"}
+        passed = [key for key, check in whole.items() if check.state == "passed"]
+        if not passed or len(passed) < len(whole):
+            return
+        check = whole[passed[0]]
+        loop.results[passed[0]] = msgspec.structs.replace(
+            check,
+            state="not yet",
+            points=0,
+            ran="the checks of the TODOs with your own code around them",
+            expected="the code around the TODOs as it was handed out",
+            got="; ".join(each.how for each in blamed.changes),
+            meaning=blamed.in_words,
+            where=blamed.place(check),
+        )
 
     def keeps_points(self, todo: Todo) -> bool:
         """Return whether a TODO is its function's code alone: called as it was handed out."""
