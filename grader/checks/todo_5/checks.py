@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from itertools import product
 from typing import NamedTuple
 
@@ -276,7 +276,8 @@ def moment(body: BodyValue) -> Moment:
 
 def want_moment(lab: Lab, answer: Moment, right: Moment, dt: float, times: float) -> None:
     """After a step of dt: its speeds up to `times` what SINGLE allows, and where these lead."""
-    got, meant = astuple(answer), astuple(right)
+    turns = right.angle + math.remainder(answer.angle - right.angle, math.tau)
+    got, meant = astuple(replace(answer, angle=turns)), astuple(right)
     n = decimals_to_tell(meant, got, 4)
     vx, vy, omega = (times * SINGLE * abs(speed) for speed in (right.vx, right.vy, right.omega))
     most = vx * dt, vy * dt, vx, vy, omega * dt, omega

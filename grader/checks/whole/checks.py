@@ -465,6 +465,9 @@ def boxes_of(played: Played) -> list[SpaceBody]:
     return [body for body in moving if body.shapes[0].kind == "Poly"]
 
 
+UPRIGHT = 0.5  # rad; boxes that are tied together turn by more than 1
+
+
 def want_a_free_box(lab: Lab, level: int) -> None:
     """A ball hits one box of the stack: that one moves, and leaves the lowest or the top one."""
     speed = lab.about(3000.0, 400.0)
@@ -479,6 +482,11 @@ def want_a_free_box(lab: Lab, level: int) -> None:
         hit.x - 760 > 50 and hit.x - other.x > 30,
         "the box that was hit far to the right, and the rest of the stack left behind",
         f"it moved by {hit.x - 760:.0f} px, and the other end of the stack by {other.x - 760:.0f}",
+    )
+    lab.want(
+        abs(other.angle) < UPRIGHT,
+        "boxes that are free of each other: the other end of the stack still upright",
+        f"it turned by {other.angle:.2f} rad",
     )
 
 
