@@ -25,7 +25,9 @@ LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
-    """The frames of so many seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6 ms."""
+    """Return the frames of so many seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
+    ms.
+    """
     ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
     return [end - begin for begin, end in pairwise(ends)]
 
@@ -47,26 +49,27 @@ class Pace:
 
     @property
     def time(self) -> float:
-        """The time that has passed, ms."""
+        """Return the time that has passed, ms."""
         return sum(self.lengths)
 
     @property
     def step(self) -> float:
-        """The time that a step simulates, ms; the longest where they differ."""
+        """Return the time that a step simulates, ms; the longest where they differ."""
         return 1000 * max(self.sizes, default=STEP)
 
     @property
     def done(self) -> float:
-        """The simulated time, ms."""
+        """Return the simulated time, ms."""
         return sum(self.steps) * self.step
 
     @property
     def slack(self) -> float:
-        """How much a program that is a frame behind may not have seen yet, ms."""
+        """Return how much a program that is a frame behind may not have seen yet, ms."""
         return sum(self.lengths[-len(SETTLE) :])
 
     def out_of_step(self, frames: int | None = None) -> int | None:
-        """The first frame when more is simulated than has passed, or over a step less, or None.
+        """Return the first frame when more is simulated than has passed, or over a step less, or
+        None.
 
         Only so many `frames` count, where a number is given.
         """
@@ -108,7 +111,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """The length of a frame, ms, for a program that waits for so long by itself.
+    """Return the length of a frame, ms, for a program that waits for so long by itself.
 
     Frames stay below the cap that were below it, and of two the longer one is longer.
     """
@@ -118,7 +121,9 @@ def beyond(waits: float, frame: int) -> int:
 
 
 def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
-    """What the program makes of these frames; and the longest that it has made longer, ms, or 0."""
+    """Return what the program makes of these frames; and the longest that it has made longer, ms,
+    or 0.
+    """
     frames = [*OFF_BEAT, *asked, *SETTLE]
     played = lab.play(frames, physics=False, step_ms=step_ms)
     count = len(frames)
@@ -141,12 +146,12 @@ def played_at(lab: Lab, asked: list[int], step_ms: float) -> tuple[Pace, float]:
 
 
 def fixed(sizes: list[float]) -> bool:
-    """Whether all steps are STEP long."""
+    """Return whether all steps are STEP long."""
     return all(math.isclose(size, STEP, rel_tol=1e-9) for size in sizes)
 
 
 def standing_still(lab: Lab) -> Thing:
-    """A world or space in the middle of something, with a body far below the window."""
+    """Return a world or space in the middle of something, with a body far below the window."""
     if lab.module == "pymunk_scene":
         space = lab.thing(lab.call("pymunk:Space"), "a Space")
         for pos, spin in (

@@ -57,7 +57,7 @@ frame_lists = st.builds(
 
 @st.composite
 def frames_to_advance(draw: st.DrawFn) -> list[tuple[float, float]]:
-    """What is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
+    """Return what is in the accumulator, and frames from 1 ms to 2 s in any order; all in s.
 
     Up to the cap each is a tenth longer than another one, so that no range is left out. Some are
     exactly as long as nothing, a step, or as many steps as may run, and some hardly longer.
@@ -114,7 +114,7 @@ circles = st.fixed_dictionaries({"mass": any_masses_or_static, **MOTION, **SURFA
 
 @st.composite
 def directions(draw: st.DrawFn) -> tuple[float, float]:
-    """A unit vector; often one that is hardly off level or upright."""
+    """Return a unit vector; often one that is hardly off level or upright."""
     off = draw(st.integers(-64, 64)) * draw(st.sampled_from([1 / 64, 1 / 65536]))  # rad
     angle = draw(st.integers(0, 3)) * math.pi / 2 + off
     return math.cos(angle), math.sin(angle)

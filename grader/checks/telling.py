@@ -33,7 +33,9 @@ def want_told(
 def told_apart(
     say: Callable[[Answer, int], str], right: Answer, got: Answer, digits: int = 3
 ) -> tuple[str, str]:
-    """What was expected and what came, with so many digits, or as many as it takes to differ."""
+    """Return what was expected and what came, with so many digits, or as many as it takes to
+    differ.
+    """
     told = without_minus_zero(say(right, digits)), without_minus_zero(say(got, digits))
     if told[0] == told[1] and digits < MAX_DIGITS:
         return told_apart(say, right, got, digits + 1)

@@ -24,7 +24,7 @@ Fields = dict[str, Any]
 def pair(
     lab: Lab, disc: Disc, rect: Rect, circle: Fields | None = None, box: Fields | None = None
 ) -> tuple[Thing, Thing]:
-    """A circle and a box, each with further fields, for the experiment that begins here."""
+    """Return a circle and a box, each with further fields, for the experiment that begins here."""
     lab.ran(asked(disc, rect))
     return (
         lab.circle((disc.x, disc.y), disc.r, **(circle or {})),
@@ -48,7 +48,7 @@ def touch(
     twice: bool = True,
     noted: bool = True,
 ) -> Touch | None:
-    """What the submission's circle_box says of these two, where disc and rect say they are.
+    """Return what the submission's circle_box says of these two, where disc and rect say they are.
 
     An answer that is not `noted` is not held against the known mistakes.
     """

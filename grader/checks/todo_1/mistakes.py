@@ -30,7 +30,7 @@ def is_inside(disc: Disc, rect: Rect) -> bool:
 
 
 def like(disc: Disc, rect: Rect) -> dict[str, str]:
-    """Where the circle is, in words."""
+    """Return where the circle is, in words."""
     across, down = abs(disc.x - rect.x) - rect.hx, abs(disc.y - rect.y) - rect.hy
     inside, corner = is_inside(disc, rect), across > 0 and down > 0
     side = "left" if disc.x < rect.x else "right"
@@ -56,7 +56,7 @@ truth("circle_box", right, like, PARTS)
 
 
 def inside(change: Change) -> Model:
-    """The right answer, changed for a centre inside the box."""
+    """Return the right answer, changed for a centre inside the box."""
 
     def model(disc: Disc, rect: Rect) -> Answer:
         answer = right(disc, rect)
@@ -66,7 +66,7 @@ def inside(change: Change) -> Model:
 
 
 def outside(change: Change) -> Model:
-    """The right answer, changed for a centre outside the box."""
+    """Return the right answer, changed for a centre outside the box."""
 
     def model(disc: Disc, rect: Rect) -> Answer:
         answer = right(disc, rect)
@@ -76,7 +76,7 @@ def outside(change: Change) -> Model:
 
 
 def circle_first(disc: Disc, rect: Rect) -> tuple[bool, bool]:
-    """Whether the contact's A is the circle, and its B the box."""
+    """Return whether the contact's A is the circle, and its B the box."""
     return True, True
 
 
@@ -92,14 +92,14 @@ def with_normal(touch: Touch, nx: float, ny: float) -> Touch:
 
 
 def any_distance(disc: Disc, rect: Rect) -> Touch:
-    """The contact even where the two are apart: the depth is then negative."""
+    """Return the contact even where the two are apart: the depth is then negative."""
     answer = right(disc._replace(r=disc.r + FAR), rect)
     assert answer is not None
     return answer._replace(depth=answer.depth - FAR)
 
 
 def on_an_edge(disc: Disc, edge: Rect) -> Answer:
-    """The contact with an edge, in place of the box."""
+    """Return the contact with an edge, in place of the box."""
     if is_inside(disc, edge):
         raise Undecided  # the distance is 0
     return right(disc, edge)

@@ -23,7 +23,7 @@ Fields = dict[str, Any]  # what a body has besides mass and radius, on which not
 
 
 def discs(lab: Lab, a: Lever, b: Lever, *fields: Fields) -> tuple[Thing, Thing]:
-    """Both discs; `fields` are what else A and B have, or nothing where they rest."""
+    """Return both discs; `fields` are what else A and B have, or nothing where they rest."""
     first, second = (
         lab.circle(radius=lever.radius, mass=lever.mass, **{"pos": place, **how})
         for place, lever, how in zip(PLACES, (a, b), fields or ({}, {}), strict=True)
@@ -44,7 +44,7 @@ def effective_mass(
     things: tuple[Thing, Thing] | None = None,
     framed: bool = True,
 ) -> float:
-    """What the submission's effective_mass says of two discs.
+    """Return what the submission's effective_mass says of two discs.
 
     Where it is not `framed`, a right number is worth its points, whatever else happens.
     """

@@ -12,7 +12,7 @@ Sum = Callable[[Lever, Lever, Pair], float]
 
 
 def like(a: Lever, b: Lever, axis: Pair) -> dict[str, str]:
-    """Which body can turn, and how it is pushed, in words."""
+    """Return which body can turn, and how it is pushed, in words."""
     moving = [name for name, each in (("A", a), ("B", b)) if each.mass]
     turns = {"A": "only A can turn", "B": "only B can turn", "AB": "both can turn"}
     words = {"moves": turns["".join(moving)]} if moving else {}
@@ -41,7 +41,7 @@ def masses(a: Lever, b: Lever) -> float:
 
 
 def with_term(term: Callable[[Lever, Pair], float]) -> Sum:
-    """The sum with another spin term for each body."""
+    """Return the sum with another spin term for each body."""
 
     def model(a: Lever, b: Lever, axis: Pair) -> float:
         return masses(a, b) + term(a, axis) + term(b, axis)

@@ -30,7 +30,7 @@ def joined(
     at: Pair = STILL,
     surfaces: tuple[Surface, Surface] = (ROUGH, SMOOTH),
 ) -> tuple[Thing, Thing, Thing]:
-    """The joint, its A, which is there, and its B, ready to be solved."""
+    """Return the joint, its A, which is there, and its B, ready to be solved."""
     (x, y), (dx, dy), (first, second) = at, rod.offset, surfaces
     a = lab.circle(at, 10.0, rod.mass_a, vel=rod.vel_a, omega=spins[0], angle=ANGLES[0], **first)
     at_first = (x + rod.length, y)
@@ -44,7 +44,7 @@ def joined(
 
 
 def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[BodyValue, BodyValue]:
-    """A and B after a pass over the rod."""
+    """Return A and B after a pass over the rod."""
     lab.ran(
         f"solve on a rod {rod.length:g} px long at 1/{1 / rod.dt:g} s: "
         f"A {weight(rod.mass_a)}, {rod.vel_a} px/s; B {weight(rod.mass_b)}, {rod.vel_b} px/s, "
@@ -55,7 +55,8 @@ def solve(lab: Lab, rod: Rod, spins: Pair = STILL, at: Pair = STILL) -> tuple[Bo
 
 
 def tell_solve(lab: Lab, joint: Thing, a: Thing, b: Thing, rod: Rod) -> tuple[BodyValue, BodyValue]:
-    """A and B after a pass over a rod that has just been prepared; an exception is an answer, too.
+    """Return A and B after a pass over a rod that has just been prepared; an exception is an
+    answer, too.
 
     It may change the velocities of ends that can move, and nothing else.
     """
@@ -113,7 +114,8 @@ def want_exact(
 
 
 def rounding(rod: Rod, far: float = 0.0) -> float:
-    """How far off a speed may be, px/s: the rod is measured by places, `far` px away at the most.
+    """Return how far off a speed may be, px/s: the rod is measured by places, `far` px away at the
+    most.
 
     Far away a short rod's direction is known less well, and so is the part of a speed along it.
     """
@@ -332,7 +334,9 @@ def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
 def swing(
     lab: Lab, start: Pair, mass: float, gravity: float, seconds: float
 ) -> tuple[list[Moment], float]:
-    """The bob of a pendulum in a world after each step, and its length; the hook is at (0, 0)."""
+    """Return the bob of a pendulum in a world after each step, and its length; the hook is at (0,
+    0).
+    """
     hook, bob = lab.circle(STILL, 6.0, 0.0), lab.circle(start, 24.0, mass)
     joint = lab.thing(lab.call("DistanceJoint", hook, bob), "a DistanceJoint")
     world = lab.world(hook, bob, gravity=(0.0, gravity), joints=[joint])

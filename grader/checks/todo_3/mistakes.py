@@ -23,7 +23,7 @@ def right(rod: Rod) -> Answer:
 
 
 def like(rod: Rod) -> dict[str, str]:
-    """What moves, and what the rod has to do, in words."""
+    """Return what moves, and what the rod has to do, in words."""
     names = [name for name, mass in (("A", rod.mass_a), ("B", rod.mass_b)) if mass]
     moves = {"": "no end can move", "A": "only A can move", "B": "only B can move"}
     off = math.hypot(*rod.offset) - rod.length
@@ -53,7 +53,7 @@ known = partial(mistake, "3", "rod")
 
 
 def velocities(model: Model) -> Callable[[Rod], Answer]:
-    """A mistake in the velocities alone, where an end can move."""
+    """Return a mistake in the velocities alone, where an end can move."""
 
     def answer(rod: Rod) -> Answer:
         if not rod.k:

@@ -43,7 +43,8 @@ Motion = tuple[float, ...]  # velocities of A and B, px/s
 def rub(
     lab: Lab, discs: Discs, closing: float, slip: float, dt: float = STEP, spin: float = 0.0
 ) -> float:
-    """The friction impulse on B in a step, along its slip; with a `spin` all else is looked at.
+    """Return the friction impulse on B in a step, along its slip; with a `spin` all else is looked
+    at.
 
     How far out a spin works is the engine's business, give or take the overlap, so it goes with
     more slip than friction can end.
@@ -87,14 +88,16 @@ def rub(
 
 
 def at_first(discs: Discs, closing: float, slip: float) -> Motion:
-    """The velocities with which B closes in on A and slips along it; statics rest."""
+    """Return the velocities with which B closes in on A and slips along it; statics rest."""
     (x, y), (dx, dy) = discs.normal, discs.drift if all(discs.mass) else STILL
     vx, vy = -closing * x - slip * y, -closing * y + slip * x
     return (dx, dy, dx + vx, dy + vy) if discs.mass[1] else (-vx, -vy, 0.0, 0.0)
 
 
 def rubbed(discs: Discs, first: Motion, last: Motion) -> float:
-    """The friction impulse on B between two motions, told by the lighter one of those that move."""
+    """Return the friction impulse on B between two motions, told by the lighter one of those that
+    move.
+    """
     (x, y), (mass_a, mass_b) = discs.normal, discs.mass
     if mass_b and not 0 < mass_a < mass_b:
         return mass_b * ((last[3] - first[3]) * x - (last[2] - first[2]) * y)

@@ -16,7 +16,7 @@ DEPTH = 0.265625  # px, the overlap of all that is rubbed
 
 
 def like(mu: Pair, k: float, closing: float, slip: float) -> dict[str, str]:
-    """How the two rub, in words."""
+    """Return how the two rub, in words."""
     limit = math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
     return {
         "ways": f"B slips {'forwards' if slip > 0 else 'backwards'}",
@@ -32,7 +32,7 @@ known = partial(mistake, "4", "friction")
 
 
 def with_limit_and_rule(limit_of: Limit, rule: Rule) -> Model:
-    """The friction of all passes with this limit, and this rule for what becomes of a total."""
+    """Return the friction of all passes with this limit, and this rule for the total."""
 
     def model(mu: Pair, k: float, closing: float, slip: float) -> float:
         if not (mu[0] and mu[1]):
@@ -210,7 +210,7 @@ known(
 
 
 def kept_as_wanted(applied: Rule) -> Model:
-    """Where the contact keeps the total that was wanted, and this much is applied of it.
+    """Return where the contact keeps the total that was wanted, and this much is applied of it.
 
     `applied` takes what the contact has kept, what is wanted, and the limit.
     """

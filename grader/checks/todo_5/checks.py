@@ -42,7 +42,7 @@ class Damped(NamedTuple):
         steps: int,
         motion: Pair = (SPEED, SPIN),
     ) -> Shares:
-        """The shares of speed and spin that are left after some steps at these rates."""
+        """Return the shares of speed and spin that are left after some steps at these rates."""
         lab, (speed, spin) = self.lab, motion
         lab.put(self.world, linear_damping=linear, angular_damping=angular)
         lab.put(self.ball, pos=(0.0, 0.0), vel=(speed, 0.0), omega=spin)
@@ -53,7 +53,7 @@ class Damped(NamedTuple):
 
 
 def damped_ball(lab: Lab, linear: float, angular: float, walls: int = 0) -> Damped:
-    """A ball far from all walls, in a world with these rates."""
+    """Return a ball far from all walls, in a world with these rates."""
     ball = lab.circle((0.0, 0.0))
     boxes = [lab.box((1e4, 100.0 * number), (20.0, 20.0)) for number in range(walls)]
     world = lab.world(ball, *boxes, linear_damping=linear, angular_damping=angular)
@@ -264,7 +264,7 @@ def a_fleet(lab: Lab) -> tuple[list[Thing], list[Thing]]:
 
 
 def stepped(each: Moment, pull: Pair, keep: Shares, dt: float) -> Moment:
-    """A body a step later that touches nothing: gravity, then damping, then it moves."""
+    """Return a body a step later that touches nothing: gravity, then damping, then it moves."""
     vx, vy = keep[0] * (each.vx + pull[0] * dt), keep[0] * (each.vy + pull[1] * dt)
     omega = keep[1] * each.omega
     return Moment(each.x + vx * dt, each.y + vy * dt, vx, vy, each.angle + omega * dt, omega)

@@ -16,7 +16,7 @@ def right(linear: float, angular: float, dt: float, steps: int) -> Shares:
 
 
 def like(linear: float, angular: float, dt: float, steps: int) -> dict[str, str]:
-    """The rates and the steps, in words."""
+    """Return the rates and the steps, in words."""
     words = {}
     words["_rates"] = f"the rates are {'equal' if linear == angular else 'different'}"
     words["_step"] = f"a step is 1/{1 / dt:.4g} s"
@@ -39,7 +39,7 @@ def left_out_at_zero(model: Model) -> Model:
 
 
 def per_step(factor: Factor) -> Model:
-    """Both shares from what one step keeps at a rate."""
+    """Return both shares from what one step keeps at a rate."""
     return lambda linear, angular, dt, steps: (
         factor(linear, dt) ** steps,
         factor(angular, dt) ** steps,

@@ -133,7 +133,7 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
-    """Where it says so: in which line, from the last one, and as which number of it.
+    """Return where it says so: in which line, from the last one, and as which number of it.
 
     Who prints all numbers says nothing by that.
     """

@@ -34,7 +34,7 @@ def uncapped(frame: int) -> int:
 
 
 def whole_steps(held: int | Fraction) -> int:
-    """How many steps are due; undecided where rounding may put the last one off."""
+    """Return how many steps are due; undecided where rounding may put the last one off."""
     steps, rest = divmod(held, STEP)
     if steps and not rest and held != CAP:  # 8 * STEP does hold 8 steps
         raise Undecided
@@ -44,7 +44,7 @@ def whole_steps(held: int | Fraction) -> int:
 def accumulated(
     frames: Frames, added: Callable[[int], int | Fraction], most: int = RUNAWAY
 ) -> list[int]:
-    """The steps of a loop that adds `added(frame)` and runs whole steps, `most` of them."""
+    """Return the steps of a loop that adds `added(frame)` and runs whole steps, `most` of them."""
     steps: list[int] = []
     held: int | Fraction = 0
     for frame in frames[:-1]:
@@ -214,7 +214,7 @@ known(
 
 
 def different(sizes: list[int]) -> list[float]:
-    """Each size once, in seconds."""
+    """Return each size once, in seconds."""
     return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_SIZES]
 
 
@@ -291,7 +291,7 @@ known(
 
 
 def pair_swapped(frames: Frames) -> Answer:
-    """The number of steps comes back as the seconds that wait."""
+    """Return the number of steps as the seconds that wait: the mistake swaps the two."""
     steps = [0]
     for frame in frames[:-1]:
         steps.append(min(whole_steps(capped(frame) + SECOND * steps[-1]), RUNAWAY))

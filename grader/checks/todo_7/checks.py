@@ -28,7 +28,7 @@ STRETCH = 3.0  # px; pymunk's own rod gives way by 1.2 px here, or for a step by
 
 
 def scene(lab: Lab) -> SpaceValue:
-    """The space of the lab scene, with balls of some sizes."""
+    """Return the space of the lab scene, with balls of some sizes."""
     made = lab.call("make_space", Rng(lab.whole(12, 12)))
     return lab.space(lab.items(made, "what make_space returns")[0])
 
@@ -154,7 +154,9 @@ RADII = range(10, 23)  # px
 
 
 def seed_of(radius: int, first: int) -> int:
-    """The next seed that draws a ball of this size; how a colour is drawn later is left open."""
+    """Return the next seed that draws a ball of this size; how a colour is drawn later is left
+    open.
+    """
     return next(n for n in count(first) if random.Random(n).randint(RADII[0], RADII[-1]) == radius)
 
 
@@ -234,7 +236,7 @@ class Rod(NamedTuple):
 
 
 def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
-    """The space of the lab scene, its bob, and what holds the bob."""
+    """Return the space of the lab scene, its bob, and what holds the bob."""
     space = scene(lab)
     moving = [body for body in space.bodies if body.kind == "dynamic"]
     found = [body for body in moving if near(pair(body.pos), BOB, 1.0)]
@@ -248,7 +250,7 @@ def pendulum(lab: Lab) -> tuple[Thing, Thing, list[Rod]]:
 
 
 def off(length: float) -> int:
-    """Whether a rod is too short (-1), too long (1), or neither (0)."""
+    """Return whether a rod is too short (-1), too long (1), or neither (0)."""
     return 0 if math.isclose(length, LENGTH, abs_tol=AT_REST) else 1 if length > LENGTH else -1
 
 
@@ -265,7 +267,7 @@ def rods_of(space: SpaceValue, bob: int, moving: set[int]) -> list[Rod]:
 
 
 def kind_of(joint: SpaceJoint) -> str:
-    """What it is; a slide joint that cannot get much shorter is no rope."""
+    """Return what it is; a slide joint that cannot get much shorter is no rope."""
     slack = joint.reach is not None and 1.0 < joint.reach[0] < joint.reach[1]
     return joint.kind + " with slack" * slack
 
@@ -275,7 +277,7 @@ def pair(place: Vec | None) -> Pair | None:
 
 
 def watch_bob(lab: Lab, gravity: float, seconds: float, **start: Any) -> list[Moment]:
-    """The bob after every step of the lab scene without damping."""
+    """Return the bob after every step of the lab scene without damping."""
     space, bob, _ = pendulum(lab)
     lab.put(space, gravity=(0.0, gravity), damping=1.0)
     lab.put(bob, **start)
@@ -326,7 +328,7 @@ def the_bob_hangs_in_the_space_as_it_was_given(lab: Lab) -> None:
 
 
 def of_bob(body: SpaceBody) -> bool:
-    """Whether a body is a disc of 24 px at the bob's place, at rest."""
+    """Return whether a body is a disc of 24 px at the bob's place, at rest."""
     at_rest = near(pair(body.pos), BOB, 1e-6) and not any((*body.vel, body.omega, body.angle))
     return at_rest and [each.radius for each in body.shapes] == [24.0]
 

@@ -123,7 +123,7 @@ Rod = tuple[str, Pair, Pair, bool]  # kind, far end, end on the bob, whether the
 
 
 def pin(far_end: Pair, on_bob: Pair = (0.0, 0.0), moves: bool = False) -> Rod:
-    """A pin joint to a point of the bob, which is measured from its centre."""
+    """Return a pin joint to a point of the bob, which is measured from its centre."""
     return "PinJoint", far_end, (BOB[0] + on_bob[0], BOB[1] + on_bob[1]), moves
 
 
@@ -135,7 +135,7 @@ truth("rods", right_rod)
 
 
 def length_off(off: int) -> Callable[[list[Rod]], int]:
-    """A rod in the right place that is too long (1) or too short (-1)."""
+    """Return a rod in the right place that is too long (1) or too short (-1)."""
 
     def model(rods: list[Rod]) -> int:
         if not are_close(rods, right_rod()):

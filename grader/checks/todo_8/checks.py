@@ -75,7 +75,7 @@ def want_steps(
 def want_step(
     lab: Lab, method: Method, state: State, dt: float, force: Polynomial, twice: bool = False
 ) -> State:
-    """One step, which must give the right state but for rounding; returns what it gave."""
+    """Return one step, which must give the right state but for rounding; returns what it gave."""
     x, v = state
     lab.ran(
         f"{method.name}: one step of {dt:g} s from x = {x:g} px, v = {v:g} px/s "
@@ -102,7 +102,7 @@ def formula(force: Polynomial) -> str:
 
 
 def swing(lab: Lab, method: Method, steps: int, seconds: float, x0: float) -> list[State]:
-    """The states of the spring's body after each of so many steps; it is let go at x0."""
+    """Return the states of the spring's body after each of so many steps; it is let go at x0."""
     start, dt = (x0, 0.0), seconds / steps
     states = lab.integrate(method.name, start, dt, SPRING, steps)
     for before, answer in islice(pairwise([start, *states]), TELLING):

@@ -24,7 +24,7 @@ XV = {"x": [0], "v": [1]}
 
 
 def like(x: float, v: float, dt: float, force: Force) -> dict[str, str]:
-    """Where a step begins, in words."""
+    """Return where a step begins, in words."""
     return {
         "_speed": f"v is {'0' if not v else 'not 0'} at the start",
         "_force": f"{'no' if not polynomial(force)(x) else 'a'} force acts at the start",
@@ -508,7 +508,7 @@ USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
 def sampled(
     x: float, v: float, dt: float, force: Force, sources: Sequence[Source] = USUAL
 ) -> tuple[list[State], list[float]]:
-    """The four samples, and the places where accel is asked."""
+    """Return the four samples, and the places where accel is asked."""
     accel = polynomial(force)
     samples, places = [(v, accel(x))], [x]
     for source, share in sources:

@@ -57,7 +57,7 @@ def ball(
 def room(
     lab: Lab, *bodies: Thing, gravity: float = GRAVITY, joints: tuple[Thing, ...] = ()
 ) -> Thing:
-    """A world in which bodies may sleep."""
+    """Return a world in which bodies may sleep."""
     world = lab.world(*bodies, gravity=(0.0, gravity), joints=joints, bonus=True)
     lab.put(world, sleeping=True)
     return world

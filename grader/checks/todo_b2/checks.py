@@ -24,7 +24,7 @@ class Setting(NamedTuple):
     restitution: Pair = (0.0, 0.28125)
 
     def of(self, number: int) -> dict[str, float]:
-        """The fields of one end."""
+        """Return the fields of one end."""
         names = {"omega": "spin", "angle": "angle", "friction": "friction"}
         names["restitution"] = "restitution"
         return {field: getattr(self, name)[number] for field, name in names.items()}
@@ -131,7 +131,9 @@ def some_setting(draw: random.Random) -> Setting:
 
 
 def some_rod(draw: random.Random, masses: list[float], rest: float, dt: float) -> Rod:
-    """The ends of a spring of this length somewhere, it squeezed or stretched, and they moving."""
+    """Return the ends of a spring of this length somewhere, it squeezed or stretched, and they
+    moving.
+    """
     turn = draw.uniform(0, 2 * math.pi)
     distance = max(rest, 1.0) * draw.choice([0.25, 0.999, 1.0625, 2.0, 8.0])
     offset = distance * math.cos(turn), distance * math.sin(turn)
@@ -212,7 +214,7 @@ def a_mass_on_a_spring_swings_and_fades_as_it_must(lab: Lab) -> None:
 
 
 def zero_crossings(values: list[float]) -> list[tuple[int, float]]:
-    """Where the values change sign: a step, and the share of the way to the next."""
+    """Return where the values change sign: a step, and the share of the way to the next."""
     return [
         (step, a / (a - b)) for step, (a, b) in enumerate(pairwise(values)) if (a < 0) != (b < 0)
     ]

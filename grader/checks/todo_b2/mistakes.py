@@ -55,7 +55,7 @@ known(
 
 
 def brakes_all(spring: Spring) -> Ends:
-    """The velocity of B as seen from A is braked, and not its part along the spring."""
+    """Return the velocity of B as seen from A is braked, and not its part along the spring."""
     rod = spring.rod
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     pull = spring.stiffness * spring.stretch

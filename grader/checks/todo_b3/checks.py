@@ -30,7 +30,7 @@ GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, 
 def crowd(
     lab: Lab, balls: list[Disc], boxes: list[Rect], states: Sequence[dict[str, Any]] = ()
 ) -> tuple[Thing, list[Thing]]:
-    """A world, and the bodies in it; the first balls may be in a state of their own."""
+    """Return a world, and the bodies in it; the first balls may be in a state of their own."""
     bodies = [
         lab.circle((ball.x, ball.y), ball.r, **(state or {}))
         for ball, state in zip_longest(balls, states[: len(balls)])
@@ -40,7 +40,7 @@ def crowd(
 
 
 def touching(lab: Lab, world: Thing, bodies: list[Thing], grid: bool) -> Contacts:
-    """How many contacts each two bodies have; -1 is a body of another world."""
+    """Return how many contacts each two bodies have; -1 is a body of another world."""
     numbers = {body.ref: number for number, body in enumerate(bodies)}
     lab.put(world, grid=grid)
     answer = lab.tell(world, "find_contacts", changes={world: "contacts"})
@@ -67,7 +67,7 @@ def compare(
 
 
 def without_and_with(lab: Lab, world: Thing, bodies: list[Thing]) -> tuple[Contacts, Contacts]:
-    """The contacts of all pairs, and those that the grid leaves."""
+    """Return the contacts of all pairs, and those that the grid leaves."""
     return touching(lab, world, bodies, grid=False), touching(lab, world, bodies, grid=True)
 
 
@@ -109,7 +109,7 @@ def large_bodies_touch_whatever_lies_on_them(lab: Lab) -> None:
 
 
 def two_at(line: float, before: float = -10.25, behind: float = 9.25) -> list[Disc]:
-    """Two balls side by side and two one below the other, so many px from a line.
+    """Return two balls side by side and two one below the other, so many px from a line.
 
     Unless told otherwise they overlap by half a pixel.
     """
@@ -213,7 +213,10 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
 
 
 def work(lab: Lab, balls: list[Disc]) -> int:
-    """How many lines run to find the contacts. Some of these must be found: no work is no way."""
+    """Return how many lines run to find the contacts.
+
+    Some of these must be found: no work is no way.
+    """
     few = crowd(lab, balls[:2], [])[0]
     lab.put(few, grid=True)
     for _ in range(101):  # as in a scene that has run for a while

@@ -22,7 +22,7 @@ known = partial(mistake, "B3", "contacts")
 
 
 def grid(cells_of: Callable[[Bounds], Cells]) -> Model:
-    """A grid with these cells for a body; two bodies that share none are not looked at."""
+    """Return a grid with these cells for a body; two bodies that share none are not looked at."""
 
     def model(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
         within = [cells_of(each) for each in all_bounds(balls, boxes)]
@@ -42,7 +42,7 @@ def number(coordinate: float) -> int:
 
 
 def cells(bounds: Bounds, beyond: int = 1) -> Cells:
-    """All from the corner at the upper left to the one at the lower right."""
+    """Return all from the corner at the upper left to the one at the lower right."""
     left, top, right, bottom = map(number, bounds)
     return set(product(range(left, right + beyond), range(top, bottom + beyond)))
 

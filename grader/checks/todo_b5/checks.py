@@ -82,7 +82,7 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
 
 
 def turned(angle: float) -> float:
-    """An angle as it is seen: without whole turns."""
+    """Return an angle as it is seen: without whole turns."""
     return math.remainder(angle, 2 * math.pi)
 
 
@@ -95,7 +95,7 @@ def say_angle(angle: float, digits: int) -> str:
 
 
 def moved(lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface: float) -> Thing:
-    """A body that a step of its world has brought from one place and angle to another."""
+    """Return a body that a step of its world has brought from one place and angle to another."""
     vx, vy, omega = ((end - begin) / dt for begin, end in zip(before, now, strict=True))
     body = lab.circle(before[:2], 10.0, mass, angle=before[2], vel=(vx, vy), omega=omega, **surface)
     lab.simulate(lab.world(body, bonus=True), [body], 1, dt)
@@ -103,7 +103,7 @@ def moved(lab: Lab, before: Place, now: Place, dt: float, mass: float, **surface
 
 
 def drawn(lab: Lab, body: Thing, share: float) -> Place:
-    """What between says: a place and an angle."""
+    """Return what between says: a place and an angle."""
     parts = lab.items(
         lab.call("between", body, share, changes=NOTHING, twice=True), "what between returns"
     )

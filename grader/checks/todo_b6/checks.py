@@ -59,7 +59,7 @@ def named(keys: str) -> str:
 
 
 def usual_mass(ball: BodyValue) -> float:
-    """What a ball of this size weighs in the lab scene, kg."""
+    """Return what a ball of this size weighs in the lab scene, kg."""
     return ball.radius**2 / 100
 
 
@@ -69,7 +69,7 @@ def turning(ball: BodyValue) -> float:
 
 
 def dropped(lab: Lab, played: Played, place: tuple[int, int]) -> BodyValue:
-    """The ball that was dropped at a place."""
+    """Return the ball that was dropped at a place."""
     for body in played.bodies:
         if isinstance(body, BodyValue) and tuple(body.pos) == place and body.inv_mass:
             return body

@@ -276,7 +276,7 @@ def want_the_same_motion(lab: Lab, rates: tuple[int, ...], seconds: float) -> No
 
 
 def first_difference(trails: list[list[list[float]]]) -> int | None:
-    """The first step after which the trails are not equal."""
+    """Return the first step after which the trails are not equal."""
     for number, rows in enumerate(zip(*trails, strict=False)):
         if any(row != rows[0] for row in rows):
             return number
@@ -554,5 +554,5 @@ def balls_of(played: Played) -> list[Pair]:
 
 
 def row_of(rows: list[list[Moment]], count: int) -> list[Moment]:
-    """The bodies when there were first so many."""
+    """Return the bodies when there were first so many."""
     return next((row for row in rows if len(row) == count), [])

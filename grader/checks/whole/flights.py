@@ -25,7 +25,7 @@ FASTEST = 3000.0  # px/s: three times what a fall through the whole window gives
 
 
 def moments(row: Sequence[float]) -> list[Moment]:
-    """The bodies that can move, from one row of a trail."""
+    """Return the bodies that can move, from one row of a trail."""
     return [Moment(*row[start : start + 6]) for start in range(0, len(row), 6)]
 
 
@@ -77,17 +77,17 @@ def say(each: Moment) -> str:
 
 
 def near(each: Moment, after: Sequence[Moment], within: float = NEAR) -> Iterator[Moment]:
-    """The bodies that may have been where this one was, a step ago."""
+    """Yield the bodies that may have been where this one was, a step ago."""
     return (other for other in after if may_have_been(other, (each.x, each.y), within))
 
 
 def may_have_been(each: Moment, place: Pair, near: float = NEAR) -> bool:
-    """Whether a body can have been at this place a step ago."""
+    """Return whether a body can have been at this place a step ago."""
     return math.dist((each.x, each.y), place) <= (each.speed + GRAVITY * STEP) * STEP + near
 
 
 def flew(before: Moment, after: Moment) -> bool:
-    """Whether nothing but gravity, and damping by whatever rate, worked on a body."""
+    """Return whether nothing but gravity, and damping by whatever rate, worked on a body."""
     vx, vy = before.vx, before.vy + GRAVITY * STEP
     kept = (after.vx * vx + after.vy * vy) / (vx**2 + vy**2 or 1.0)
     kept = min(max(kept, 1 - LOST), 1 + LOST / 10)
@@ -98,7 +98,7 @@ def flew(before: Moment, after: Moment) -> bool:
 
 
 def is_clear(each: Moment, row: Sequence[Moment]) -> bool:
-    """Whether a body is a ball that can meet nothing in this step or the next.
+    """Return whether a body is a ball that can meet nothing in this step or the next.
 
     The bob never is, nor is what comes near it.
     """

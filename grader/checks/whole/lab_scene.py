@@ -125,7 +125,7 @@ def close(first: Sequence[float], second: Sequence[float]) -> bool:
 
 
 def world_parts(lab: Lab, seed: int) -> list[Part]:
-    """The bodies that make_world(random.Random(12)) puts into the mini engine's world."""
+    """Return the bodies that make_world(random.Random(12)) puts into the mini engine's world."""
     world = lab.thing(lab.call("make_world", Rng(seed)), "a World")
     bodies = lab.items(lab.get(world, "bodies"), "the bodies of the scene")
     return [body_part(lab, lab.body(each)) for each in bodies]
@@ -147,7 +147,7 @@ def body_part(lab: Lab, body: BodyValue) -> Part:
 
 
 def pymunk_scene(lab: Lab, seed: int) -> tuple[SpaceValue, list[Thing]]:
-    """The space that make_space(random.Random(12)) returns, and the boxes of its stack."""
+    """Return the space that make_space(random.Random(12)) returns, and the boxes of its stack."""
     items = lab.items(lab.call("make_space", Rng(seed)), "what make_space returns")
     lab.want(len(items) == 2, "make_space to return (space, stack)", f"{len(items)} things")
     boxes = lab.items(items[1], "the stack")

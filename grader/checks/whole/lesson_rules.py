@@ -47,7 +47,7 @@ ANOTHER_RULE = "The larger of bounce (the smaller restitution, above 30 px/s) an
 
 
 def other_rules(impact: Impact) -> set[float]:
-    """The speeds that other rules of bounce and push-out would make of it, px/s."""
+    """Return the speeds that other rules of bounce and push-out would make of it, px/s."""
     first, second = impact.restitution
     shares = 0.0, first, second, first * second, math.sqrt(first * second), (first + second) / 2
     pushes = 0.0, 24 * impact.depth, 24 * max(impact.depth - 0.5, 0.0)
