@@ -305,6 +305,8 @@ def clicks_drop_balls_and_r_resets(lab: Lab) -> None:
         f"after R the {len(rows[0])} moving bodies of the beginning",
         f"{len(rows[-1])} moving bodies, not all where they began",
     )
+    rods = len(played.rods)
+    lab.want(rods < 2, "after R the one rod of the scene", f"{rods} rods")
     same = want_the_scene_again(lab, moving_parts(played))
     lab.ran("the program for 0.7 s, a click, R, and 0.7 s more")
     events = [Event(40, "click", (lab.whole(300, 40), 200)), Event(42, "key", key="r")]
