@@ -35,7 +35,7 @@ class Touch(NamedTuple):
 
 @recorded.oracle()
 def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
-    """Return the contact of a disc with a box; several answers where faces are equally near."""
+    """The contact of a disc with a box; several answers where faces are equally near."""
     x = min(max(disc.x, rect.x - rect.hx), rect.x + rect.hx)
     y = min(max(disc.y, rect.y - rect.hy), rect.y + rect.hy)
     dx, dy = x - disc.x, y - disc.y
@@ -50,7 +50,7 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
 
 
 def equally_near(disc: Disc, rect: Rect) -> bool:
-    """Return whether a centre inside has two nearest faces, so that either way out is right."""
+    """Whether a centre inside has two nearest faces, so that either way out is right."""
     across, down = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
     if min(across, down) < 0:
         return False
@@ -60,9 +60,7 @@ def equally_near(disc: Disc, rect: Rect) -> bool:
 
 @recorded.oracle()
 def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
-    """Return the contacts by which a disc with its centre inside could leave: left, right, top,
-    bottom.
-    """
+    """The contacts by which a disc with its centre inside could leave: left, right, top, bottom."""
     left, right = rect.x - rect.hx, rect.x + rect.hx
     top, bottom = rect.y - rect.hy, rect.y + rect.hy
     return [
@@ -81,7 +79,7 @@ DAMPED_STEPS = [*STEP_SIZES, 1 / 24, 1 / 50, 1 / 118, 1 / 100, 1 / 1000, 0.1, 0.
 
 @recorded.oracle(RATES, DAMPED_STEPS)
 def damped(rate: float, seconds: float) -> float:
-    """Return the share of a speed that is left after so many seconds at a rate per second."""
+    """The share of a speed that is left after so many seconds at a rate per second."""
     return math.exp(-rate * seconds)
 
 
@@ -115,7 +113,7 @@ def cross(first: Pair, second: Pair) -> float:
 
 @recorded.oracle()
 def effective_mass(a: Lever, b: Lever, axis: Pair) -> float:
-    """Return the sum that effective_mass returns, in 1/kg."""
+    """The sum that effective_mass returns, in 1/kg."""
     turning = (cross((each.rx, each.ry), axis) ** 2 * inverse(each.inertia) for each in (a, b))
     return inverse(a.mass) + inverse(b.mass) + sum(turning)
 
@@ -142,7 +140,7 @@ class Rod(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """Return the speed of B away from A, px/s."""
+        """The speed of B away from A, px/s."""
         (ax, ay), (bx, by), (x, y) = self.vel_a, self.vel_b, self.axis
         return (bx - ax) * x + (by - ay) * y
 
@@ -153,20 +151,20 @@ class Rod(NamedTuple):
 
     @property
     def turned(self) -> "Rod":
-        """Return the same rod with A for B and B for A."""
+        """The same rod with A for B and B for A."""
         x, y = self.offset
         ends = self.mass_b, self.mass_a, self.length, (-x, -y), self.vel_b, self.vel_a
         return Rod(*ends, self.dt)
 
     @property
     def bias(self) -> float:
-        """Return the speed of B away from A that takes the share BETA of the error away, px/s."""
+        """The speed of B away from A that takes the share BETA of the error away, px/s."""
         return -BETA / self.dt * (math.hypot(*self.offset) - self.length)
 
 
 @recorded.oracle()
 def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
-    """Return the velocities of A and B after an impulse along the axis; positive parts them."""
+    """The velocities of A and B after an impulse along the axis; positive pushes them apart."""
     (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
     a, b = impulse * inverse(rod.mass_a), impulse * inverse(rod.mass_b)
     return (ax - a * x, ay - a * y), (bx + b * x, by + b * y)
@@ -174,7 +172,7 @@ def pushed(rod: Rod, impulse: float) -> tuple[Pair, Pair]:
 
 @recorded.oracle()
 def rod_solved(rod: Rod) -> tuple[Pair, Pair]:
-    """Return the velocities of A and B after a pass over the rod."""
+    """The velocities of A and B after a pass over the rod."""
     return pushed(rod, (rod.bias - rod.speed) / rod.k)
 
 
@@ -192,9 +190,7 @@ class Spring(NamedTuple):
 
 @recorded.oracle()
 def spring_applied(spring: Spring) -> tuple[Pair, Pair]:
-    """Return the velocities of A and B after the spring's force has worked for a step (Hooke's
-    law).
-    """
+    """The velocities of A and B after the spring's force has worked for a step (Hooke's law)."""
     rod = spring.rod
     force = spring.stiffness * spring.stretch + spring.damping * rod.speed
     return pushed(rod, -force * rod.dt)
@@ -211,7 +207,7 @@ class Discs(NamedTuple):
 
     @property
     def k(self) -> float:
-        """Return how much an impulse changes the speed along it, 1/kg, where nothing turns."""
+        """How much an impulse changes the speed along it, 1/kg, where nothing turns."""
         return inverse(self.mass[0]) + inverse(self.mass[1])
 
 
@@ -222,9 +218,7 @@ def clamped(value: float, limit: float) -> float:
 
 @recorded.oracle()
 def friction(mu: Pair, k: float, closing: float, slip: float) -> float:
-    """Return the friction impulse on B in a step, along the slip, kg px/s; k in 1/kg, speeds in
-    px/s.
-    """
+    """The friction impulse on B in a step, along the slip, kg px/s; k in 1/kg, speeds in px/s."""
     return clamped(-slip / k, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0))
 
 
@@ -235,7 +229,7 @@ Accel = Callable[[float], float]
 
 
 def polynomial(coefficients: Sequence[float]) -> Accel:
-    """Return the acceleration c0 + c1 x + c2 x² + ..."""
+    """The acceleration c0 + c1 x + c2 x² + ..."""
     return lambda x: math.fsum(c * x**power for power, c in enumerate(coefficients))
 
 
@@ -255,7 +249,7 @@ def velocity_verlet(x: float, v: float, dt: float, accel: Accel) -> State:
 
 @recorded.oracle()
 def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
-    """Return the classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
+    """The classical Runge-Kutta method for (x, v)' = (v, accel(x))."""
     total_dx = total_dv = 0.0
     dx, dv = v, accel(x)
     for weight, reach in ((1, dt / 2), (2, dt / 2), (2, dt), (1, 0.0)):
@@ -268,7 +262,7 @@ def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
 
 
 def pymunk_fall(gravity: float, dt: float, steps: int) -> tuple[float, float]:
-    """Return how far a body falls from rest, and its speed; pymunk moves it first."""
+    """How far a body falls from rest, and its speed; pymunk moves it before it speeds it up."""
     return gravity * dt**2 * steps * (steps - 1) / 2, gravity * dt * steps
 
 
@@ -277,7 +271,7 @@ def disc_moment(mass: float, radius: float) -> float:
 
 
 def rolling_speed(speed: float) -> float:
-    """Return what is left of a full disc's speed once it rolls; friction decides only how soon."""
+    """What is left of a full disc's speed once it rolls; friction decides only how soon."""
     return speed * 2 / 3
 
 
