@@ -370,7 +370,7 @@ class Simulated(Struct, frozen=True, tag="simulated"):
 
 
 class Photo(Struct, frozen=True, array_like=True):
-    """What the window showed when a frame ended; nothing where no frame was shown."""
+    """The window when a frame ended; nothing where no frame was shown."""
 
     frame: int
     width: int  # px

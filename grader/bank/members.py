@@ -557,7 +557,7 @@ def add_odd_names(folder: Path) -> None:
 
 
 def copies_beside(folder: Path) -> None:
-    """What people keep before they begin, beside what they then work on."""
+    """Put copies of the starter beside the work, as people keep them."""
     ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
     for name in ("backup", "original"):
         shutil.copytree(KIT / "starter", folder / name, ignore=ignored)

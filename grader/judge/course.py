@@ -40,7 +40,7 @@ class WrongCourse(Stop):
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
-    """What lateness costs, begun days counted as whole: in a course, and in a class's decisions."""
+    """The cost of lateness, begun days counted as whole: in a course, and in decisions."""
 
     per_day: Count | Share = 0  # points, or a share of those earned, as "10%"
     at_most: Count = 100  # points that lateness takes
@@ -59,7 +59,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Asked(Struct, frozen=True, forbid_unknown_fields=True):
-    """How many questions of each kind a sheet about the student's own program has."""
+    """The number of questions of each kind on a sheet about the student's own program."""
 
     number: Annotated[int, Meta(ge=0, le=10)] = 3
     film: Annotated[int, Meta(ge=0, le=10)] = 1

@@ -62,7 +62,7 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
 
 
 class Diagnosis:
-    """What can be told of a TODO by its answers."""
+    """The findings about a TODO by its answers."""
 
     def __init__(self, todo: str, observations: Sequence[Observation]) -> None:
         load_known(todo)

@@ -21,7 +21,7 @@ FINISH = "TODO {ids} must be right before this can be checked: finish it first."
 
 @dataclass(frozen=True)
 class Evidence:
-    """What is known about the failures of one TODO; all mappings are by the ids of its checks."""
+    """The evidence on the failures of one TODO; all mappings are by the ids of its checks."""
 
     todo: Todo
     mistake: Mistake | None = None
