@@ -11,7 +11,7 @@ from collections import Counter as Count
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import TypeVar
@@ -28,6 +28,7 @@ from grader.bank.traces import watch_traces
 from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.passed import PassedPrograms
 from grader.judge.processes import begin_process
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -38,6 +39,7 @@ Found = TypeVar("Found")
 Judged = TypeVar("Judged", "Verdict", "HalfwayVerdict")
 
 RESULTS = KIT / "build" / "verify"
+PASSED = PassedPrograms(KIT / "build" / "passed")
 MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong
 
 
@@ -101,7 +103,7 @@ def verify(
 ) -> Report:
     """Grade the bank of a course, as far as its names contain `only`; print a table.
 
-    Sound results of an earlier run are reused unless `fresh`. Points are those of the rubric: a
+    Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are those of the rubric: a
     course may give a check none, and it must still tell right from wrong.
     """
     course = course.as_rated
@@ -147,7 +149,7 @@ def judge_members(
             to_grade.append(member)
         else:
             yield Verdict(member, *found, "", earlier=True)
-    for verdict in grade_all(to_grade, jobs):
+    for verdict in grade_all(to_grade, jobs, None if fresh else PASSED):
         if verdict.result is not None and not verdict.complaint:
             results.write(verdict.member, verdict.result, verdict.seconds)
         yield verdict
@@ -173,8 +175,10 @@ def check_kit() -> Iterator[str]:
 # ---------------------------------------------------------------- grading
 
 
-def grade_all(chosen: Iterable[Member], jobs: int) -> Iterator[Verdict]:
-    yield from run_in_processes(grade_member, chosen, jobs)
+def grade_all(
+    chosen: Iterable[Member], jobs: int, passed: PassedPrograms | None = PASSED
+) -> Iterator[Verdict]:
+    yield from run_in_processes(partial(grade_member, passed=passed), chosen, jobs)
 
 
 def run_in_processes(
@@ -197,13 +201,21 @@ def run_in_processes(
             raise
 
 
-def grade_member(member: Member, only: frozenset[str] = frozenset()) -> Verdict:
-    """Grade it on all of its course that may judge it, or on the TODOs in `only`."""
+def grade_member(
+    member: Member, only: frozenset[str] = frozenset(), passed: PassedPrograms | None = PASSED
+) -> Verdict:
+    """Grade it on all of its course that may judge it, or on the TODOs in `only`.
+
+    What has `passed` before is not run again, unless it is hostile and might tell.
+    """
+    if member.kind == "hostile":
+        passed = None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
         member.build(KIT, submission)
         todos, worker = only or member.judged_by, shared_worker()
-        options = Options(shipped_reference(), only=todos, trusted=True, course=member.course)
+        reference, course = shipped_reference(), member.course
+        options = Options(reference, only=todos, trusted=True, course=course, passed=passed)
         start = time.monotonic()
         try:
             name = member.name if member.source else ""  # a tree leaves nothing on purpose

@@ -21,6 +21,7 @@ from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.meaning import Evidence, explain
 from grader.judge.names import Names
+from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
 from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
@@ -28,7 +29,6 @@ from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
-from grader.source.definitions import Program
 from grader.source.given import Changed, change_of_file, changes, restored
 from grader.source.regions import python_files, read_source, shape_of
 from grader.text import harmless
@@ -54,6 +54,7 @@ class Options:
     `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
     `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
     `progress`: told of each check as it ends. What it raises ends the grade.
+    `passed`: the programs that have passed and need not run again; for `trusted` work alone.
     """
 
     reference: Path | None = None
@@ -64,6 +65,7 @@ class Options:
     progress: Callable[[CheckResult], None] | None = None
     trusted: bool = False
     course: Course = FULL
+    passed: PassedPrograms | None = None
 
     def wants(self, todo: Todo) -> bool:
         return not self.only or todo.id in self.only
@@ -202,6 +204,7 @@ class Grading:
             surveys_all=self.surveys_all,
             budget=budget,
             open_right=self.open_right if self.options.reference else None,
+            passed=self.options.passed if self.options.trusted and not self.surveys_all else None,
         )
         loop.run()
         self.failing = loop.failing
@@ -408,13 +411,8 @@ class Grading:
         """Return which of the names that held something are used by the code of a TODO."""
         if not names or not todo.function:
             return []
-        used = self.program.names_used(*todo.function.split(":"))
+        used = self.submission.program.names_used(*todo.function.split(":"))
         return [name for name in names if name.rpartition(".")[2] in used]
-
-    @cached_property
-    def program(self) -> Program:
-        folder = self.submission.folder
-        return Program({p.relative_to(folder): read_source(p) for p in python_files(folder)})
 
     @cached_property
     def names(self) -> Names:

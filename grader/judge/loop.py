@@ -1,7 +1,7 @@
 """Run the checks that the rubric names against one submission, one after the other."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
@@ -16,6 +16,7 @@ from grader.judge.drawing import Example, kept_examples
 from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
+from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Check, Rubric, Todo
@@ -96,25 +97,47 @@ class CheckLoop:
     open_right: Opener | None = None  # a child of the reference itself
     elsewhere: dict[tuple[str, str], str] = field(default_factory=dict)  # TODOs it fails in first
     wrong: str = ""  # which check fails the right code, and how
+    passed: PassedPrograms | None = None  # which need not run again
 
     def run(self) -> None:
         """Run every check in the order of the rubric."""
         for todo in filter(self.wanted, self.rubric.todos):
-            checks = load_checks(todo)
-            for check in todo.checks:
-                if not hasattr(checks, check.id):
-                    raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
-                self.judge(Job(todo, check, getattr(checks, check.id)))
+            key = self._program_key(todo)
+            known = self.passed is not None and self.passed.holds(key)
+            jobs = list(jobs_of(todo))
+            for job in jobs:
+                self.judge(job, known)
+            if self.passed is not None and all(
+                self.results[job.key].state == "passed" for job in jobs
+            ):
+                self.passed.add(key)
         if self.wrong:
             raise CannotGrade(self.wrong)
 
-    def judge(self, job: Job) -> None:
-        result = self._blocked(job) or self._run(job)
+    def judge(self, job: Job, known: bool = False) -> None:
+        """Judge a check; where the program is `known` to have passed it, without running it."""
+        result = self._blocked(job)
+        if result is None:
+            result = self._result(job, "passed") if known else self._run(job)
         self.results[job.key] = result
         if result.failed and self._flaw_of(job) is None:
             self.failed[job.key] = job
         if self.progress is not None:
             self.progress(result)
+
+    def _program_key(self, todo: Todo) -> str:
+        """Return the key of the program that the checks of a TODO run; see PassedPrograms."""
+        if self.passed is None:
+            return ""
+        modules = dict.fromkeys(check.module or todo.module for check in todo.checks)
+        right = [
+            self.reference.right_versions(
+                todo, module, self.rubric, self.submission, self._replaceable()
+            )
+            for module in modules
+        ]
+        pieces = {id: piece for some in right for id, piece in some.items()}
+        return program_key(todo, self.submission, pieces, self.seed)
 
     def _blocked(self, job: Job) -> CheckResult | None:
         """Return the result of a check that need not run."""
@@ -380,6 +403,15 @@ class CheckLoop:
 def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
     """Return whether a check that fails for its own TODO fails in another question before it."""
     return DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran)
+
+
+def jobs_of(todo: Todo) -> Iterator[Job]:
+    """Yield the checks of a TODO in the order of the rubric."""
+    checks = load_checks(todo)
+    for check in todo.checks:
+        if not hasattr(checks, check.id):
+            raise CannotGrade(f"checks/{todo.folder} has no check named {check.id}")
+        yield Job(todo, check, getattr(checks, check.id))
 
 
 def load_checks(todo: Todo) -> ModuleType:

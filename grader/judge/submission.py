@@ -59,6 +59,7 @@ class Submission:
     flaws: dict[str, Flaw] = field(default_factory=dict)  # by TODO: its code is no Python
     outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
     starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
+    program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
 
     def holds(self, file: str) -> bool:
         """Return whether there is such a file in it: what a child says may name any."""
@@ -202,7 +203,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
         for path in python_files(submission.folder)
     }
     submission.uses_numpy = any("numpy" in text for text in texts.values())
-    program = mend_programs(submission, texts)
+    program = submission.program = mend_programs(submission, texts)
     for todo in rubric.todos:
         if not todo.function:
             continue

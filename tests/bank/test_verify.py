@@ -34,7 +34,7 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The names of the members that are graded, which get what they must, but for z."""
     names = []
 
-    def grade_all(chosen: list[Member], jobs: int) -> Iterator[Verdict]:
+    def grade_all(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
         for member in chosen:
             names.append(member.name)
             yield Verdict(member, RIGHT, 1.0, "took too long" if member.name == "z" else "")
@@ -59,9 +59,9 @@ def test_what_changes_while_it_is_graded_is_graded_again(tmp_path: Path, graded,
     source.write_text("# TODO 5: damp\npass\n# END TODO 5\n", encoding="utf-8")
     member = Member("right", "5-x", "package", Entry(), source)
 
-    def edited(chosen: list[Member], jobs: int) -> Iterator[Verdict]:
+    def edited(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
         source.write_text("# TODO 5: damp\nreturn\n# END TODO 5\n", encoding="utf-8")
-        yield from usual(chosen, jobs)
+        yield from usual(chosen, jobs, passed)
 
     usual = verify.grade_all
     with monkeypatch.context() as patched:

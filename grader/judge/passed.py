@@ -1,0 +1,80 @@
+"""Remember which programs have passed all checks of a TODO, so that none runs twice.
+
+With the reference in the other TODOs' places, many submissions are one program: whoever has only
+TODO 4 wrong runs the solution everywhere else. This is for one's own work and for the bank alone.
+Somebody else's program could read its own files, and so tell two of these apart.
+"""
+
+import ast
+import hashlib
+import platform
+import sys
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+import msgspec
+
+from grader.judge.fingerprint import fingerprint
+from grader.judge.rubric import Todo
+from grader.judge.submission import Submission
+from grader.protocol import Piece
+from grader.source.definitions import Function, source_of, statements
+
+REPLACED = "<the reference's>"
+
+
+class PassedPrograms:
+    """The programs that have passed, as empty files in a folder: each is named by its key."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def holds(self, key: str) -> bool:
+        return (self.folder / key).exists()
+
+    def add(self, key: str) -> None:
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / key).touch()
+
+
+def program_key(
+    todo: Todo, submission: Submission, right: Mapping[str, Piece], seed: int | None
+) -> str:
+    """Hash the program that the checks of a TODO run, with the checks and what they run on.
+
+    `right`: the reference's versions of other TODOs, which count instead of the submission's own
+    where they are called alike.
+    """
+    program, tree = submission.program, submission.folder
+    texts = dict(program.texts)
+    for piece in right.values():
+        defined = program.definition(*piece.target.split(":"))
+        if defined is None or defined.function is None:
+            continue
+        path, function = program.paths[defined.module], defined.function
+        if list(function.parameters) == piece.parameters:
+            texts[path] = without_body(texts[path], function)
+    digest = hashlib.sha256(surroundings().encode())
+    digest.update(msgspec.json.encode([todo, seed, right]))
+    for file in sorted(each for each in tree.rglob("*") if each.is_file()):
+        inside = file.relative_to(tree)
+        content = texts[inside].encode() if inside in texts else file.read_bytes()
+        digest.update(f"{inside.as_posix()}\0{len(content)}\0".encode() + content)
+    return digest.hexdigest()
+
+
+def without_body(text: str, function: Function) -> str:
+    """Return a file's text without the body of a function; its `def` stays, with what is above."""
+    lines = text.splitlines()
+    node = next(iter(statements(source_of(text, function))), None)
+    if not isinstance(node, ast.FunctionDef) or node.body[0].lineno == 1:
+        return text
+    begin = function.lineno + node.body[0].lineno - 2
+    return "\n".join([*lines[:begin], REPLACED, *lines[function.end_lineno :]])
+
+
+@cache
+def surroundings() -> str:
+    """Return what decides about an answer besides program, check and seed."""
+    return f"{fingerprint()} {sys.version} {platform.platform()}"
