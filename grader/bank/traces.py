@@ -22,10 +22,12 @@ from typing import Any
 import psutil
 
 from grader.judge.drawing import CACHE
+from grader.judge.passed import PASSED
 
 OWN_FOLDER = ("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP")
 OPEN_TO_ALL = ("/dev/shm", "/tmp", "/var/tmp")
 MAKES = {"open": 0, "os.mkdir": 0, "os.link": 1, "os.rename": 1, "os.symlink": 1}  # which argument
+JUDGES = {CACHE, PASSED.folder}  # the judge keeps these, whatever it grades
 LISTENERS: list[set[Path]] = []  # each is told of what this process makes
 
 
@@ -54,8 +56,7 @@ def watch_traces(own: Path, name: str) -> Iterator[Traces]:
     with redirect_home(own), note_new_files() as made:
         yield traces
     left = {*own.rglob("*"), *made} | {path for path, _ in find_named(name, shared) - files}
-    ours = {CACHE.parent, CACHE}  # the judge keeps it, whatever it grades
-    left = {path for path in left if path not in ours and CACHE not in path.parents}
+    left = {path for path in left if path != CACHE.parent and not is_judges(path)}
     kept = sorted(path for path in left if os.path.lexists(path))
     traces.left += [f"the file {path}" for path in kept[:3]]
     for process in list_descendants() - processes:
@@ -63,6 +64,10 @@ def watch_traces(own: Path, name: str) -> Iterator[Traces]:
             traces.left.append(f"the process {process.name()}")
     if (more := count_descriptors() - descriptors) > 0:
         traces.left.append(f"{more} open files or sockets")
+
+
+def is_judges(path: Path) -> bool:
+    return not JUDGES.isdisjoint([path, *path.parents])
 
 
 @contextmanager

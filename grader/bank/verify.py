@@ -28,7 +28,7 @@ from grader.bank.traces import watch_traces
 from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
-from grader.judge.passed import PassedPrograms
+from grader.judge.passed import PASSED, PassedPrograms
 from grader.judge.processes import begin_process
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
@@ -39,7 +39,6 @@ Found = TypeVar("Found")
 Judged = TypeVar("Judged", "Verdict", "HalfwayVerdict")
 
 RESULTS = KIT / "build" / "verify"
-PASSED = PassedPrograms(KIT / "build" / "passed")
 MIN_HELPED = 0.95  # share of the half-way states whose first failure must say what is wrong
 
 
