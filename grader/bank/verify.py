@@ -102,8 +102,8 @@ def verify(
 ) -> Report:
     """Grade the bank of a course, as far as its names contain `only`; print a table.
 
-    Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are those of the rubric: a
-    course may give a check none, and it must still tell right from wrong.
+    Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are
+    those of the rubric: a course may give a check none, and it must still tell right from wrong.
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))

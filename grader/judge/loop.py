@@ -107,9 +107,8 @@ class CheckLoop:
             jobs = list(jobs_of(todo))
             for job in jobs:
                 self.judge(job, known)
-            if self.passed is not None and all(
-                self.results[job.key].state == "passed" for job in jobs
-            ):
+            states = {self.results[job.key].state for job in jobs}
+            if self.passed is not None and key and states == {"passed"}:
                 self.passed.add(key)
         if self.wrong:
             raise CannotGrade(self.wrong)
@@ -126,8 +125,11 @@ class CheckLoop:
             self.progress(result)
 
     def _program_key(self, todo: Todo) -> str:
-        """Return the key of the program that the checks of a TODO run; see PassedPrograms."""
-        if self.passed is None:
+        """Return the key of the program that the checks of a TODO run; see PassedPrograms.
+
+        Empty where nothing is to be remembered: of files too long to look into nothing is known.
+        """
+        if self.passed is None or self.submission.unread:
             return ""
         modules = dict.fromkeys(check.module or todo.module for check in todo.checks)
         right = [

@@ -31,7 +31,7 @@ class PassedPrograms:
         self.folder = folder
 
     def holds(self, key: str) -> bool:
-        return (self.folder / key).exists()
+        return bool(key) and (self.folder / key).exists()
 
     def add(self, key: str) -> None:
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -46,24 +46,30 @@ def program_key(
 ) -> str:
     """Hash the program that the checks of a TODO run, with the checks and what they run on.
 
+    Of the submission's files count those that the imports load, and all that are no Python.
     `right`: the reference's versions of other TODOs, which count instead of the submission's own
     where they are called alike.
     """
     program, tree = submission.program, submission.folder
-    texts = dict(program.texts)
+    modules = dict.fromkeys(check.module or todo.module for check in todo.checks)
+    started = [*modules, *(f"{module}.__main__" for module in modules)]
+    loaded = {program.paths[part] for module in started for part in program.loaded(module)}
+    texts = {path: program.texts[path] for path in loaded}
     for piece in right.values():
         defined = program.definition(*piece.target.split(":"))
         if defined is None or defined.function is None:
             continue
         path, function = program.paths[defined.module], defined.function
-        if list(function.parameters) == piece.parameters:
+        if path in texts and list(function.parameters) == piece.parameters:
             texts[path] = without_body(texts[path], function)
+    contents = {path.as_posix(): text.encode() for path, text in texts.items()}
+    for file in tree.rglob("*"):
+        if file.is_file() and file.suffix not in (".py", ".ipynb"):
+            contents[file.relative_to(tree).as_posix()] = file.read_bytes()
     digest = hashlib.sha256(surroundings().encode())
     digest.update(msgspec.json.encode([todo, seed, right]))
-    for file in sorted(each for each in tree.rglob("*") if each.is_file()):
-        inside = file.relative_to(tree)
-        content = texts[inside].encode() if inside in texts else file.read_bytes()
-        digest.update(f"{inside.as_posix()}\0{len(content)}\0".encode() + content)
+    for name, content in sorted(contents.items()):
+        digest.update(f"{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()
 
 
