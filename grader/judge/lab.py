@@ -84,6 +84,7 @@ class Lab(Decoder):
         self.numbers = count(OURS)  # for what is made at our word
         self.remembers: list[str] = []  # the names in which something was kept; see Remembered
         self.played = False  # whether the child has run a program
+        self.notes: list[str] = []  # sentences for the report, where the check passes
         self.opening: Opening | None = None  # of a program that begins with something else
 
     @property

@@ -81,6 +81,12 @@ class TodoResult(Struct, frozen=True):
         """Return the checks that there is something to say about."""
         return [check for check in self.checks if check.failed]
 
+    @property
+    def notes(self) -> list[str]:
+        """Return what is to be said although its checks passed, such as an experiment."""
+        passed = [check for check in self.checks if check.state == "passed" and check.meaning]
+        return list(dict.fromkeys(check.meaning for check in passed))
+
 
 class Result(Struct, frozen=True):
     """Schema 1 of the JSON that `--json` writes. `points` and `max_points` are without bonus."""

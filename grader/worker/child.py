@@ -4,6 +4,7 @@ Each request has a number and gets exactly one answer. An exception of the submi
 as well, so this loop ends only with the channel or the process.
 """
 
+import inspect
 import os
 import py_compile
 import sys
@@ -11,6 +12,7 @@ import tempfile
 from collections.abc import Collection
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pygame.sysfont
@@ -174,7 +176,7 @@ def answer(
 def call(subject: Subject, request: Call) -> Returned:
     """Call a function or method of the submission, and count its work meanwhile if asked to."""
     function = subject.find(request.target)
-    args = [subject.decode(each) for each in request.args]
+    args = as_many_as_taken(function, [subject.decode(each) for each in request.args])
     kwargs = {name: subject.decode(each) for name, each in request.kwargs.items()}
     if not request.work:
         looked_at = [*refs_in(request), *request.states]
@@ -194,6 +196,14 @@ def call(subject: Subject, request: Call) -> Returned:
         if hasattr(type(result), "__next__"):  # a generator has done nothing yet
             result = list(result)
     return Returned(subject.encode(result), counter.answer())
+
+
+def as_many_as_taken(function: Any, args: list[Any]) -> list[Any]:
+    """Return as many arguments as a function takes: one that has no use for dt need not name it."""
+    code = getattr(function, "__code__", None)
+    if code is None or code.co_flags & inspect.CO_VARARGS:
+        return args
+    return args[: code.co_argcount - hasattr(function, "__self__")]
 
 
 OLD_FILE = os.O_RDONLY | getattr(os, "O_BINARY", 0)

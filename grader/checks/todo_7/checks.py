@@ -74,6 +74,11 @@ def want_usual_settings(lab: Lab, space: Thing) -> None:
         lab.want(answer == right, f"{name} {right}, as pymunk has it", f"{name} {answer}")
     passes = lab.number(lab.get(space, "iterations"), "iterations")
     lab.want(passes in PASSES, "iterations 10, or from 2 to 20", f"iterations {passes:g}")
+    if passes != 10:
+        lab.notes.append(f"An experiment: space.iterations is {passes:g}, not 10.")
+    sleep = lab.get(space, "sleep_time_threshold")
+    if sleep != lab.get(usual, "sleep_time_threshold"):
+        lab.notes.append("An experiment: sleep_time_threshold is set, so bodies at rest may sleep.")
 
 
 def a_free_ball_falls_in_the_scene(lab: Lab) -> None:

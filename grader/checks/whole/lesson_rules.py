@@ -208,15 +208,18 @@ def want_some_passes(lab: Lab) -> None:
     world, disc, along = leaning_disc(lab, push, 0.0)
     after = lab.simulate(world, [disc], 1).body(0)[0]
     slip = after.vx * along[0] + after.vy * along[1]
-    joints_last = [push * LEAN ** (2 * passes - 1) for passes in PASSES]
-    contacts_last = [push * LEAN ** (2 * passes) for passes in PASSES]
-    possible = joints_last if abs(slip) < EXACT else contacts_last if abs(after.vy) < EXACT else []
+    joints_last = {passes: push * LEAN ** (2 * passes - 1) for passes in PASSES}
+    contacts_last = {passes: push * LEAN ** (2 * passes) for passes in PASSES}
+    possible = joints_last if abs(slip) < EXACT else contacts_last if abs(after.vy) < EXACT else {}
+    found = [passes for passes, left in possible.items() if abs(after.speed - left) < EXACT]
     lab.want(
-        any(abs(after.speed - left) < EXACT for left in possible),
-        f"{joints_last[6]:.7f} px/s after 8 passes over contacts and joints, or what from 2 to 20 "
+        bool(found),
+        f"{joints_last[8]:.7f} px/s after 8 passes over contacts and joints, or what from 2 to 20 "
         "passes leave",
         f"{after.speed:.7f} px/s, {abs(slip):.7f} px/s of it along the rod",
     )
+    if found and 8 not in found:
+        lab.notes.append(f"An experiment: the solver runs {found[0]} passes in a step, not 8.")
 
 
 def leaning_disc(lab: Lab, push: float, friction: float) -> tuple[Thing, Thing, Pair]:

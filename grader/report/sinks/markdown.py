@@ -25,6 +25,7 @@ def write_markdown(result: Result) -> str:
         "|---|---|---|--:|",
         *map(write_row, result.shown),
         *(["", elsewhere] if elsewhere else []),
+        *(f"\n{escape_markdown(note)}" for todo in result.shown for note in todo.notes),
         *limit([explain(todo, check) for todo in result.shown for check in todo.failed]),
         "",
         f"Isolation: {', '.join(result.isolation)}.",

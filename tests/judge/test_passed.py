@@ -1,0 +1,75 @@
+"""No program of the bank runs twice, and what is remembered of one changes no result."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
+from grader.judge.passed import PassedPrograms, program_key
+from grader.judge.reference import Reference
+from grader.judge.rubric import load_rubric
+from grader.judge.submission import take_in
+from grader.source.regions import replaced
+
+DAMPING = "mini_engine/world.py"
+WRONG = ("        keep_vel = keep_omega = 0.99",)
+TODOS = frozenset({"2", "5"})
+
+
+def changed(tree: Path, file: str, text: str) -> Path:
+    """Return a copy of the solution with another text in one file."""
+    shutil.copytree(KIT / "solution", tree)
+    (tree / file).write_text(text, encoding="utf-8")
+    return tree
+
+
+def key_for(tree: Path, copy: Path) -> str:
+    """Return the key of the program that the checks of TODO 2 run."""
+    rubric = load_rubric()
+    (todo,) = [each for each in rubric.todos if each.id == "2"]
+    submission = take_in(tree, copy, rubric, load_stubs())
+    reference = Reference(shipped_reference(), rubric)
+    right = reference.right_versions(todo, todo.module, rubric, submission)
+    return program_key(todo, submission, right, None)
+
+
+def test_a_wrong_todo_leaves_the_others_the_program_that_they_were(tmp_path: Path):
+    text = (KIT / "solution" / DAMPING).read_text("utf-8")
+    tree = changed(tmp_path / "tree", DAMPING, replaced(text, {"5": WRONG}))
+    passed = PassedPrograms(tmp_path / "passed")
+    options = Options(shipped_reference(), only=TODOS, trusted=True)
+    assert grade(KIT / "solution", replace(options, passed=passed)).points == 18
+    known = set(passed.folder.iterdir())
+    result = grade(tree, replace(options, passed=passed))
+    assert [todo.state for todo in result.todos] == ["passed", "not yet"]
+    assert set(passed.folder.iterdir()) == known and len(known) == len(TODOS)
+    assert grade(tree, options) == result
+
+
+def test_nothing_is_remembered_of_the_work_of_others(tmp_path: Path):
+    passed = PassedPrograms(tmp_path / "passed")
+    options = Options(shipped_reference(), only=frozenset({"8a"}), passed=passed)
+    assert grade(KIT / "solution", options).points == 2
+    assert not passed.folder.exists()
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "same"),
+    [
+        (DAMPING, "math.exp", "math.sin", True),
+        ("pymunk_scene.py", "0.95", "0.94", True),
+        (DAMPING, "def apply_damping(self, dt):", "def apply_damping(self, dt, to=1):", False),
+        ("mini_engine/constants.py", "ITERATIONS = 8", "ITERATIONS = 9", False),
+        ("mini_engine/solver.py", "# TODO 2", "# as in the lesson\n    # TODO 2", False),
+    ],
+)
+def test_all_but_replaced_code_belongs_to_a_program(
+    tmp_path: Path, file: str, old: str, new: str, same: bool
+):
+    text = (KIT / "solution" / file).read_text("utf-8")
+    assert old in text
+    tree = changed(tmp_path / "tree", file, text.replace(old, new))
+    usual = key_for(KIT / "solution", tmp_path / "usual")
+    assert (key_for(tree, tmp_path / "copy") == usual) is same
