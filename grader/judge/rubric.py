@@ -18,6 +18,7 @@ class Check(Struct, frozen=True, forbid_unknown_fields=True):
     module: str = ""  # what it imports, where that is not the TODO's module
     guard: bool = False  # also a stub may pass it: counts once another check of the TODO passes
     needs: list[str] = []  # TODOs this check cannot do without
+    runs: list[str] = []  # TODOs that its scene runs too, and whose mistakes are not its own
     cpu_seconds: int = 5  # budget of one child; the reference needs about a twentieth
     hidden: bool = False  # not in the students' copy: it cannot do without the right code
 
