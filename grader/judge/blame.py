@@ -16,6 +16,7 @@ from grader.judge.result import CheckResult, Where
 from grader.source.given import Changed
 
 MOST_ALONE = 8  # changes that are each put back alone, to see which of them it is
+EXPERIMENTS = {"ITERATIONS"}
 MOST_ASKED = 60  # times that checks are asked for that
 
 Key = tuple[str, str]  # the ids of a TODO and a check
@@ -33,6 +34,11 @@ class Blamed:
     def is_all(self) -> bool:
         """Return whether nothing else needs to be told; a name that is gone may have a new one."""
         return self.mended and all(each.theirs for each in self.changes)
+
+    @property
+    def is_experiment(self) -> bool:
+        """Return whether only the passes of the solver differ, which the lesson proposes to try."""
+        return all(each.name in EXPERIMENTS for each in self.changes)
 
     def place(self, check: CheckResult) -> Where:
         """Return the line of the first change; of code that is gone, where its absence shows."""

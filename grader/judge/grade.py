@@ -245,8 +245,9 @@ class Grading:
                     meaning=f"{blamed.in_words} {hint}".rstrip(),
                     where=blamed.place(check),
                 )
-        if kept:
-            self.charge_whole(loop, kept[0])
+        costly = [each for each in kept if not each.is_experiment]
+        if costly:
+            self.charge_whole(loop, costly[0])
 
     def charge_whole(self, loop: "CheckLoop", blamed: Blamed) -> None:
         """Take a point of the whole for given code that a TODO needs, unless it lost one."""

@@ -397,14 +397,17 @@ class Lab(Decoder):
         if self.opening is not None:
             return self._opened(request, self.opening)
         reply = self._played(request)
-        if reply.ended != "returned" or starts_at_once(reply):
+        may_begin_later = reply.ended == "returned" or first_step(reply) is None
+        if starts_at_once(reply) or not may_begin_later:
             return reply
         return next(self._openings(request, reply), reply)
 
     def _openings(self, request: Play, reply: Played) -> Iterator[Played]:
         """Try to open a program that is late: by waiting, and as a person would try to."""
+        known = first_step(reply) is not None
         for event in (None, *TRIES):
-            tried = self._played(with_lead(request, LEAD, event)) if event else reply
+            again = event is not None or not known
+            tried = self._played(with_lead(request, LEAD, event)) if again else reply
             first = first_step(tried)
             if first is not None and starts_at_once(
                 played := self._opened(request, (opening := (first - 1, event)))
