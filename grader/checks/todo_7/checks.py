@@ -211,7 +211,11 @@ def floor_in(lab: Lab, space: Thing) -> None:
 
 
 def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
-    """A ball that slides comes to roll: its spin times its radius is its speed"""
+    """A ball that slides comes to roll, at two thirds of its speed
+
+    A disc does, whatever its size, its mass and the friction: what it loses at its rim, it gains as
+    spin. A tenth more or less looks the same.
+    """
     speed = lab.about(300.0)
     lab.ran(f"a ball of add_ball set on a floor, sliding at {speed:g} px/s, no damping, one second")
     space = lab.thing(lab.call("pymunk:Space"))
@@ -222,8 +226,9 @@ def a_sliding_pymunk_ball_comes_to_roll(lab: Lab) -> None:
     last = lab.simulate(space, [ball.body], 120, every=120).body(0)[-1]
     rim = last.omega * ball.radius
     lab.want(
-        last.vx > speed / 10 and math.isclose(rim, last.vx, rel_tol=0.03),
-        "a speed, and as much as spin x radius: it rolls",
+        math.isclose(last.vx, speed * 2 / 3, rel_tol=0.1)
+        and math.isclose(rim, last.vx, rel_tol=0.03),
+        f"about {speed * 2 / 3:.0f} px/s, and as much as spin x radius: it rolls",
         f"{last.vx:.1f} px/s, spin x radius {rim:.1f} px/s",
     )
 
