@@ -11,7 +11,7 @@ also what it answers: the judge has to read that, and keeps some of it.
 
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from grader.judge.children import Child
 from grader.judge.connection import Connection
@@ -35,6 +35,22 @@ class Budget:
     heard: int = 0  # bytes of answers
     words_cpu: float = 0.0  # s, after the marks: what is asked so that more can be told
     words_rest: float = 0.0
+
+    def copy(self) -> "Budget":
+        """Return the same once more, to be used up by one check that runs beside others."""
+        return replace(self, cpu=self.cpu.copy(), rest=self.rest.copy())
+
+    def allowance(self, todo: str) -> tuple[int, float, bool, str]:
+        """Return all that decides how much a check may use."""
+        return self.cpu_for(todo, LITTLE_CPU + 1), self.rest_for(todo), self.has_more, self.cut
+
+    def add(self, todo: str, before: "Budget", after: "Budget") -> None:
+        """Count what a check has used up of its own copy."""
+        self.cpu[todo] += after.cpu[todo] - before.cpu[todo]
+        self.rest[todo] += after.rest[todo] - before.rest[todo]
+        self.heard += after.heard - before.heard
+        self.words_cpu += after.words_cpu - before.words_cpu
+        self.words_rest += after.words_rest - before.words_rest
 
     def cpu_for(self, todo: str, usual: int) -> int:
         """Processor seconds for a process of a check that would have so many as usual."""

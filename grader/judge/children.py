@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -266,6 +266,9 @@ class Worker(Protocol):
 
     layers: list[str]  # what shuts all its children in, beyond what each says of itself
 
+    def helpers(self, count: int) -> Sequence["Worker"]:
+        """Return other workers, so many at the most, that open children at the same time."""
+
     def open(self, setup: ChildSetup) -> Child: ...
 
     def pid_of(self, child: Child) -> int: ...
@@ -304,6 +307,7 @@ class WarmWorker:
 
     def __init__(self, without: Collection[str] = ()) -> None:
         self.without = sorted(without)
+        self.beside: list[WarmWorker] = []
         self._start()
 
     def _start(self) -> None:
@@ -319,6 +323,12 @@ class WarmWorker:
         self.control = Channel(ours)
         self.loading = True
         self.layers: list[str] = []  # what shuts all children in, once one was opened
+
+    def helpers(self, count: int) -> Sequence["WarmWorker"]:
+        """Return as many more, which are kept for the next grade and closed with this one."""
+        while len(self.beside) < count:
+            self.beside.append(WarmWorker(self.without))
+        return self.beside[:count]
 
     def wait_until_loaded(self) -> None:
         if self.loading:
@@ -397,6 +407,8 @@ class WarmWorker:
         self.process.wait()
 
     def close(self) -> None:
+        for each in self.beside:
+            each.close()
         self.control.close()  # it ends what is left of its children, and then itself
         try:
             self.process.wait(5)
@@ -416,6 +428,10 @@ class SpawnWorker:
         self.processes: dict[int, subprocess.Popen[bytes]] = {}
         self.ahead: list[tuple[subprocess.Popen[bytes], Channel]] = []
         self._start_ahead()
+
+    def helpers(self, count: int) -> Sequence["SpawnWorker"]:
+        """Return none: it starts processes ahead as it is."""
+        return ()
 
     def _start_ahead(self) -> None:
         while len(self.ahead) < AHEAD:

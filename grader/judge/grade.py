@@ -54,6 +54,7 @@ class Options:
     `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
     `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
     `progress`: told of each check as it ends. What it raises ends the grade.
+    `jobs`: how many checks run at a time. It changes no mark.
     `passed`: the programs that have passed and need not run again; for `trusted` work alone.
     """
 
@@ -66,6 +67,7 @@ class Options:
     trusted: bool = False
     course: Course = FULL
     passed: PassedPrograms | None = None
+    jobs: int = 1
 
     def wants(self, todo: Todo) -> bool:
         return not self.only or todo.id in self.only
@@ -105,6 +107,7 @@ def grading(
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         ours = worker or start_worker(options.spawn)
+        ours.helpers(options.jobs - 1)  # to load meanwhile
         try:
             sandbox = sandbox_for(submission, work, ours, options)
             yield Grading(options, rubric, reference, submission, sandbox)
@@ -204,6 +207,7 @@ class Grading:
             surveys_all=self.surveys_all,
             budget=budget,
             open_right=self.open_right if self.options.reference else None,
+            helpers=[each.open_child for each in self.sandbox.beside(self.options.jobs - 1)],
             passed=self.options.passed if self.options.trusted and not self.surveys_all else None,
         )
         loop.run()

@@ -1,10 +1,14 @@
-"""Run the checks that the rubric names against one submission, one after the other."""
+"""Run the checks that the rubric names against one submission, and judge them in order."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
+from itertools import groupby
+from queue import SimpleQueue
 from types import ModuleType
 from typing import Any
 
@@ -74,6 +78,27 @@ class Way:
 ALONE, ISOLATED = Way(), Way(isolated=True)
 
 
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a check that ran."""
+
+    result: CheckResult
+    lab: Lab  # whose observations count
+    answers: list[Observation]  # to all that the check asks; see _survey
+    elsewhere: str | None  # the TODO in which it fails first, or nothing where that is unknown
+    failed: Lab | None = None  # the one that is told of
+    failing: Failing | None = None  # to be seen once more
+
+
+@dataclass(frozen=True)
+class Ahead:
+    """What came of a check that a helper ran, with the budget before and after it."""
+
+    before: Budget
+    outcome: Outcome
+    after: Budget
+
+
 @dataclass
 class CheckLoop:
     """One run of the checks: what they are given, and what came of each."""
@@ -98,31 +123,108 @@ class CheckLoop:
     elsewhere: dict[tuple[str, str], str] = field(default_factory=dict)  # TODOs it fails in first
     wrong: str = ""  # which check fails the right code, and how
     passed: PassedPrograms | None = None  # which need not run again
+    helpers: Sequence[Opener] = ()  # ways to open children beside those of `open_child`
 
     def run(self) -> None:
-        """Run every check in the order of the rubric."""
-        for todo in filter(self.wanted, self.rubric.todos):
-            key = self._program_key(todo)
-            known = self.passed is not None and self.passed.holds(key)
-            jobs = list(jobs_of(todo))
-            for job in jobs:
-                self.judge(job, known)
-            ends = {(self.results[job.key].state, self.results[job.key].meaning) for job in jobs}
-            if self.passed is not None and key and ends == {("passed", "")}:
-                self.passed.add(key)
+        """Run every check, and judge them in the order of the rubric.
+
+        The whole hangs on what came of the TODOs, so it is begun when they have ended.
+        """
+        todos = filter(self.wanted, self.rubric.todos)
+        for _, group in groupby(todos, lambda todo: bool(todo.function)):
+            self._run_group({todo.id: list(jobs_of(todo)) for todo in group})
         if self.wrong:
             raise CannotGrade(self.wrong)
 
-    def judge(self, job: Job, known: bool = False) -> None:
+    def _run_group(self, group: dict[str, list[Job]]) -> None:
+        """Run the checks of some TODOs, which do not hang on each other."""
+        keys = {id: self._program_key(jobs[0].todo) for id, jobs in group.items()}
+        known = {id for id, key in keys.items() if self.passed and self.passed.holds(key)}
+        jobs = [job for some in group.values() for job in some]
+        with self._ahead([job for job in jobs if job.todo.id not in known]) as ahead:
+            for job in jobs:
+                self.judge(job, job.todo.id in known, ahead.get(job.key))
+        for id, some in group.items():
+            ends = {(self.results[job.key].state, self.results[job.key].meaning) for job in some}
+            if self.passed and keys[id] and ends == {("passed", "")}:
+                self.passed.add(keys[id])
+
+    def judge(self, job: Job, known: bool = False, ahead: "Future[Ahead] | None" = None) -> None:
         """Judge a check; where the program is `known` to have passed it, without running it."""
         result = self._blocked(job)
+        if result is None and known:
+            result = self._result(job, "passed")
         if result is None:
-            result = self._result(job, "passed") if known else self._run(job)
+            outcome = self._outcome(job, ahead)
+            self._count(job, outcome)
+            result = outcome.result
         self.results[job.key] = result
         if result.failed and self._flaw_of(job) is None:
             self.failed[job.key] = job
         if self.progress is not None:
             self.progress(result)
+
+    # ------------------------------------------------------------ side by side
+
+    @contextmanager
+    def _ahead(self, jobs: list[Job]) -> Iterator[dict[tuple[str, str], "Future[Ahead]"]]:
+        """Let helpers run checks, the last one first, while the loop begins with the first.
+
+        Each has a copy of the budget. Where the loop's turns out to have been another one, the
+        check is run once more: marks do not hang on how many run at a time.
+        """
+        jobs = [job for job in jobs if self._blocked(job) is None]
+        if not self.helpers or len(jobs) < 2:
+            yield {}
+            return
+        free: SimpleQueue[Opener] = SimpleQueue()
+        for opener in self.helpers:
+            free.put(opener)
+
+        def run(job: Job) -> Ahead:
+            opener = free.get()
+            try:
+                before = self.budget.copy()
+                apart = replace(self, open_child=opener, budget=before.copy())
+                return Ahead(before, apart._run(job), apart.budget)
+            finally:
+                free.put(opener)
+
+        with ThreadPoolExecutor(len(self.helpers)) as pool:
+            futures = {job.key: pool.submit(run, job) for job in reversed(jobs)}
+            try:
+                yield futures
+            finally:
+                for future in futures.values():
+                    future.cancel()
+
+    def _outcome(self, job: Job, ahead: "Future[Ahead] | None") -> "Outcome":
+        """Return what came of a check: that of a helper, if one has begun it."""
+        if ahead is None or ahead.cancel():
+            return self._run(job)
+        done, id = ahead.result(), job.todo.id
+        if done.before.allowance(id) != self.budget.allowance(id):
+            return self._run(job)
+        self.budget.add(id, done.before, done.after)
+        return done.outcome
+
+    def _count(self, job: Job, outcome: "Outcome") -> None:
+        """Note what came of a check beside its result."""
+        lab, answers = outcome.lab, outcome.answers
+        self.seen[job.key] = answers
+        of_todo = self.observations.setdefault(job.todo.id, [])
+        of_todo.extend(lab.observations)
+        if answers is not lab.observations:
+            of_todo.extend(each for each in answers if each not in of_todo)
+        if outcome.elsewhere is not None:
+            self.elsewhere[job.key] = outcome.elsewhere
+        if outcome.failed is not None:
+            self._blame(job, outcome.failed)
+            self.remembered[job.key] = outcome.failed.remembers
+        if outcome.failing is not None:
+            self.failing[job.key] = outcome.failing
+
+    # ------------------------------------------------------------ one check
 
     def _program_key(self, todo: Todo) -> str:
         """Return the key of the program that the checks of a TODO run; see PassedPrograms.
@@ -162,40 +264,38 @@ class CheckLoop:
             return self._result(job, "error", got=self.budget.cut)
         return None
 
-    def _run(self, job: Job) -> CheckResult:
+    def _run(self, job: Job) -> "Outcome":
         """Run a check with the reference in the other TODOs' places, then the program as it is.
 
         What is told of a failure comes from the program as it is. Where the reference was sent, a
         submission could have read it, and any word or number of its answers could spell it out;
         whether it was put in place is for the child to say, and so no matter. Nobody waits twice
         for one whose time was over: then nothing is told but that.
+
+        Nothing of the loop changes but its budget.
         """
         lab, again = self._attempt(job, ISOLATED)
-        alone = lab
+        alone, elsewhere = lab, None
         if lab.failure is not None and lab.connection.pieces and not lab.late:
             alone, again = self._attempt(job, ALONE)
         if alone.failure is None:
             lab = alone
         elif lab.failure is not None and fails_elsewhere(lab.failure, alone.failure):
-            self.elsewhere[job.key] = self._todo_of(alone.failure)
+            elsewhere = self._todo_of(alone.failure)
         if alone.failure is not None and alone.connection.pieces:
             answers: list[Observation] = []
         else:
             answers = self._survey(job, alone)
-        self.seen[job.key] = answers
-        of_todo = self.observations.setdefault(job.todo.id, [])
-        of_todo.extend(lab.observations)
-        if answers is not lab.observations:
-            of_todo.extend(each for each in answers if each not in of_todo)
         if alone.failure is None:
-            return self._result(job, "passed", meaning=" ".join(lab.notes))
-        self._blame(job, alone)
-        self.remembered[job.key] = alone.remembers
+            passed = self._result(job, "passed", meaning=" ".join(lab.notes))
+            return Outcome(passed, lab, answers, elsewhere)
+        failing = None
         if not alone.ended:
             secret = secret_of(self.seed, job.todo, job.check)
             pieces = alone.connection.pieces
-            self.failing[job.key] = Failing(job.todo, job.check, again, pieces, secret)
-        return self._failure(job, alone.failure)
+            failing = Failing(job.todo, job.check, again, pieces, secret)
+        result = self._failure(job, alone.failure)
+        return Outcome(result, lab, answers, elsewhere, alone, failing)
 
     def _survey(self, job: Job, alone: Lab) -> list[Observation]:
         """Ask the program as it is all that a failed check asks, and not just so far.

@@ -79,6 +79,11 @@ class Sandbox:
             path.chmod(0o444)
         return replace(self, tree=tree, used=[])
 
+    def beside(self, count: int) -> list["Sandbox"]:
+        """Return others of the same tree, so many at the most, that work at the same time."""
+        workers = self.worker.helpers(count)
+        return [replace(self, worker=each, used=[], unseen="") for each in workers]
+
     @property
     def bytecode(self) -> Path:
         """Compiled files, for all children: to compile takes longer than most checks."""
