@@ -254,10 +254,9 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
-    style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
     return fill_template(
         TEMPLATES / "dashboard.html",
-        style,
+        "dashboard.css",
         script,
         title=folder.name,
         folder=f"./{quote(folder.name)}/",

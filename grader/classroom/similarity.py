@@ -247,7 +247,7 @@ def write_pairs(
     path = locate_pairs(results, "html")
     page = fill_template(
         TEMPLATES / "alike.html",
-        (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
+        "dashboard.css",
         title=results.name,
         pairs=[
             (pair, *compare(pair, *(pack(found[name]) for name in pair.names))) for pair in pairs

@@ -31,7 +31,7 @@ from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.result import Result
 from grader.report.files import write_json
-from grader.report.terminal import show, show_isolation
+from grader.report.terminal import Printer, show_isolation
 
 if TYPE_CHECKING:
     from grader.classroom.grading import ClassOptions
@@ -158,7 +158,7 @@ def refuse_what_is_ignored(
 
 def grade_and_show(path: Path, options: Options, replays: Path | None) -> Result:
     result = grade_one(path, options, replays)
-    show(result, console)
+    Printer(console).print(result)
     show_isolation(result, console)
     return result
 
@@ -211,7 +211,7 @@ def demonstrate(options: Options) -> None:
     for name in ("solution", "starter"):
         console.rule(name)
         result = grade_one(KIT / name, replace(options, trusted=True))
-        show(result, console)
+        Printer(console).print(result)
     show_isolation(result, console)
 
 

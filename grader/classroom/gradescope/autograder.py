@@ -22,7 +22,7 @@ from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
 from grader.report.sinks.gradescope import write_gradescope
-from grader.report.terminal import show, show_isolation
+from grader.report.terminal import Printer, show_isolation
 from grader.text import clean
 
 NO_MARK = "This is no mark, and not 0 points."
@@ -69,7 +69,7 @@ def grade_submission(submission: Path) -> bytes:
     console = Console(highlight=False, markup=False, width=100)
     for note in package.notes:
         console.print(clean(note))
-    show(result, console)
+    Printer(console).print(result)
     show_isolation(result, console)
     return write_gradescope(withhold_reasons(result, course), course)
 

@@ -9,8 +9,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import msgspec
-
 from grader.classroom.marks import ENGINE, Marking, Part, Parts
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.errors import Stop
@@ -18,6 +16,7 @@ from grader.intake.names import fold, split_login
 from grader.intake.roster import Roster, list_people
 from grader.judge.result import Result, TodoResult
 from grader.judge.wording import reasons
+from grader.report.files import read_result
 
 # ---------------------------------------------------------------- marks into the gradebook
 
@@ -37,9 +36,9 @@ def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
     for path in paths:
         for file in sorted(path.glob("*.json")) if path.is_dir() else [path]:
             try:
-                yield file.stem, msgspec.json.decode(file.read_bytes(), type=Result)
-            except (OSError, msgspec.MsgspecError) as error:
-                yield file.stem, f"{file} is no result of the grader ({error})"
+                yield file.stem, read_result(file)
+            except Stop as error:
+                yield file.stem, str(error)
 
 
 def fill_gradebook(

@@ -18,30 +18,26 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     if course.out_of is not None and course.out_of != result.max_points:
         score = round(score * course.out_of / result.max_points, 2)
         output += f": {score:g} of {course.out_of:g}"
-    tests = [
-        make_test(todo, check, number)
-        for todo in result.shown
-        for number, check in enumerate(todo.checks, 1)
-    ]
-    return msgspec.json.format(
-        msgspec.json.encode(
-            {
-                "score": score,
-                "output": output,
-                "output_format": "text",
-                "test_output_format": "text",
-                "visibility": "visible",
-                "stdout_visibility": "hidden",
-                "tests": tests,
-                "extra_data": {
-                    "schema": result.schema,
-                    "submission": clean(result.submission),
-                    "bonus": result.bonus,
-                    "isolation": result.isolation,
-                },
-            }
-        )
-    )
+    results = {
+        "score": score,
+        "output": output,
+        "output_format": "text",
+        "test_output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [
+            make_test(todo, check, number)
+            for todo in result.shown
+            for number, check in enumerate(todo.checks, 1)
+        ],
+        "extra_data": {
+            "schema": result.schema,
+            "submission": clean(result.submission),
+            "bonus": result.bonus,
+            "isolation": result.isolation,
+        },
+    }
+    return msgspec.json.format(msgspec.json.encode(results))
 
 
 def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
