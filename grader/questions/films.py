@@ -163,7 +163,7 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         )
     shown = list(films)
     rng.shuffle(shown)
-    options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))
+    options = sorted(films, key=(AS_IT_IS, *CHANGES).index)
     letters = "abcd"
     answer = "".join(letters[options.index(each)] for each in shown)
     frame = find_bounds(list(films.values()))
@@ -186,9 +186,6 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         pictures=pictures,
         why="\n".join(f"{each.words}: {each.why}" for each in options if each.why),
     )
-
-
-CHANGES_IN_ORDER = {each.name: number for number, each in enumerate((AS_IT_IS, *CHANGES))}
 
 
 def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Change, Film]:

@@ -11,6 +11,7 @@ import math
 import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
@@ -184,10 +185,8 @@ def show_films(
         draw_film(film, name, f"The lab scene for {SECONDS:g} s", frame)
         for name, film in zip(titles, films.values(), strict=True)
     )
-    return (
-        f"The films show your lab scene of `random.Random({scene})` without and with it.",
-        pictures,
-    )
+    words = f"The films show your lab scene of `random.Random({scene})` without and with it."
+    return words, pictures
 
 
 def show_numbers(
@@ -237,14 +236,6 @@ def measure_damping(lab: Lab) -> Values:
 FRAMES = (10, 30, 150)  # ms
 
 
-def run_engine_frames(lab: Lab) -> Values:
-    return run_frames(lab, lab.world())
-
-
-def run_pymunk_frames(lab: Lab) -> Values:
-    return run_frames(lab, lab.thing(lab.call("empty_space")))
-
-
 def run_frames(lab: Lab, world: Thing) -> Values:
     found: Values = {}
     for each in FRAMES:
@@ -254,23 +245,20 @@ def run_frames(lab: Lab, world: Thing) -> Values:
     return found
 
 
-def measure_method(method: str) -> Callable[[Lab], Values]:
-    def experiment(lab: Lab) -> Values:
-        states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
-        return {
-            "x after one step, from x = 100 and v = 20": states[0][0],
-            "v after one step": states[0][1],
-            "x after 20 steps": states[-1][0],
-        }
-
-    return experiment
+def measure_method(method: str, lab: Lab) -> Values:
+    states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
+    return {
+        "x after one step, from x = 100 and v = 20": states[0][0],
+        "v after one step": states[0][1],
+        "x after 20 steps": states[-1][0],
+    }
 
 
 EXPERIMENTS: dict[str, Callable[[Lab], Values]] = {
-    "8b": measure_method("velocity_verlet"),
-    "6": run_engine_frames,
+    "8b": partial(measure_method, "velocity_verlet"),
+    "6": lambda lab: run_frames(lab, lab.world()),
     "5": measure_damping,
-    "8c": measure_method("rk4"),
-    "8a": measure_method("semi_implicit_euler"),
-    "7d": run_pymunk_frames,
+    "8c": partial(measure_method, "rk4"),
+    "8a": partial(measure_method, "semi_implicit_euler"),
+    "7d": lambda lab: run_frames(lab, lab.thing(lab.call("empty_space"))),
 }

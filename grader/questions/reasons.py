@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.questions.program import FUNCTIONS, CannotAsk, Program, Text
+from grader.questions.program import FUNCTIONS, CannotAsk, Program
 from grader.questions.question import Question
 from grader.source.regions import parsed
 from grader.text import printable
@@ -103,13 +103,10 @@ def quote_line(program: Program, each: Reason) -> str:
         node = next(filter(each.fits, found), None)
     except RecursionError:  # nested deeper than anybody writes
         return ""
-    return line_of(text, node) if node is not None else ""
+    if node is None:
+        return ""
+    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]
 
 
 def is_docstring(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-
-
-def line_of(text: Text, node: ast.stmt) -> str:
-    """Return the line on which a statement begins."""
-    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]

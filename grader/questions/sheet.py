@@ -39,10 +39,21 @@ def make_sheet(
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
-    numbers = numbers_to_ask(program, own, asked, makers)
+    numbers = (
+        (each.name, partial(each.ask, program, own, asked.worth("number")))
+        for each in take_turns(makers, program)
+    )
+    shown = (
+        ("films", partial(ask_films, program, f"{own}/{number}", asked.worth("film")))
+        for number in range(asked.film)
+    )
+    changed = (
+        (f"line of TODO {todo}", partial(ask_line, todo, program, own, asked.worth("line")))
+        for todo in list_line_todos(program)
+    )
     found += ask_some(numbers, asked.number, dropped)
-    found += ask_some(films_to_ask(program, own, asked), asked.film, dropped)
-    found += ask_some(lines_to_ask(program, own, asked), asked.line, dropped)
+    found += ask_some(shown, asked.film, dropped)
+    found += ask_some(changed, asked.line, dropped)
     missing = asked.number + asked.film + asked.line - len(found)
     found += ask_some(numbers, missing, dropped)  # where there is no film to ask about, a number
     lines = {todo for each in found if each.kind == "line" for todo in each.todos}
@@ -72,27 +83,6 @@ def why_not(error: Exception) -> str:
         case ArithmeticError() | ValueError() | IndexError() | RecursionError():
             return f"it could not be worked out ({type(error).__name__})"
     raise error
-
-
-def numbers_to_ask(
-    program: Program, seed: str, asked: Asked, makers: Sequence[Asks]
-) -> Iterator[Ask]:
-    for each in take_turns(makers, program):
-        yield each.name, partial(each.ask, program, seed, asked.worth("number"))
-
-
-def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for number in range(asked.film):
-        own = f"{seed}/{number}"
-        yield "films", partial(ask_films, program, own, asked.worth("film"))
-
-
-def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for todo in list_line_todos(program):
-        yield (
-            f"line of TODO {todo}",
-            partial(ask_line, todo, program, seed, asked.worth("line")),
-        )
 
 
 def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[Ask]:

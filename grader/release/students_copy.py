@@ -35,9 +35,9 @@ NOT_FOR_STUDENTS = (
     *("bank", "bench", "classroom", "intake", "release", "__pycache__"),
     *("checks/*/mistakes.py", "checks/expected_runs.json"),
     *("cli/classroom.py", "cli/dev.py", "cli/questions.py"),
-    *("questions/cases*.py", "questions/numbers.py", "questions/templates/bank.html"),
-    *(f"questions/{name}.py" for name in ("making", "marking", "tally")),
+    *(f"questions/{name}.py" for name in ("cases*", "making", "marking", "numbers", "tally")),
     *(f"questions/{name}.py" for name in ("moodle", "notebook")),
+    *("questions/templates/bank.html", "questions/templates/moodle.xml"),
 )  # below the package
 HELPERS = (
     "whole.lab_scene",
