@@ -9,6 +9,8 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path, PurePosixPath
 from typing import NoReturn
 from urllib.parse import unquote
@@ -203,10 +205,8 @@ def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
 
 
 def group_by_module(pieces: list[Piece]) -> list[list[Piece]]:
-    groups: dict[str, list[Piece]] = {}
-    for piece in pieces:
-        groups.setdefault(piece.module, []).append(piece)
-    return [groups[name] for name in sorted(groups)]
+    by_module = attrgetter("module")
+    return [list(group) for _, group in groupby(sorted(pieces, key=by_module), by_module)]
 
 
 def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:
