@@ -120,10 +120,6 @@ class Book:
         write_whole(encode_lines(outcomes), self.path)
         write_whole(make_table(outcomes, course).encode("utf-8-sig"), self.table)
 
-    def find_others(self, names: Iterable[str]) -> list[str]:
-        """Return results in the folder that belong to no submission of this class."""
-        return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
-
 
 def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
     """Return the line of the book about a result."""

@@ -75,8 +75,7 @@ class Pool:
             self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
 
     def _start(self, jobs: int) -> ProcessPoolExecutor:
-        context = multiprocessing.get_context("spawn")
-        return ProcessPoolExecutor(jobs, context, begin_process)
+        return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), begin_process)
 
     def __enter__(self) -> Self:
         self.processes = self._start(self.jobs)

@@ -87,12 +87,12 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
 
     What could not be graded waits for a person, unless one has set its points.
     """
-    return {each.name: {ENGINE: make_part(each)} for each in outcomes}
-
-
-def make_part(outcome: Outcome) -> Part:
-    waiting, handed_in = outcome.mark is None, outcome.trouble != NOTHING
-    return Part(outcome.final, outcome.max_points, waiting, outcome.explain(), handed_in)
+    made = {}
+    for each in outcomes:
+        waiting, handed_in = each.mark is None, each.trouble != NOTHING
+        part = Part(each.final, each.max_points, waiting, each.explain(), handed_in)
+        made[each.name] = {ENGINE: part}
+    return made
 
 
 # ---------------------------------------------------------------- marks for the LMS

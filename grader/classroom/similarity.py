@@ -47,12 +47,7 @@ CONTEXT = 2  # lines around what two share
 LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
 
 
-@dataclass(frozen=True)
-class Token:
-    """A token as it is compared, and the line it stands in."""
-
-    word: str
-    line: int
+Token = tuple[str, int]  # a token as it is compared, and the line it stands in
 
 
 @dataclass(frozen=True)
@@ -83,12 +78,10 @@ class Pair(Struct, frozen=True):
 def read_tokens(source: str) -> list[Token]:
     """Return the tokens of a file, as far as Python can read it."""
     found: list[Token] = []
-    try:
+    with suppress(tokenize.TokenError, SyntaxError, ValueError):
         for each in tokenize.generate_tokens(io.StringIO(source).readline):
             if each.type not in LAYOUT:
-                found.append(Token(generalize(each), each.start[0]))
-    except (tokenize.TokenError, SyntaxError, ValueError):
-        pass
+                found.append((generalize(each), each.start[0]))
     return found
 
 
@@ -103,10 +96,10 @@ def generalize(each: tokenize.TokenInfo) -> str:
 
 def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
     """Return each run as a number, with the first and last of its lines."""
-    words = [each.word for each in tokens]
+    words = [word for word, _ in tokens]
     for at in range(len(tokens) - RUN + 1):
         run = zlib.crc32("\0".join(words[at : at + RUN]).encode())
-        yield run, tokens[at].line, tokens[at + RUN - 1].line
+        yield run, tokens[at][1], tokens[at + RUN - 1][1]
 
 
 def read_texts(package: Package) -> dict[str, str]:
@@ -257,7 +250,9 @@ def write_pairs(
         clean=printable,
     )
     write_whole(page.encode("utf-8"), path)
-    write_whole(make_table(pairs), locate_pairs(results, "csv"))
+    rows = ((*each.names, each.share, each.runs) for each in pairs)
+    table = format_csv([("first", "second", "alike", "runs"), *rows])
+    write_whole(table.encode("utf-8-sig"), locate_pairs(results, "csv"))
     write_whole(msgspec.json.encode(pairs), locate_pairs(results, "json"))
     return path
 
@@ -269,9 +264,3 @@ def read_pairs(results: Path) -> list[Pair]:
         return msgspec.json.decode(content, type=list[Pair])
     except (OSError, msgspec.MsgspecError):
         return []
-
-
-def make_table(pairs: list[Pair]) -> bytes:
-    """Return the pairs for a spreadsheet."""
-    rows = ((*each.names, each.share, each.runs) for each in pairs)
-    return format_csv([("first", "second", "alike", "runs"), *rows]).encode("utf-8-sig")

@@ -44,7 +44,9 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
     starter, or beside the engine. A submission that changed will be autograded anew.
     """
-    require_course(course)
+    if not (course / "source" / ASSIGNMENT).is_dir():
+        make = f"python -m grader nbgrader course {course}"
+        raise Stop(f"{course} is no course yet: make it with {make}")
     with open_class(folder) as intake:
         for found in intake.found:
             try:
@@ -93,13 +95,6 @@ def is_same_tree(one: Path, other: Path) -> bool:
     if names[0] != names[1]:
         return False
     return all(filecmp.cmp(one / name, other / name, shallow=False) for name in names[0])
-
-
-def require_course(course: Path) -> None:
-    if not (course / "source" / ASSIGNMENT).is_dir():
-        raise Stop(
-            f"{course} is no course yet: make it with python -m grader nbgrader course {course}"
-        )
 
 
 # ---------------------------------------------------------------- grading what was taken in
