@@ -6,6 +6,7 @@ from pathlib import Path
 from grader.errors import Stop
 from grader.judge.result import Result
 from grader.judge.submission import load_given
+from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
 from grader.source.regions import RegionError, read_source
 
@@ -38,13 +39,11 @@ def restore(tree: Path, name: str) -> list[str]:
     if not texts:
         return [f"{name} is as it was handed out: nothing to put back."]
     for file, text in texts.items():  # of two files both or none
-        try:
-            compile(text, file, "exec", dont_inherit=True)
-        except SyntaxError as error:
+        if flaw := find_flaw(text):
             raise Stop(
-                f"{file} would be no Python with that (line {error.lineno}: {error.msg}): correct "
+                f"{file} would be no Python with that (line {flaw.line}: {flaw.message}): correct "
                 f"it, or put back all of its given code with --restore {file}"
-            ) from None
+            )
     return [write_text(tree, name, file, text) for file, text in texts.items()]
 
 

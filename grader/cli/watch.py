@@ -5,9 +5,8 @@ editor saves, nor whether the file system reports it.
 """
 
 import time
-import warnings
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -25,6 +24,7 @@ from grader.player.replay import grade_with_replays
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
 from grader.source.definitions import function_named, source_of, statements
+from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
 from grader.text import clean
 
@@ -88,10 +88,8 @@ class Watch:
         modules = {todo.module for todo in load_rubric().todos}
         if module_of(Path(file)) not in modules:
             return ""
-        error = find_syntax_error(self.seen.get(file, ""))
-        if error is None:
-            return ""
-        return f"{file}:{error.lineno or 1} is no Python yet: {clean(error.msg)}"
+        flaw = find_flaw(self.seen.get(file, ""))
+        return f"{file}:{flaw.line} is no Python yet: {clean(flaw.message)}" if flaw else ""
 
     def plan(self) -> None:
         """Note what to check, first what the saves since the last check touched."""
@@ -221,16 +219,6 @@ def drop_lines(todo: TodoResult) -> TodoResult:
     return msgspec.structs.replace(todo, checks=checks)
 
 
-def find_syntax_error(text: str) -> SyntaxError | None:
-    ignored = warnings.catch_warnings(action="ignore")
-    with ignored, suppress(ValueError, RecursionError, MemoryError):
-        try:
-            compile(text, "", "exec", dont_inherit=True)
-        except SyntaxError as error:
-            return error
-    return None
-
-
 # -------------------------------------------------------------------- the tree
 
 
@@ -272,15 +260,12 @@ def wait_for_saves(folder: Path) -> Iterator[None]:
 
 def watch_tree(folder: Path, options: Options, console: Console, replays: Path | None) -> Result:
     """Check the tree, and again after each save, until Ctrl-C; return the last result."""
-    worker = start_worker(options.spawn)
-    watched = Watch(folder, options, console, worker, replays)
-    try:
+    with closing(start_worker(options.spawn)) as worker:
+        watched = Watch(folder, options, console, worker, replays)
         watched.start()
         say("Watching: save a file, and it is checked again. Ctrl-C ends this.", console)
         with suppress(KeyboardInterrupt):
             for _ in wait_for_saves(folder):
                 watched.look()
             raise Stop(f"there is no {folder} any more")
-    finally:
-        worker.close()
     return watched.result
