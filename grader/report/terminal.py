@@ -128,15 +128,10 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
     if words := hidden_points_note(result):
         say(words, console)
     console.print()
-    show_states(result, console)
-    show_next(result, console)
-
-
-def show_states(result: Result, console: Console) -> None:
-    """Print what the states in a result mean."""
     for state, meaning in MEANINGS.items():
         if any(todo.state == state for todo in result.shown):
             say(f"{state.upper():<{STATES}}{meaning}", console, STATES, "bright_black")
+    show_next(result, console)
 
 
 def show_next(result: Result, console: Console) -> None:
