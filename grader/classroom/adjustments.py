@@ -88,7 +88,6 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return Final(final, tuple(reasons), self.find_due(found), by_hand)
 
     def sum_bonus(self, found: Found) -> int:
-        """Return the bonus that a person gave this student."""
         return sum(each.bonus or 0 for each in self.find_decisions(found))
 
     def apply_lateness(self, found: Found, points: int, reasons: list[str]) -> int:
@@ -152,7 +151,6 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def students(self) -> list[str]:
-        """All whom a decision names, each once."""
         return list(dict.fromkeys(name for each in self.adjust for name in each.students))
 
     def find_unused(self, names: Iterable[str]) -> list[str]:

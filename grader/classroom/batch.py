@@ -31,8 +31,6 @@ NONE = Adjustments()
 
 @dataclass
 class Task:
-    """Work that must be graded, and the students whose it is."""
-
     members: list[Found]
     package: Package
     key: str

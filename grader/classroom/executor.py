@@ -65,8 +65,6 @@ class ExecutorFailed(Stop):
 
 
 class Pool:
-    """Processes of this machine."""
-
     work = staticmethod(grade_package)
 
     def __init__(self, options: Options, jobs: int) -> None:

@@ -36,8 +36,6 @@ class Feedback:
 
 @dataclass(frozen=True)
 class GradedClass:
-    """A class and what is to go back to it."""
-
     entries: list[Entry]
     pages: Path  # the folder of everybody's page
     course: Course = FULL

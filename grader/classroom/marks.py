@@ -42,8 +42,6 @@ class Marking(Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Part:
-    """The points of a student in one notebook."""
-
     points: float
     max_points: float
     waiting: bool = False  # for a person to grade it

@@ -60,8 +60,6 @@ class Prints:
 
 
 class Pair(Struct, frozen=True):
-    """Two submissions, and how similar they are."""
-
     first: str
     second: str
     share: float  # of the smaller one's own runs

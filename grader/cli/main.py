@@ -256,7 +256,6 @@ def end_like_ctrl_c() -> None:
 
 
 def make_app() -> typer.Typer:
-    """Return the command line with all commands that are installed here."""
     whole = typer.Typer(
         cls=Commands,
         help="Grades submissions of the physics-engine assignment.",
@@ -279,7 +278,6 @@ def make_app() -> typer.Typer:
 
 
 def main() -> None:
-    """Run the command that the arguments name."""
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
     make_app()(prog_name="grader")

@@ -14,7 +14,6 @@ MOST_NAMES = 3  # on one line
 
 
 def find_changes(tree: Path) -> list[Changed]:
-    """Return what differs in a tree from what was handed out."""
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
     return changes({name: read_source(path) for name, path in own.items()}, load_given())
 

@@ -58,7 +58,6 @@ class Watch:
     result: Result = field(init=False)
 
     def start(self) -> None:
-        """Check the whole tree."""
         self.seen = self.checked = read_sources(self.folder)
         self.result = self.grade(self.options)
         self.draw()
@@ -180,12 +179,10 @@ class Watch:
 
 
 def find_differences(before: Sources, after: Sources) -> set[str]:
-    """Return the files that are new, gone or changed."""
     return {file for file in before | after if before.get(file) != after.get(file)}
 
 
 def find_changed_todos(file: str, before: str, after: str) -> set[str]:
-    """Return the TODOs whose function has changed."""
     old, new = read_functions(file, before), read_functions(file, after)
     return {todo for todo in old | new if old.get(todo) != new.get(todo)}
 

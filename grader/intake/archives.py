@@ -156,7 +156,6 @@ def check_size(path: Path) -> None:
 
 
 def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
-    """Return the files of an archive, without folders and links."""
     for member in archive.infolist():
         if not member.is_dir() and stat.S_IFMT(member.external_attr >> 16) in (0, stat.S_IFREG):
             yield member

@@ -51,7 +51,6 @@ class Canvas(Lms):
         return read_first_cell(row) not in ("", POINTS_POSSIBLE, TEST_STUDENT)
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Return Canvas's own first columns and one column per assignment."""
         own = [name for name in COLUMNS if name in roster.columns]
         table = [[*own, find_title(roster, f"{marks.title} (", marks.title)]]
         if any(read_first_cell(row) == POINTS_POSSIBLE for row in roster.other_rows):

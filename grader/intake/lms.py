@@ -14,8 +14,6 @@ TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # of Blackboard and 
 
 
 class Marked(NamedTuple):
-    """A row of the class list, its mark, and what makes the mark."""
-
     row: Row
     mark: str
     summary: str
@@ -85,7 +83,6 @@ class Lms:
         return False
 
     def is_student(self, row: Row) -> bool:
-        """Tell whether a row of the gradebook is a student's."""
         return True
 
     def translate(self, titles: list[str]) -> list[str]:

@@ -159,8 +159,6 @@ class Recorder:
 
 
 class RecordingLab(Lab):
-    """A lab whose connection is recorded."""
-
     def __init__(
         self,
         module: str,

@@ -54,8 +54,6 @@ class Line(Struct, frozen=True, omit_defaults=True):
 
 
 class Run(Struct, omit_defaults=True):
-    """The requests of one process in one scene."""
-
     experiment: str
     lines: list[Line] = []
     looks: dict[int, BodyLook] = {}  # of the bodies by number

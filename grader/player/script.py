@@ -131,7 +131,6 @@ class Translator:
         return []
 
     def forget(self) -> None:
-        """Forget the objects of the last process."""
         self.names.clear()
 
     # ------------------------------------------------------------ names
@@ -328,7 +327,6 @@ def write_script(
 
 
 def find_parting_step(both: Replay, runs: Sequence[Run], steps: Sequence[Step]) -> Step | None:
-    """Return the request after which the runs part, if they do."""
     if both.parting is None:
         return None
     lines = both.scenes[both.parting.scene].lines
@@ -394,7 +392,6 @@ def drop_setup(steps: Sequence[Step]) -> list[Step]:
 
 
 def print_form(code: str) -> str:
-    """Return what to print of an answer."""
     if code.endswith(".find_contacts()"):
         return f"[(each.normal, each.depth, each.point) for each in {code}]"
     return code

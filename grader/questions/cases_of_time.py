@@ -93,7 +93,6 @@ def make_steps_case(purse: Purse, owed: Fraction, where: str, measured: int) -> 
 
 @maker(3, "6", **PURSE)
 def steps(program: Program, draw: Draw) -> Case:
-    """Count the steps that the engine runs."""
     case = Purse(**draw)
     owed = case.owed
     with program.own.lab("mini_engine") as lab:
@@ -103,7 +102,6 @@ def steps(program: Program, draw: Draw) -> Case:
 
 @maker(3, "7d", **PURSE)
 def pymunk_steps(program: Program, draw: Draw) -> Case:
-    """Count the steps that the pymunk scene runs."""
     case = Purse(**draw)
     owed = case.owed
     with program.own.lab("pymunk_scene") as lab:

@@ -51,7 +51,6 @@ class Change:
     restitution: float | None = None  # of all bodies of the scene
 
     def film(self, tree: Tree, scene: int) -> Film:
-        """Record the lab scene of a tree with this change."""
         return make_film(tree, self.texts(tree), scene, self.restitution)
 
 

@@ -167,7 +167,6 @@ def is_similar(was: str, now: str) -> bool:
 def show_films(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Show two films, without and with the change."""
     target, own, reference = FUNCTIONS[todo], program.own, program.reference
     before = film_unchanged(own, scene)
     after = make_film(own, own.replace_function(target, change.code), scene)
@@ -192,7 +191,6 @@ def show_films(
 def show_numbers(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Show some numbers, without and with the change."""
     changed = change.code
     without, with_it = (run_experiment(program.own, todo, code) for code in ("", changed))
     if reference := program.reference:

@@ -30,8 +30,6 @@ BY_HAND = "points"  # a column that may be left out: those that a person gave
 
 @dataclass(frozen=True)
 class GivenAnswer:
-    """A line of the table of answers."""
-
     line: int
     student: str
     question: str

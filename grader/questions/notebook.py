@@ -39,7 +39,6 @@ TASK = PLAIN | {"task": True}
 
 
 def write_notebook(sheet: Sheet, title: str) -> bytes:
-    """Return the notebook of one student."""
     about = f"# {title}: {sheet.student}\n\nAbout your own program, as you handed it in."
     cells = [make_marked("title", "markdown", about, PLAIN)]
     for number, question in enumerate(sheet.questions, 1):

@@ -20,7 +20,6 @@ def make_page(sheet: Sheet, title: str, kind: PageKind) -> str:
 
 
 def fill_page(template: str, **values: Any) -> str:
-    """Return a page with questions in it."""
     helpers: dict[str, Any] = {"kinds": KINDS, "mark_up": mark_up, "number_of": digits}
     return fill_template(TEMPLATES / template, "sheet.css", **helpers, **values)
 

@@ -33,7 +33,6 @@ class Reason(Struct, frozen=True, forbid_unknown_fields=True):
     is_a: set[str] = set()
 
     def fits(self, statement: ast.stmt) -> bool:
-        """Return whether a statement has the form."""
         if self.is_a:
             return type(statement).__name__ in self.is_a
         nodes = list(walk_statement(statement))
@@ -70,7 +69,6 @@ def find_reasons(program: Program) -> list[Reason]:
 
 
 def ask_reason(each: Reason, program: Program, points: int) -> Question:
-    """Ask the question with the student's own line in it."""
     line = quote_line(program, each)
     if not line:
         raise CannotAsk("no line of theirs has this form")

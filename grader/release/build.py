@@ -167,7 +167,6 @@ def list_files(folder: Path) -> list[tuple[str, Path]]:
 
 
 def hash_folders(folders: list[Path], text: str) -> str:
-    """Return the SHA-256 of all names and contents."""
     rows = [
         f"{name} {sha256(path.read_bytes())}" for each in folders for name, path in list_files(each)
     ]

@@ -83,7 +83,6 @@ def drop_dead_links(text: str, names: Iterable[str]) -> str:
 
 
 def list_words(course: Course) -> dict[str, Any]:
-    """Return what a page may ask of the course, and say of it."""
     todos = {todo.id: todo for todo in course.rubric.todos}
     tasks = [todo for todo in course.rubric.counted if todo.function]
     bonus = [todo for todo in course.rubric.todos if todo.bonus]

@@ -89,6 +89,5 @@ def cut_manifest(manifest: bytes, files: dict[str, bytes]) -> bytes:
 
 
 def find_newest_release(folder: Path) -> Path | None:
-    """Return the newest archive that `release` left in a folder."""
     found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
     return found[-1] if found else None

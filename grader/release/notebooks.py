@@ -107,19 +107,16 @@ def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
 
 
 def read_points(notebook: Cell) -> dict[str, Any]:
-    """Return the points of its cells, by their names."""
     return {
         cell["id"]: cell["metadata"].get("nbgrader", {}).get("points") for cell in notebook["cells"]
     }
 
 
 def is_in_course(cell: Cell, course: Course) -> bool:
-    """Return whether a course has any of the TODOs that a cell is about."""
     about = cell["metadata"].get("todos")
     return about is None or any(todo.id in about for todo in course.rubric.todos)
 
 
 def has_task(cell: Cell) -> bool:
-    """Return whether a cell has a task, or is marked."""
     details = cell["metadata"].get("nbgrader", {})
     return any(details.get(each) for each in ("grade", "solution", "task"))

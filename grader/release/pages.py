@@ -128,6 +128,5 @@ def mend_links(tokens: list[Token], pages: Iterable[str]) -> None:
 
 
 def make_anchor(heading: str) -> str:
-    """Return the name of this heading in links."""
     words = re.sub(r"[^\w\s-]", "", heading).strip().lower()
     return re.sub(r"[\s-]+", "-", words)

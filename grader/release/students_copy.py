@@ -90,7 +90,6 @@ def skip_files(folder: str, names: list[str]) -> set[str]:
 
 
 def write_rubric(rubric: Rubric) -> str:
-    """Return the text of a rubric.toml."""
     lines = ["# What is asked and what it is worth, as far as it is checked here."]
     for todo in rubric.todos:
         fields = dict(msgspec.to_builtins(todo))
@@ -134,7 +133,6 @@ def cut_course_files(course: Course) -> dict[str, str]:
 
 
 def cut_checks(rubric: Rubric) -> dict[str, str]:
-    """Return the files of checks as students get them, by name."""
     shown: dict[str, set[str]] = {}
     for todo in rubric.todos:
         name = f"{todo.folder}.checks"

@@ -38,7 +38,6 @@ WIDTH = 80  # at most
 
 
 def show_isolation(result: Result, console: Console) -> None:
-    """Print what confined the submission, and what did not."""
     say(f"isolation: {', '.join(result.isolation)}", console, indent=11, style="bright_black")
     if lacking := unconfined(result.isolation):
         words = f"not confined here: {', '.join(lacking)}. Grade only submissions you trust."
@@ -101,7 +100,6 @@ def locate_replay(check: CheckResult, replays: Path | None, console: Console) ->
 
 
 def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
-    """Return the checks in groups that have the same reason."""
     groups: dict[tuple[str, ...], list[CheckResult]] = {}
     for check in checks:
         groups.setdefault(find_reason(check), []).append(check)

@@ -71,8 +71,6 @@ class Star:
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """A module."""
-
     module: str
 
 
@@ -182,7 +180,6 @@ class Program:
         return self.modules[name]
 
     def _summary(self, name: str) -> Module:
-        """Summarise a module's tree."""
         text = self.texts[self.paths[name]]
         if self.read + len(text) > MAX_READ:
             self.unread.append(self.paths[name])

@@ -85,7 +85,6 @@ def has_submission(book: Any, api: ModuleType, student: str) -> bool:
 
 
 def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Filled:
-    """Write one student's points and the reasons for missing ones."""
     todos = {f"todo-{todo.id}": todo for todo in result.todos}
     notes = []
     for cell in cells:
@@ -188,7 +187,6 @@ def write_names(course: Path, roster: Roster, key: str) -> None:
 
 
 def find_engine_cells(book: Any, api: ModuleType) -> list[Any]:
-    """Return the cells that take the grader's marks, in the order of the notebook."""
     try:
         cells = book.find_notebook(ENGINE, ASSIGNMENT).task_cells
     except api.MissingEntry:
