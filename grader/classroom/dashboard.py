@@ -100,9 +100,6 @@ class Mistake:
         return f"{self.todo}:{self.name}"
 
 
-# ---------------------------------------------------------------- reading
-
-
 def read_class(results: Path) -> list[Entry]:
     """Return everybody in the class book, or without a book, everybody who has a result."""
     book = Book(results)
@@ -131,9 +128,6 @@ def read_entry(book: Book, outcome: Outcome) -> Entry:
     except (OSError, msgspec.MsgspecError) as error:
         words = f"its result cannot be read: {error}"
         return Entry(msgspec.structs.replace(outcome, trouble=words))
-
-
-# ---------------------------------------------------------------- replays
 
 
 def add_replays(
@@ -168,9 +162,6 @@ def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
     return msgspec.structs.replace(result, todos=shown)
 
 
-# ---------------------------------------------------------------- counting
-
-
 def count_rates(entries: list[Entry]) -> list[Rate]:
     """Return a rate for each TODO that any result shows, in the order of the results."""
     shown = {todo.id for each in entries if each.result for todo in each.result.shown}
@@ -202,9 +193,6 @@ def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mi
     replays = (check.replay for check in checks if check.replay)
     replay = next((each for each in replays if (folder / each).is_file()), "")
     return Mistake(todo, name, meaning, entries, replay)
-
-
-# ---------------------------------------------------------------- writing
 
 
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:

@@ -40,9 +40,6 @@ def shared_worker() -> Worker:
     return start_worker()
 
 
-# ---------------------------------------------------------------- processes
-
-
 class Executor(Protocol):
     """Processes that grade, here or elsewhere."""
 

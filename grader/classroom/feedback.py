@@ -120,9 +120,6 @@ def write_text(entry: Entry) -> str:
     return "\n".join(lines) + "\n"
 
 
-# ---------------------------------------------------------------- by the class list
-
-
 def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
     """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
     columns = [*ADDRESSES, *roster.columns]

@@ -77,9 +77,6 @@ def open_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
     return Pool(wanted.options, wanted.jobs)
 
 
-# ---------------------------------------------------------------- for people
-
-
 def show_class(run: Run, console: Console) -> None:
     """Print the table, the share that passed each TODO, and all that a person should know."""
     if len(run.outcomes) <= LONGEST:

@@ -27,9 +27,6 @@ from grader.text import clean, format_csv
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
-# ---------------------------------------------------------------- how marks are made
-
-
 class Marking(Struct, frozen=True, forbid_unknown_fields=True):
     """The settings in marks.toml."""
 
@@ -91,9 +88,6 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
         part = Part(each.final, each.max_points, waiting, each.explain(), handed_in)
         made[each.name] = {ENGINE: part}
     return made
-
-
-# ---------------------------------------------------------------- marks for the LMS
 
 
 @dataclass

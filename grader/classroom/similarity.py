@@ -70,9 +70,6 @@ class Pair(Struct, frozen=True):
         return self.first, self.second
 
 
-# ---------------------------------------------------------------- reading
-
-
 def read_tokens(source: str) -> list[Token]:
     """Return the tokens of a file, as far as Python can read it."""
     found: list[Token] = []
@@ -143,9 +140,6 @@ def read_prints(
             prints.append(replace(make_prints(pack(each), each.team), name=name))
             found[name] = each
     return found, prints
-
-
-# ---------------------------------------------------------------- comparing
 
 
 def find_pairs(
@@ -220,9 +214,6 @@ def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
         if lines:
             files[file] = lines
     return Side(name, files)
-
-
-# ---------------------------------------------------------------- for people
 
 
 def locate_pairs(results: Path, suffix: str) -> Path:

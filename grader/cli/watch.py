@@ -175,9 +175,6 @@ class Watch:
         return words
 
 
-# -------------------------------------------------------------------- what a save touched
-
-
 def find_differences(before: Sources, after: Sources) -> set[str]:
     return {file for file in before | after if before.get(file) != after.get(file)}
 
@@ -214,9 +211,6 @@ def drop_lines(todo: TodoResult) -> TodoResult:
     """Return a result without lines, which move whenever something is written above them."""
     checks = [msgspec.structs.replace(check, where=None) for check in todo.checks]
     return msgspec.structs.replace(todo, checks=checks)
-
-
-# -------------------------------------------------------------------- the tree
 
 
 def read_sources(folder: Path) -> Sources:

@@ -89,9 +89,6 @@ def list_package_work() -> frozenset[str]:
     return frozenset(n for n in names if regions_in(load_given()[f"{PACKAGE}/{n}"]))
 
 
-# ---------------------------------------------------------------- finding them
-
-
 @dataclass(frozen=True)
 class Piece:
     """A program of the lab where it lies in a submission."""

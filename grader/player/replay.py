@@ -135,9 +135,6 @@ class Replays:
         return load_expected().get(f"{failing.todo.id}/{failing.check.id}", [])
 
 
-# ---------------------------------------------------------------- runs recorded for students
-
-
 @cache
 def load_expected() -> ExpectedRuns:
     """Load the right runs that came with this copy of the checks; the kit itself has none."""

@@ -101,9 +101,6 @@ class Replay(Struct, frozen=True):
     note: str = ""  # shown in place of a comparison
 
 
-# ---------------------------------------------------------------- moments
-
-
 def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
     """Yield each moment with what changed since the one before, and which bodies are gone."""
     bodies: dict[int, list[float]] = {}
@@ -137,9 +134,6 @@ def numbers_of(row: Struct) -> list[float]:
 def round_number(value: float) -> float:
     """Round to six digits; infinity and NaN stay (JSON has null for them)."""
     return float(f"{value:.6g}") + 0.0 if math.isfinite(value) else value
-
-
-# ---------------------------------------------------------------- in words
 
 
 def describe_body(look: BodyLook, number: str) -> str:

@@ -159,9 +159,6 @@ def mark_question(student: str, number: int, question: Question, given: GivenAns
     return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)
 
 
-# ---------------------------------------------------------------- tables
-
-
 def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:
     """Write the table of all answers, and that of students."""
     answers, totals = out / "points.csv", out / "totals.csv"

@@ -86,9 +86,6 @@ def skip_files(folder: str, names: list[str]) -> set[str]:
     return {name for name in names if any(map(paths[name].match, NOT_FOR_STUDENTS))}
 
 
-# ---------------------------------------------------------------- cutting
-
-
 def write_rubric(rubric: Rubric) -> str:
     lines = ["# What is asked and what it is worth, as far as it is checked here."]
     for todo in rubric.todos:
@@ -159,9 +156,6 @@ def replace_oracles(source: str) -> str:
         inputs = ", ".join(code.co_varnames[: code.co_argcount])
         bodies[name] = f'return recorded.answer("{name}", {inputs})'
     return with_bodies(source, bodies)
-
-
-# ---------------------------------------------------------------- recording
 
 
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:

@@ -18,8 +18,6 @@ from grader.judge.result import Result, TodoResult
 from grader.judge.wording import reasons
 from grader.report.files import read_result
 
-# ---------------------------------------------------------------- marks into the gradebook
-
 
 @dataclass(frozen=True)
 class Filled:

@@ -26,9 +26,6 @@ NOTEBOOKS = "notebooks"  # the folder of both trees
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
 
 
-# ---------------------------------------------------------------- taking submissions in
-
-
 @dataclass(frozen=True)
 class Taken:
     """A student's folder, and what became of it."""
@@ -95,9 +92,6 @@ def is_same_tree(one: Path, other: Path) -> bool:
     if names[0] != names[1]:
         return False
     return all(filecmp.cmp(one / name, other / name, shallow=False) for name in names[0])
-
-
-# ---------------------------------------------------------------- grading what was taken in
 
 
 def grade_submitted(course: Path, options: Options, jobs: int, console: Console) -> list[str]:
