@@ -60,7 +60,9 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
     found = find_changes(tree)
     named = [each for each in found if name in (each.name, each.name.rpartition(".")[2])]
     if not named and not is_given(name, given.values()):
-        raise Stop(f"no given function, constant or file is called {name}{list_changes(found)}")
+        names = ", ".join(dict.fromkeys(each.to_type for each in found))
+        more = f"changed are {names}" if names else "nothing that was given is changed"
+        raise Stop(f"no given function, constant or file is called {name}; {more}")
     files = dict.fromkeys(each.file for each in named)
     return {
         file: restored(read_source(tree / file), [each for each in named if each.file == file])
@@ -71,11 +73,6 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
 def is_given(name: str, texts: Iterable[str]) -> bool:
     short = name.rpartition(".")[2]
     return any(f"def {short}(" in text or f"\n{short} = " in text for text in texts)
-
-
-def list_changes(found: list[Changed]) -> str:
-    names = ", ".join(dict.fromkeys(each.to_type for each in found))
-    return f"; changed are {names}" if names else "; nothing that was given is changed"
 
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:

@@ -94,8 +94,9 @@ class Watch:
         """Note what to check, first what the saves since the last check touched."""
         wanted = self.options.only or {todo.id for todo in self.options.course.rubric.todos}
         for file in find_differences(self.checked, self.seen):
-            before, after = self.checked.get(file, ""), self.seen.get(file, "")
-            self.touched |= wanted & find_changed_todos(file, before, after)
+            before = read_functions(file, self.checked.get(file, ""))
+            after = read_functions(file, self.seen.get(file, ""))
+            self.touched |= {todo for todo in wanted if before.get(todo) != after.get(todo)}
             self.others |= wanted & find_users(file)
         self.checked = self.seen
 
@@ -177,11 +178,6 @@ class Watch:
 
 def find_differences(before: Sources, after: Sources) -> set[str]:
     return {file for file in before | after if before.get(file) != after.get(file)}
-
-
-def find_changed_todos(file: str, before: str, after: str) -> set[str]:
-    old, new = read_functions(file, before), read_functions(file, after)
-    return {todo for todo in old | new if old.get(todo) != new.get(todo)}
 
 
 def read_functions(file: str, text: str) -> dict[str, str]:

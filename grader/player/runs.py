@@ -8,7 +8,6 @@ from msgspec import Struct
 
 from grader.protocol import (
     BodyLook,
-    BodyRow,
     ContactValue,
     Items,
     Missing,
@@ -107,7 +106,10 @@ def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
     touches: Any = []
     rods: Any = []
     for moment in moments:
-        rows = {row.number: round_row(row) for row in moment.bodies}
+        rows = {
+            row.number: [row.number, *map(round_number, numbers_of(row)[1:])]
+            for row in moment.bodies
+        }
         changed = [row for number, row in rows.items() if bodies.get(number) != row]
         gone = [number for number in bodies if number not in rows]
         new_touches = [[round_number(each) for each in numbers_of(row)] for row in moment.touches]
@@ -121,10 +123,6 @@ def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
             gone,
         ]
         bodies, touches, rods = rows, new_touches, new_rods
-
-
-def round_row(row: BodyRow) -> list[float]:
-    return [row.number, *(round_number(each) for each in numbers_of(row)[1:])]
 
 
 def numbers_of(row: Struct) -> list[float]:

@@ -368,7 +368,8 @@ def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
             yield from restore_bodies(steps[start - 1], steps[begin - 1])
         last = index == len(chosen) - 1
         for line in step.code:
-            answers = isinstance(step.request, Call | Get) and not is_assignment(line)
+            assigned = re.match(r"[\w, ]+ = ", line)
+            answers = isinstance(step.request, Call | Get) and not assigned
             yield f"print({print_form(line)})" if answers and (last or not step.silent) else line
         if isinstance(step.request, Integrate):
             yield "print(x, v)"
@@ -395,10 +396,6 @@ def print_form(code: str) -> str:
     if code.endswith(".find_contacts()"):
         return f"[(each.normal, each.depth, each.point) for each in {code}]"
     return code
-
-
-def is_assignment(line: str) -> bool:
-    return re.match(r"[\w, ]+ = ", line) is not None
 
 
 def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
@@ -477,15 +474,11 @@ def write_play(module: str, play: Play, paced: bool) -> tuple[list[str], list[st
         look = look.replace("vel", "velocity")
     count = "    print(milliseconds, 'ms:', steps, 'steps, left over:', accumulator, 's')"
     imports = ["import random", f"from {module} import advance, {scene.partition('(')[0]}"]
+    same = len(set(play.frames)) == 1
+    frames = f"[{play.frames[0]}] * {len(play.frames)}" if same else repr(play.frames)
     return imports, [
         f"world, accumulator = {scene}, 0.0",
-        f"for milliseconds in {write_frames(play.frames)}:",
+        f"for milliseconds in {frames}:",
         "    accumulator, steps = advance(world, accumulator, milliseconds / 1000)",
         *(["for body in world.bodies:", look] if play.trail_every else [count]),
     ]
-
-
-def write_frames(frames: Sequence[int]) -> str:
-    if len(set(frames)) == 1:
-        return f"[{frames[0]}] * {len(frames)}"
-    return repr(list(frames))

@@ -35,6 +35,7 @@ MOST_CODE = 4000  # characters of a function; each change of it costs a look at 
 TRIES = 12  # changes of one function
 FAR = 3 * VISIBLE  # px, by which rounding may have led two films apart
 LEAST = 0.02  # of a number, by which it must change
+SIMILAR = 0.6  # only one thing in a line was changed, so that it does not stand out
 ENDLESS = ("while", "for")  # changed heads of loops may never end
 FILMS = ("3", "4", "2", "1")  # TODOs whose changes a film shows
 Values = dict[str, float]  # by what they are
@@ -131,7 +132,8 @@ def change_lines(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
         if len(lines) != len(before) or len(differ) != 1:
             continue
         number, was, now = differ[0]
-        if number in own and not was.strip().startswith(ENDLESS) and is_similar(was, now):
+        similar = difflib.SequenceMatcher(None, was, now).ratio() > SIMILAR
+        if number in own and not was.strip().startswith(ENDLESS) and similar:
             yield Changed(after, number, was, now)
 
 
@@ -154,11 +156,6 @@ def find_own_lines(
     if region is not None and text.first <= region.start + 1 <= text.last:
         first, last = region.start + 2 - text.first + 1, region.stop - text.first + 1
     return frozenset(new for old, new in lines if first <= old <= last)
-
-
-def is_similar(was: str, now: str) -> bool:
-    """Return whether only one thing in a line was changed, so that it does not stand out."""
-    return difflib.SequenceMatcher(None, was, now).ratio() > 0.6
 
 
 # ---------------------------------------------------------------- what a change does
