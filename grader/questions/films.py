@@ -5,9 +5,8 @@ films of a change are nearer to each other than to those of any other one. At ho
 reference, and nothing to gain by a lie.
 
 It is not enough that films differ: soon after a first impact everything differs. Each change has a
-sign that the lesson lets one expect, such as that nothing turns without friction. It is asked only
-where its film shows this sign clearly more, or clearly less, than all the others, on paper as well.
-The unchanged program has no sign, and is what is left.
+sign that the lesson lets one expect, such as that nothing turns without friction, and its film must
+show this clearly more, or less, than all others. The unchanged program has none: it is left over.
 
 Some changes do not show in the lab scene within two seconds: one pass of the solver, no push-out,
 rods before contacts. Friction without a limit has no sign.

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 from grader.judge.course import Asked
 from grader.judge.failures import Broke, NotYet
@@ -27,9 +27,6 @@ class Asks(Protocol):
     @property
     def slot(self) -> int: ...
     def ask(self, program: Program, seed: str, points: int) -> Question: ...
-
-
-Each = TypeVar("Each", bound=Asks)
 
 
 def make_sheet(
@@ -91,7 +88,7 @@ def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[
         yield each.name, partial(ask_reason, each, program, asked.worth("why"))
 
 
-def take_turns(makers: Iterable[Each], program: Program) -> Iterator[Each]:
+def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:
     """Yield makers whose TODOs are all right: the first of each slot, then the second of each.
 
     One about TODOs that have had their turn waits for all the others: no sheet asks the same twice
