@@ -21,7 +21,7 @@ from grader.judge.isolation import Isolation
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
-from grader.report.sinks.gradescope import write_gradescope
+from grader.report.sinks.gradescope import SHOWN, write_gradescope
 from grader.report.terminal import Printer, show_isolation
 from grader.text import clean
 
@@ -77,13 +77,6 @@ def grade_submission(submission: Path) -> bytes:
 def explain(why: str, next_step: str) -> bytes:
     """Return results with the reason and no score, in a test that is worth nothing."""
     reason = f"{clean(why)} {NO_MARK} {next_step}"
-    test = {"name": "Not graded", "status": "failed", "output": reason, "output_format": "text"}
-    return msgspec.json.encode(
-        {
-            "output": reason,
-            "output_format": "text",
-            "visibility": "visible",
-            "stdout_visibility": "hidden",
-            "tests": [test | {"visibility": "visible"}],
-        }
-    )
+    test = {"name": "Not graded", "status": "failed", "output": reason, **SHOWN}
+    whole = {"output": reason, **SHOWN, "stdout_visibility": "hidden", "tests": [test]}
+    return msgspec.json.encode(whole)

@@ -7,6 +7,8 @@ from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.wording import named, points_in_words, reasons
 from grader.text import clean
 
+SHOWN = {"output_format": "text", "visibility": "visible"}  # to the student
+
 
 def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     """Return a test per check, all visible: one hidden test would hide the student's total.
@@ -21,9 +23,8 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     results = {
         "score": score,
         "output": output,
-        "output_format": "text",
         "test_output_format": "text",
-        "visibility": "visible",
+        **SHOWN,
         "stdout_visibility": "hidden",
         "tests": [
             make_test(todo, check, number)
@@ -46,9 +47,8 @@ def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, ob
         "status": "passed" if check.state == "passed" else "failed",
         "number": f"{todo.id}.{number}",
         "output": "\n".join(reasons(check)) if check.state != "passed" else "",
-        "output_format": "text",
         "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
-        "visibility": "visible",
+        **SHOWN,
     }
 
 
