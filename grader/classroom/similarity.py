@@ -181,23 +181,18 @@ class Line:
     is_shared: bool
 
 
-@dataclass(frozen=True)
-class Side:
-    """One of two submissions: its files, and the lines around what both share."""
-
-    name: str
-    files: dict[str, list[Line]]
+Side = dict[str, list[Line]]  # one of two submissions: lines around what both share, by file
 
 
-def compare(pair: Pair, first: Package, second: Package) -> tuple[Side, Side]:
+def compare(first: Package, second: Package) -> tuple[Side, Side]:
     """Show what both have and nobody was given, where it stands in each."""
     common = make_prints(first).runs & make_prints(second).runs
-    return mark_lines(pair.first, first, common), mark_lines(pair.second, second, common)
+    return mark_lines(first, common), mark_lines(second, common)
 
 
-def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
+def mark_lines(package: Package, common: frozenset[int]) -> Side:
     """Return the lines of a submission that hold common runs, with some around them."""
-    files: dict[str, list[Line]] = {}
+    files: Side = {}
     for file, text in read_texts(package).items():
         marked = {
             line
@@ -213,7 +208,7 @@ def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
         ]
         if lines:
             files[file] = lines
-    return Side(name, files)
+    return files
 
 
 def locate_pairs(results: Path, suffix: str) -> Path:
@@ -231,9 +226,7 @@ def write_pairs(
         TEMPLATES / "alike.html",
         "dashboard.css",
         title=results.name,
-        pairs=[
-            (pair, *compare(pair, *(pack(found[name]) for name in pair.names))) for pair in pairs
-        ],
+        pairs=[(pair, *compare(*(pack(found[name]) for name in pair.names))) for pair in pairs],
         least=least,
         run=RUN,
         clean=printable,
