@@ -1,22 +1,7 @@
 """Apply what a person decides about points: one file for a class, apart from the results.
 
-    zone = "Europe/Berlin"                # of times that an LMS gives without one
-
-    [late]                                # by what the LMS says of each submission
-    due = 2026-05-04T23:59:00+02:00       # needed only where the LMS gives the time, not a mark
-    grace = 15                            # minutes after it that cost nothing
-    free_days = 2                         # late days that each student has
-    per_day = 10                          # points, or "10%" of what was earned
-    at_most = 50                          # that lateness takes
-    cap = 80                              # the most that late work can have
-    closed_after = 7                      # days, after which there are no points
-
-    [[adjust]]
-    student = "ann"                       # or ["ann", "ben"]
-    add = 5                               # one of those in `Adjust`
-    reason = "her machine failed in the lab"
-
-Rules that `[late]` leaves out are those of course.toml, line by line.
+handouts/instructor/class.md shows such a file. Rules that `[late]` leaves out are those of
+course.toml, line by line.
 
 Results are never changed: points are computed anew from them and from this file whenever a class is
 graded, and every change is shown with its reason.
@@ -103,7 +88,6 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return Final(final, tuple(reasons), self.find_due(found), by_hand)
 
     def sum_bonus(self, found: Found) -> int:
-        """Return the bonus that a person gave this student."""
         return sum(each.bonus or 0 for each in self.find_decisions(found))
 
     def apply_lateness(self, found: Found, points: int, reasons: list[str]) -> int:
@@ -167,7 +151,6 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def students(self) -> list[str]:
-        """All whom a decision names, each once."""
         return list(dict.fromkeys(name for each in self.adjust for name in each.students))
 
     def find_unused(self, names: Iterable[str]) -> list[str]:

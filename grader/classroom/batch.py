@@ -31,8 +31,6 @@ NONE = Adjustments()
 
 @dataclass
 class Task:
-    """Work that must be graded, and the students whose it is."""
-
     members: list[Found]
     package: Package
     key: str
@@ -170,7 +168,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
     names = [each.name for each in run.outcomes]
     for student in run.adjustments.find_unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")
-    if others := book.find_others(names):
+    if others := sorted({path.stem for path in book.folder.glob("[!.]*.json")} - set(names)):
         words = f"also holds results of others than this class: {shorten_list(others)}"
         run.notes.append(f"{book.folder} {words}")
     return run

@@ -116,13 +116,8 @@ class Book:
         self.locate_result(name).unlink(missing_ok=True)
 
     def finish(self, outcomes: list[Outcome], course: Course = FULL) -> None:
-        """Write the book and the table as they are at the end."""
         write_whole(encode_lines(outcomes), self.path)
         write_whole(make_table(outcomes, course).encode("utf-8-sig"), self.table)
-
-    def find_others(self, names: Iterable[str]) -> list[str]:
-        """Return results in the folder that belong to no submission of this class."""
-        return sorted({path.stem for path in self.folder.glob("[!.]*.json")} - set(names))
 
 
 def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
@@ -144,7 +139,6 @@ def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
 
 
 def list_broken(result: Result) -> list[str]:
-    """Return the programs that cannot be imported, and why."""
     lost: dict[str, str] = {}
     for todo in result.counted:
         for check in todo.checks:

@@ -65,8 +65,6 @@ def describe_versions(places: list[str]) -> str:
 
 
 class Cluster:
-    """The workers of a Dask scheduler."""
-
     def __init__(self, client: Any, options: Options) -> None:
         self.client = client
         self.dask = client.get_executor(pure=False)

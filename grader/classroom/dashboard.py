@@ -6,7 +6,7 @@ whatever they are.
 
 import statistics
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -100,9 +100,6 @@ class Mistake:
         return f"{self.todo}:{self.name}"
 
 
-# ---------------------------------------------------------------- reading
-
-
 def read_class(results: Path) -> list[Entry]:
     """Return everybody in the class book, or without a book, everybody who has a result."""
     book = Book(results)
@@ -133,9 +130,6 @@ def read_entry(book: Book, outcome: Outcome) -> Entry:
         return Entry(msgspec.structs.replace(outcome, trouble=words))
 
 
-# ---------------------------------------------------------------- replays
-
-
 def add_replays(
     entries: list[Entry], intake: Intake, options: Options, folder: Path
 ) -> Iterator[Entry]:
@@ -146,22 +140,16 @@ def add_replays(
         name = next((e.outcome.name for e in mistake.entries if e.outcome.name in found), None)
         if name and not mistake.replay:
             wanted.setdefault(name, set()).add(mistake.todo)
-    worker = start_worker()
-    try:
+    with closing(start_worker()) as worker:
         for entry in entries:
             name = entry.outcome.name
-            todos = wanted.get(name)
-            if entry.result is None or not todos:
-                yield entry
-                continue
-            again = replace(options, only=frozenset(todos))
-            with suppress(Stop), work_folder() as work:
-                package = pack(found[name], options.course.modules)
-                result = grade_with_replays(package.unpack(work), again, folder / name, worker)
-                entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
+            if entry.result is not None and name in wanted:
+                again = replace(options, only=frozenset(wanted[name]))
+                with suppress(Stop), work_folder() as work:
+                    package = pack(found[name], options.course.modules)
+                    result = grade_with_replays(package.unpack(work), again, folder / name, worker)
+                    entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
             yield entry
-    finally:
-        worker.close()
 
 
 def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
@@ -174,21 +162,18 @@ def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
     return msgspec.structs.replace(result, todos=shown)
 
 
-# ---------------------------------------------------------------- counting
-
-
 def count_rates(entries: list[Entry]) -> list[Rate]:
     """Return a rate for each TODO that any result shows, in the order of the results."""
     shown = {todo.id for each in entries if each.result for todo in each.result.shown}
     ids = [id for id in dict.fromkeys(id for each in entries for id in each.todos) if id in shown]
-    return [count_rate([each.todos[id] for each in entries if id in each.todos]) for id in ids]
-
-
-def count_rate(todos: list[TodoResult]) -> Rate:
-    passed = sum(todo.state == "passed" for todo in todos)
-    untouched = sum(todo.state == "not started" for todo in todos)
-    first = todos[0]
-    return Rate(first.id, first.title, passed, len(todos) - passed - untouched, untouched)
+    rates = []
+    for id in ids:
+        todos = [each.todos[id] for each in entries if id in each.todos]
+        passed = sum(todo.state == "passed" for todo in todos)
+        untouched = sum(todo.state == "not started" for todo in todos)
+        wrong = len(todos) - passed - untouched
+        rates.append(Rate(id, todos[0].title, passed, wrong, untouched))
+    return rates
 
 
 def find_mistakes(entries: list[Entry], folder: Path) -> list[Mistake]:
@@ -208,9 +193,6 @@ def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mi
     replays = (check.replay for check in checks if check.replay)
     replay = next((each for each in replays if (folder / each).is_file()), "")
     return Mistake(todo, name, meaning, entries, replay)
-
-
-# ---------------------------------------------------------------- writing
 
 
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
@@ -253,11 +235,11 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
     graded = [each for each in entries if each.result]
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
+    timed = [each for each in graded if each.outcome.seconds]
     script = (TEMPLATES / "dashboard.js").read_text(encoding="utf-8")
-    style = (TEMPLATES / "dashboard.css").read_text(encoding="utf-8")
     return fill_template(
         TEMPLATES / "dashboard.html",
-        style,
+        "dashboard.css",
         script,
         title=folder.name,
         folder=f"./{quote(folder.name)}/",
@@ -271,7 +253,7 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
         rates=count_rates(graded),
         mistakes=find_mistakes(graded, folder),
         alike=read_pairs(folder),
-        slowest=find_slowest(graded),
+        slowest=sorted(timed, key=lambda each: -each.outcome.seconds)[:SLOWEST],
         bonus=any(each.outcome.bonus for each in marked),
         marks=MARKS,
         notes=list_notes,
@@ -288,8 +270,3 @@ def list_notes(outcome: Outcome) -> list[str]:
     late = ["late"] if outcome.late and not outcome.reasons else []
     notes = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
     return [words for words in notes if words]
-
-
-def find_slowest(graded: list[Entry]) -> list[Entry]:
-    timed = [each for each in graded if each.outcome.seconds]
-    return sorted(timed, key=lambda each: -each.outcome.seconds)[:SLOWEST]

@@ -40,9 +40,6 @@ def shared_worker() -> Worker:
     return start_worker()
 
 
-# ---------------------------------------------------------------- processes
-
-
 class Executor(Protocol):
     """Processes that grade, here or elsewhere."""
 
@@ -65,8 +62,6 @@ class ExecutorFailed(Stop):
 
 
 class Pool:
-    """Processes of this machine."""
-
     work = staticmethod(grade_package)
 
     def __init__(self, options: Options, jobs: int) -> None:
@@ -75,8 +70,7 @@ class Pool:
             self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
 
     def _start(self, jobs: int) -> ProcessPoolExecutor:
-        context = multiprocessing.get_context("spawn")
-        return ProcessPoolExecutor(jobs, context, begin_process)
+        return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), begin_process)
 
     def __enter__(self) -> Self:
         self.processes = self._start(self.jobs)

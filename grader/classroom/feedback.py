@@ -36,8 +36,6 @@ class Feedback:
 
 @dataclass(frozen=True)
 class GradedClass:
-    """A class and what is to go back to it."""
-
     entries: list[Entry]
     pages: Path  # the folder of everybody's page
     course: Course = FULL
@@ -122,13 +120,11 @@ def write_text(entry: Entry) -> str:
     return "\n".join(lines) + "\n"
 
 
-# ---------------------------------------------------------------- by the class list
-
-
 def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
     """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
     columns = [*ADDRESSES, *roster.columns]
-    column = next((name for name in columns if has_addresses(roster, name)), None)
+    listed = [name for name in columns if name in roster.columns]
+    column = next((name for name in listed if any("@" in row[name] for row in roster.rows)), None)
     if column is None:
         raise Stop(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
     made = Feedback()
@@ -149,14 +145,10 @@ def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
     return made
 
 
-def has_addresses(roster: Roster, column: str) -> bool:
-    return column in roster.columns and any("@" in row[column] for row in roster.rows)
-
-
 def place_for_nbgrader(graded: GradedClass) -> Feedback:
     """Return the pages beside nbgrader's own feedback, also of students without a notebook."""
-    names = [each.outcome.name for each in graded.entries]
-    pages = {name: graded.find_page(name) for name in names}
-    return Feedback(
-        {f"{name}/{ASSIGNMENT}/engine-{PAGE}": p.read_bytes() for name, p in pages.items() if p}
-    )
+    made = Feedback()
+    for name in (each.outcome.name for each in graded.entries):
+        if page := graded.find_page(name):
+            made.files[f"{name}/{ASSIGNMENT}/engine-{PAGE}"] = page.read_bytes()
+    return made

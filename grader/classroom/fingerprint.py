@@ -14,7 +14,6 @@ from grader.source.regions import python_files
 
 
 def make_key(options: Options) -> str:
-    """Return the key of all results that these options give."""
     reference = pack_reference(options.reference)
     digest = reference.digest if reference else ""
     rubric = options.course.rubric

@@ -29,8 +29,6 @@ LONGEST_PAGE = 2000  # rows of the page: making it takes all results at once, 35
 
 @dataclass(frozen=True)
 class ClassOptions:
-    """The options of grading a class."""
-
     options: Options
     out: Path | None = None  # the class folder's name and `-results`, beside it, if left out
     jobs: int = 0
@@ -79,9 +77,6 @@ def open_executor(wanted: ClassOptions) -> AbstractContextManager[Executor]:
     return Pool(wanted.options, wanted.jobs)
 
 
-# ---------------------------------------------------------------- for people
-
-
 def show_class(run: Run, console: Console) -> None:
     """Print the table, the share that passed each TODO, and all that a person should know."""
     if len(run.outcomes) <= LONGEST:
@@ -109,7 +104,6 @@ def tabulate_class(outcomes: list[Outcome]) -> Table:
 
 
 def tabulate_rates(results: list[Outcome], course: Course) -> Table:
-    """Return the share of submissions that pass each TODO of the assignment."""
     table = Table("TODO", "passed by", box=None)
     for todo in course.rubric.counted:
         graded = [each for each in results if todo.id in each.todos]

@@ -27,9 +27,6 @@ from grader.text import clean, format_csv
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
-# ---------------------------------------------------------------- how marks are made
-
-
 class Marking(Struct, frozen=True, forbid_unknown_fields=True):
     """The settings in marks.toml."""
 
@@ -42,8 +39,6 @@ class Marking(Struct, frozen=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Part:
-    """The points of a student in one notebook."""
-
     points: float
     max_points: float
     waiting: bool = False  # for a person to grade it
@@ -87,15 +82,12 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
 
     What could not be graded waits for a person, unless one has set its points.
     """
-    return {each.name: {ENGINE: make_part(each)} for each in outcomes}
-
-
-def make_part(outcome: Outcome) -> Part:
-    waiting, handed_in = outcome.mark is None, outcome.trouble != NOTHING
-    return Part(outcome.final, outcome.max_points, waiting, outcome.explain(), handed_in)
-
-
-# ---------------------------------------------------------------- marks for the LMS
+    made = {}
+    for each in outcomes:
+        waiting, handed_in = each.mark is None, each.trouble != NOTHING
+        part = Part(each.final, each.max_points, waiting, each.explain(), handed_in)
+        made[each.name] = {ENGINE: part}
+    return made
 
 
 @dataclass

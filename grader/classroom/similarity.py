@@ -47,12 +47,7 @@ CONTEXT = 2  # lines around what two share
 LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
 
 
-@dataclass(frozen=True)
-class Token:
-    """A token as it is compared, and the line it stands in."""
-
-    word: str
-    line: int
+Token = tuple[str, int]  # a token as it is compared, and the line it stands in
 
 
 @dataclass(frozen=True)
@@ -65,8 +60,6 @@ class Prints:
 
 
 class Pair(Struct, frozen=True):
-    """Two submissions, and how similar they are."""
-
     first: str
     second: str
     share: float  # of the smaller one's own runs
@@ -77,18 +70,13 @@ class Pair(Struct, frozen=True):
         return self.first, self.second
 
 
-# ---------------------------------------------------------------- reading
-
-
 def read_tokens(source: str) -> list[Token]:
     """Return the tokens of a file, as far as Python can read it."""
     found: list[Token] = []
-    try:
+    with suppress(tokenize.TokenError, SyntaxError, ValueError):
         for each in tokenize.generate_tokens(io.StringIO(source).readline):
             if each.type not in LAYOUT:
-                found.append(Token(generalize(each), each.start[0]))
-    except (tokenize.TokenError, SyntaxError, ValueError):
-        pass
+                found.append((generalize(each), each.start[0]))
     return found
 
 
@@ -103,10 +91,10 @@ def generalize(each: tokenize.TokenInfo) -> str:
 
 def list_runs(tokens: list[Token]) -> Iterator[tuple[int, int, int]]:
     """Return each run as a number, with the first and last of its lines."""
-    words = [each.word for each in tokens]
+    words = [word for word, _ in tokens]
     for at in range(len(tokens) - RUN + 1):
         run = zlib.crc32("\0".join(words[at : at + RUN]).encode())
-        yield run, tokens[at].line, tokens[at + RUN - 1].line
+        yield run, tokens[at][1], tokens[at + RUN - 1][1]
 
 
 def read_texts(package: Package) -> dict[str, str]:
@@ -154,9 +142,6 @@ def read_prints(
     return found, prints
 
 
-# ---------------------------------------------------------------- comparing
-
-
 def find_pairs(
     prints: Iterable[Prints], least: float = EXPECTED, of: Container[str] | None = None
 ) -> list[Pair]:
@@ -196,23 +181,18 @@ class Line:
     is_shared: bool
 
 
-@dataclass(frozen=True)
-class Side:
-    """One of two submissions: its files, and the lines around what both share."""
-
-    name: str
-    files: dict[str, list[Line]]
+Side = dict[str, list[Line]]  # one of two submissions: lines around what both share, by file
 
 
-def compare(pair: Pair, first: Package, second: Package) -> tuple[Side, Side]:
+def compare(first: Package, second: Package) -> tuple[Side, Side]:
     """Show what both have and nobody was given, where it stands in each."""
     common = make_prints(first).runs & make_prints(second).runs
-    return mark_lines(pair.first, first, common), mark_lines(pair.second, second, common)
+    return mark_lines(first, common), mark_lines(second, common)
 
 
-def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
+def mark_lines(package: Package, common: frozenset[int]) -> Side:
     """Return the lines of a submission that hold common runs, with some around them."""
-    files: dict[str, list[Line]] = {}
+    files: Side = {}
     for file, text in read_texts(package).items():
         marked = {
             line
@@ -228,10 +208,7 @@ def mark_lines(name: str, package: Package, common: frozenset[int]) -> Side:
         ]
         if lines:
             files[file] = lines
-    return Side(name, files)
-
-
-# ---------------------------------------------------------------- for people
+    return files
 
 
 def locate_pairs(results: Path, suffix: str) -> Path:
@@ -247,17 +224,17 @@ def write_pairs(
     path = locate_pairs(results, "html")
     page = fill_template(
         TEMPLATES / "alike.html",
-        (TEMPLATES / "dashboard.css").read_text(encoding="utf-8"),
+        "dashboard.css",
         title=results.name,
-        pairs=[
-            (pair, *compare(pair, *(pack(found[name]) for name in pair.names))) for pair in pairs
-        ],
+        pairs=[(pair, *compare(*(pack(found[name]) for name in pair.names))) for pair in pairs],
         least=least,
         run=RUN,
         clean=printable,
     )
     write_whole(page.encode("utf-8"), path)
-    write_whole(make_table(pairs), locate_pairs(results, "csv"))
+    rows = ((*each.names, each.share, each.runs) for each in pairs)
+    table = format_csv([("first", "second", "alike", "runs"), *rows])
+    write_whole(table.encode("utf-8-sig"), locate_pairs(results, "csv"))
     write_whole(msgspec.json.encode(pairs), locate_pairs(results, "json"))
     return path
 
@@ -269,9 +246,3 @@ def read_pairs(results: Path) -> list[Pair]:
         return msgspec.json.decode(content, type=list[Pair])
     except (OSError, msgspec.MsgspecError):
         return []
-
-
-def make_table(pairs: list[Pair]) -> bytes:
-    """Return the pairs for a spreadsheet."""
-    rows = ((*each.names, each.share, each.runs) for each in pairs)
-    return format_csv([("first", "second", "alike", "runs"), *rows]).encode("utf-8-sig")

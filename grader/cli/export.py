@@ -5,12 +5,11 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-import msgspec
 import typer
 
 from grader.errors import Stop
 from grader.judge.result import Result
-from grader.report.files import write_whole
+from grader.report.files import read_result, write_whole
 from grader.report.sinks.classroom50 import write_classroom50
 from grader.report.sinks.github import write_annotations
 from grader.report.sinks.gradescope import write_gradescope
@@ -49,13 +48,6 @@ def export_command(
         sys.stdout.buffer.write(content)
     else:
         write_whole(content, out)
-
-
-def read_result(file: Path) -> Result:
-    try:
-        return msgspec.json.decode(file.read_bytes(), type=Result)
-    except (OSError, msgspec.MsgspecError) as error:
-        raise Stop(f"{file} is no result of the grader ({error})") from error
 
 
 def write_form(form: Format, results: list[Result], folder: Path) -> bytes:

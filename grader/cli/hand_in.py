@@ -46,6 +46,5 @@ def choose_files(tree: Path, course: Course) -> dict[str, Path]:
 
 
 def find_missing(names: list[str], course: Course) -> list[str]:
-    """Return the programs with a TODO of the course that these files lack."""
     here = {name.partition("/")[0].removesuffix(".py") for name in names}
     return [program for program in course.modules if program not in here]

@@ -31,7 +31,7 @@ from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.result import Result
 from grader.report.files import write_json
-from grader.report.terminal import show, show_isolation
+from grader.report.terminal import Printer, show_isolation
 
 if TYPE_CHECKING:
     from grader.classroom.grading import ClassOptions
@@ -158,7 +158,7 @@ def refuse_what_is_ignored(
 
 def grade_and_show(path: Path, options: Options, replays: Path | None) -> Result:
     result = grade_one(path, options, replays)
-    show(result, console)
+    Printer(console).print(result)
     show_isolation(result, console)
     return result
 
@@ -211,7 +211,7 @@ def demonstrate(options: Options) -> None:
     for name in ("solution", "starter"):
         console.rule(name)
         result = grade_one(KIT / name, replace(options, trusted=True))
-        show(result, console)
+        Printer(console).print(result)
     show_isolation(result, console)
 
 
@@ -256,7 +256,6 @@ def end_like_ctrl_c() -> None:
 
 
 def make_app() -> typer.Typer:
-    """Return the command line with all commands that are installed here."""
     whole = typer.Typer(
         cls=Commands,
         help="Grades submissions of the physics-engine assignment.",
@@ -279,7 +278,6 @@ def make_app() -> typer.Typer:
 
 
 def main() -> None:
-    """Run the command that the arguments name."""
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
     make_app()(prog_name="grader")

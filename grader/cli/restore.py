@@ -6,6 +6,7 @@ from pathlib import Path
 from grader.errors import Stop
 from grader.judge.result import Result
 from grader.judge.submission import load_given
+from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
 from grader.source.regions import RegionError, read_source
 
@@ -13,7 +14,6 @@ MOST_NAMES = 3  # on one line
 
 
 def find_changes(tree: Path) -> list[Changed]:
-    """Return what differs in a tree from what was handed out."""
     own = {name: tree / name for name in load_given() if (tree / name).is_file()}
     return changes({name: read_source(path) for name, path in own.items()}, load_given())
 
@@ -38,13 +38,11 @@ def restore(tree: Path, name: str) -> list[str]:
     if not texts:
         return [f"{name} is as it was handed out: nothing to put back."]
     for file, text in texts.items():  # of two files both or none
-        try:
-            compile(text, file, "exec", dont_inherit=True)
-        except SyntaxError as error:
+        if flaw := find_flaw(text):
             raise Stop(
-                f"{file} would be no Python with that (line {error.lineno}: {error.msg}): correct "
+                f"{file} would be no Python with that (line {flaw.line}: {flaw.message}): correct "
                 f"it, or put back all of its given code with --restore {file}"
-            ) from None
+            )
     return [write_text(tree, name, file, text) for file, text in texts.items()]
 
 
@@ -62,7 +60,9 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
     found = find_changes(tree)
     named = [each for each in found if name in (each.name, each.name.rpartition(".")[2])]
     if not named and not is_given(name, given.values()):
-        raise Stop(f"no given function, constant or file is called {name}{list_changes(found)}")
+        names = ", ".join(dict.fromkeys(each.to_type for each in found))
+        more = f"changed are {names}" if names else "nothing that was given is changed"
+        raise Stop(f"no given function, constant or file is called {name}; {more}")
     files = dict.fromkeys(each.file for each in named)
     return {
         file: restored(read_source(tree / file), [each for each in named if each.file == file])
@@ -73,11 +73,6 @@ def make_texts(tree: Path, name: str) -> dict[str, str]:
 def is_given(name: str, texts: Iterable[str]) -> bool:
     short = name.rpartition(".")[2]
     return any(f"def {short}(" in text or f"\n{short} = " in text for text in texts)
-
-
-def list_changes(found: list[Changed]) -> str:
-    names = ", ".join(dict.fromkeys(each.to_type for each in found))
-    return f"; changed are {names}" if names else "; nothing that was given is changed"
 
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:

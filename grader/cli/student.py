@@ -61,7 +61,6 @@ def check_command(
 
 
 def show_first(result: Result, folder: Path, replays: Path | None) -> None:
-    """Print the first screen of a result."""
     Screen(console, replays).show(result, notes=list_notes(folder, result))
     if result.complete and (words := hidden_points_note(result)):
         say(words, console)
@@ -82,7 +81,6 @@ def find_tree(path: Path, course: Course) -> Path:
 
 
 def write_due(course: Course) -> str:
-    """Return the due date, where the course has one."""
     return f", until {moment(course.due)}" if course.due else ""
 
 

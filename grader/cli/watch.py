@@ -5,9 +5,8 @@ editor saves, nor whether the file system reports it.
 """
 
 import time
-import warnings
 from collections.abc import Collection, Iterator, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -25,6 +24,7 @@ from grader.player.replay import grade_with_replays
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
 from grader.source.definitions import function_named, source_of, statements
+from grader.source.flaws import find_flaw
 from grader.source.regions import read_source
 from grader.text import clean
 
@@ -58,7 +58,6 @@ class Watch:
     result: Result = field(init=False)
 
     def start(self) -> None:
-        """Check the whole tree."""
         self.seen = self.checked = read_sources(self.folder)
         self.result = self.grade(self.options)
         self.draw()
@@ -88,17 +87,16 @@ class Watch:
         modules = {todo.module for todo in load_rubric().todos}
         if module_of(Path(file)) not in modules:
             return ""
-        error = find_syntax_error(self.seen.get(file, ""))
-        if error is None:
-            return ""
-        return f"{file}:{error.lineno or 1} is no Python yet: {clean(error.msg)}"
+        flaw = find_flaw(self.seen.get(file, ""))
+        return f"{file}:{flaw.line} is no Python yet: {clean(flaw.message)}" if flaw else ""
 
     def plan(self) -> None:
         """Note what to check, first what the saves since the last check touched."""
         wanted = self.options.only or {todo.id for todo in self.options.course.rubric.todos}
         for file in find_differences(self.checked, self.seen):
-            before, after = self.checked.get(file, ""), self.seen.get(file, "")
-            self.touched |= wanted & find_changed_todos(file, before, after)
+            before = read_functions(file, self.checked.get(file, ""))
+            after = read_functions(file, self.seen.get(file, ""))
+            self.touched |= {todo for todo in wanted if before.get(todo) != after.get(todo)}
             self.others |= wanted & find_users(file)
         self.checked = self.seen
 
@@ -178,18 +176,8 @@ class Watch:
         return words
 
 
-# -------------------------------------------------------------------- what a save touched
-
-
 def find_differences(before: Sources, after: Sources) -> set[str]:
-    """Return the files that are new, gone or changed."""
     return {file for file in before | after if before.get(file) != after.get(file)}
-
-
-def find_changed_todos(file: str, before: str, after: str) -> set[str]:
-    """Return the TODOs whose function has changed."""
-    old, new = read_functions(file, before), read_functions(file, after)
-    return {todo for todo in old | new if old.get(todo) != new.get(todo)}
 
 
 def read_functions(file: str, text: str) -> dict[str, str]:
@@ -219,19 +207,6 @@ def drop_lines(todo: TodoResult) -> TodoResult:
     """Return a result without lines, which move whenever something is written above them."""
     checks = [msgspec.structs.replace(check, where=None) for check in todo.checks]
     return msgspec.structs.replace(todo, checks=checks)
-
-
-def find_syntax_error(text: str) -> SyntaxError | None:
-    ignored = warnings.catch_warnings(action="ignore")
-    with ignored, suppress(ValueError, RecursionError, MemoryError):
-        try:
-            compile(text, "", "exec", dont_inherit=True)
-        except SyntaxError as error:
-            return error
-    return None
-
-
-# -------------------------------------------------------------------- the tree
 
 
 def read_sources(folder: Path) -> Sources:
@@ -272,15 +247,12 @@ def wait_for_saves(folder: Path) -> Iterator[None]:
 
 def watch_tree(folder: Path, options: Options, console: Console, replays: Path | None) -> Result:
     """Check the tree, and again after each save, until Ctrl-C; return the last result."""
-    worker = start_worker(options.spawn)
-    watched = Watch(folder, options, console, worker, replays)
-    try:
+    with closing(start_worker(options.spawn)) as worker:
+        watched = Watch(folder, options, console, worker, replays)
         watched.start()
         say("Watching: save a file, and it is checked again. Ctrl-C ends this.", console)
         with suppress(KeyboardInterrupt):
             for _ in wait_for_saves(folder):
                 watched.look()
             raise Stop(f"there is no {folder} any more")
-    finally:
-        worker.close()
     return watched.result

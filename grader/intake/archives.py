@@ -21,6 +21,7 @@ from grader.intake.pieces import rank_file
 from grader.intake.places import SIGNS, is_system_file
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
+from grader.text import plural
 
 MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
@@ -51,7 +52,7 @@ class Bounds:
         if not self.left_out:
             return []
         more = len(self.left_out) - 1
-        others = f" and {more} more {'file' if more == 1 else 'files'}" if more else ""
+        others = f" and {plural(more, 'more file')}" if more else ""
         return [f"left out {self.left_out[0]}{others}: size limit reached"]
 
 
@@ -155,7 +156,6 @@ def check_size(path: Path) -> None:
 
 
 def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
-    """Return the files of an archive, without folders and links."""
     for member in archive.infolist():
         if not member.is_dir() and stat.S_IFMT(member.external_attr >> 16) in (0, stat.S_IFREG):
             yield member

@@ -28,9 +28,12 @@ class Blackboard(Lms):
     title_sign = "["
     names_alone = False
 
+    def match(self, path: Path) -> re.Match[str] | None:
+        return None if path.is_dir() else NAME.fullmatch(path.name)
+
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         """Return whose upload this is; the time is the school's."""
-        match = match_file(path)
+        match = self.match(path)
         if match is None:
             return None
         user, full = read_receipt(path.with_name(f"{match['attempt']}.txt"))
@@ -52,10 +55,6 @@ class Blackboard(Lms):
             owner=user,
         )
 
-    def read_own_name(self, path: Path) -> str | None:
-        match = match_file(path)
-        return match["file"] if match else None
-
     def writes_gradebook(self, columns: set[str]) -> bool:
         return set(COLUMNS[:3]) <= columns
 
@@ -74,10 +73,6 @@ def find_listed_user(match: re.Match[str], people: ClassList) -> str:
     parts = f"{match['assignment']}_{match['user']}".split("_")
     ends = ("_".join(parts[at:]) for at in range(1, len(parts)))
     return next((end for end in ends if people.find(["Username"], end)), "")
-
-
-def match_file(path: Path) -> re.Match[str] | None:
-    return None if path.is_dir() else NAME.fullmatch(path.name)
 
 
 def read_receipt(path: Path) -> tuple[str, str]:

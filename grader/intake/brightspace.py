@@ -22,9 +22,12 @@ class Brightspace(Lms):
     only_commas = True
     side_files = frozenset({"index.html"})  # a list of all that was handed in
 
+    def match(self, path: Path) -> re.Match[str] | None:
+        return NAME.fullmatch(path.name)
+
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         """Return whose upload this is; the time is the school's."""
-        match = NAME.fullmatch(path.name)
+        match = self.match(path)
         if match is None:
             return None
         name = people.find(["name"], match["name"]) or people.find_in_group(match["name"])
@@ -39,10 +42,6 @@ class Brightspace(Lms):
             owner=match["ids"],
         )
 
-    def read_own_name(self, path: Path) -> str | None:
-        match = NAME.fullmatch(path.name)
-        return match["file"] if match else None
-
     def writes_gradebook(self, columns: set[str]) -> bool:
         return END_OF_LINE in columns or "OrgDefinedId" in columns
 
@@ -54,6 +53,6 @@ class Brightspace(Lms):
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
         """Return the folders of the download, with other files in them."""
-        if match := NAME.fullmatch(source.name):
+        if match := self.match(source):
             folder = f"{match['ids']} - {match['name']} - {match['when']}"
             yield from ((f"{folder}/{each.file}", each.content) for each in pages)

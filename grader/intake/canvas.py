@@ -26,8 +26,13 @@ class Canvas(Lms):
     title_sign = "("
     names_alone = False
 
+    def match(self, path: Path) -> re.Match[str] | None:
+        if path.is_dir():
+            return None
+        return ANONYMOUS.fullmatch(path.name) or FILE.fullmatch(path.name)
+
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
-        match, empty = match_file(path), NO_FILE.fullmatch(path.name)
+        match, empty = self.match(path), NO_FILE.fullmatch(path.name)
         if match:
             name = people.find(["ID"], match["user"]) or f"{match['name']}_{match['user']}"
             late, user = bool(match["late"]), match["user"]
@@ -39,10 +44,6 @@ class Canvas(Lms):
             return None
         return Upload(path, make_portable(name), late, from_lms=True, empty=bool(empty), owner=user)
 
-    def read_own_name(self, path: Path) -> str | None:
-        match = match_file(path)
-        return match["file"] if match else None
-
     def writes_gradebook(self, columns: set[str]) -> bool:
         return "ID" in columns and ("Student" in columns or {"LastName", "FirstName"} <= columns)
 
@@ -50,7 +51,6 @@ class Canvas(Lms):
         return read_first_cell(row) not in ("", POINTS_POSSIBLE, TEST_STUDENT)
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
-        """Return Canvas's own first columns and one column per assignment."""
         own = [name for name in COLUMNS if name in roster.columns]
         table = [[*own, find_title(roster, f"{marks.title} (", marks.title)]]
         if any(read_first_cell(row) == POINTS_POSSIBLE for row in roster.other_rows):
@@ -61,7 +61,7 @@ class Canvas(Lms):
         self, source: Path, pages: list[Page]
     ) -> Iterator[tuple[str, bytes | dict[str, bytes]]]:
         """Return files of the very names that Canvas gave: a zip stays one, and a text a text."""
-        if match_file(source) is None:
+        if self.match(source) is None:
             return
         if source.suffix.lower() == ".zip":
             yield source.name, {each.file: each.content for each in pages}
@@ -69,12 +69,6 @@ class Canvas(Lms):
         first, *mates = pages
         texts = [first.text, *(f"{each.name}\n{each.text}" for each in mates)]
         yield source.name, "\n".join(texts).encode("utf-8")
-
-
-def match_file(path: Path) -> re.Match[str] | None:
-    if path.is_dir():
-        return None
-    return ANONYMOUS.fullmatch(path.name) or FILE.fullmatch(path.name)
 
 
 def read_first_cell(row: Row) -> str:

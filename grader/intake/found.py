@@ -38,8 +38,6 @@ class Found:
 
 @dataclass
 class Intake:
-    """A class as it lies in a folder."""
-
     found: list[Found] = field(default_factory=list)
     troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
     notes: list[str] = field(default_factory=list)

@@ -14,8 +14,6 @@ TOTAL = re.compile(r"(?:Total Pts: |MaxPoints:)([\d.,]+)")  # of Blackboard and 
 
 
 class Marked(NamedTuple):
-    """A row of the class list, its mark, and what makes the mark."""
-
     row: Row
     mark: str
     summary: str
@@ -57,9 +55,14 @@ class Lms:
         """Return whose upload this is; None for a name that this system does not write."""
         return None
 
+    def match(self, path: Path) -> re.Match[str] | None:
+        """Return the parts of a name that this system writes; None for any other name."""
+        return None
+
     def read_own_name(self, path: Path) -> str | None:
         """Return a file's name as the student gave it; None where this system wrote no name."""
-        return None
+        match = self.match(path)
+        return match["file"] if match else None
 
     def is_export(self, folder: Path) -> bool:
         """Tell whether a folder lists its submissions in a file of this system."""
@@ -80,7 +83,6 @@ class Lms:
         return False
 
     def is_student(self, row: Row) -> bool:
-        """Tell whether a row of the gradebook is a student's."""
         return True
 
     def translate(self, titles: list[str]) -> list[str]:

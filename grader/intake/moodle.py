@@ -2,57 +2,25 @@
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
+
+import msgspec
 
 from grader.intake.found import Upload
 from grader.intake.lms import PAGE, Lms, MarkColumn, Page
 from grader.intake.names import fold, make_portable
-from grader.intake.roster import SUBMITTED, ClassList, Roster
+from grader.intake.roster import ClassList, Roster
 
 NAME = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(_(?P<file>.*))?")
 TOTAL = "Maximum Grade"  # a column of the worksheet; the one before it is the grade's
-# Titles in the languages of its users; each stands for itself in another case, too.
-TITLES = {
-    "Identifier": ("ID", "Identifiant", "Identificador", "Identificativo", "Identificatie"),
-    "Full name": (
-        *("Vollständiger Name", "Nom complet", "Nombre completo", "Nome completo"),
-        *("Volledige naam",),
-    ),
-    "First name": ("Vorname", "Prénom", "Nombre", "Nome", "Voornaam", "Nom"),
-    "Last name": (
-        *("Nachname", "Nom de famille", "Apellido(s)", "Cognome", "Achternaam", "Apelido"),
-        *("Cognoms",),
-    ),
-    "Email address": (
-        *("E-Mail-Adresse", "Adresse de courriel", "Dirección de correo", "Indirizzo email"),
-        *("E-mailadres", "E-mail", "Adreça electrònica"),
-    ),
-    "ID number": (
-        *("ID-Nummer", "Numéro d'identification", "Número de ID", "Codice identificativo"),
-        *("Nummer (ID)", "Número de identificação (ID)", "Número ID"),
-    ),
-    "Username": (
-        *("Anmeldename", "Nom d'utilisateur", "Nombre de usuario", "Gebruikersnaam"),
-        *("Nome de utilizador", "Nom d'usuari"),
-    ),
-    "Group": ("Gruppe", "Groupe", "Grupo", "Gruppo", "Groep", "Grup"),
-    "Groups": ("Gruppen", "Groupes", "Grupos", "Gruppi", "Groepen", "Grups"),
-    TOTAL: (
-        *("Bestwertung", "Note maximale", "Calificación máxima", "Valutazione massima"),
-        *("Maximaal cijfer", "Nota máxima", "Qualificació màxima"),
-    ),
-    "Feedback comments": (
-        *("Feedback als Kommentar", "Feedback par commentaires", "Commenti"),
-        *("Comentarios de retroalimentación", "Feedback tekstvak", "Comentários de feedback"),
-        *("Comentaris de retroacció.", "Comentaris de retroacció"),
-    ),
-    SUBMITTED: (
-        *("Zuletzt geändert (Abgabe)", "Dernière modification (travail remis)"),
-        *("Última modificación (entrega)", "Ultima modifica (consegna)"),
-        *("Laatst gewijzigd (inzending)", "Última atualização (submissão)"),
-        *("Darrera modificació (tramesa)",),
-    ),
-}
+
+
+@cache
+def load_titles() -> dict[str, list[str]]:
+    """Load the titles of columns in other languages, by the English ones."""
+    text = Path(__file__).with_suffix(".toml").read_bytes()
+    return msgspec.toml.decode(text, type=dict[str, list[str]])
 
 
 class Moodle(Lms):
@@ -62,8 +30,11 @@ class Moodle(Lms):
     only_commas = True
     names_alone = False
 
+    def match(self, path: Path) -> re.Match[str] | None:
+        return NAME.fullmatch(path.name)
+
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
-        match = NAME.fullmatch(path.name)
+        match = self.match(path)
         if match is None:
             return None
         known = people.find(["Identifier"], match["id"])
@@ -80,15 +51,14 @@ class Moodle(Lms):
         )
 
     def read_own_name(self, path: Path) -> str | None:
-        match = NAME.fullmatch(path.name)
-        return match["file"] or "file" if match else None
+        return (super().read_own_name(path) or "file") if self.match(path) else None
 
     def writes_gradebook(self, columns: set[str]) -> bool:
         return {"Identifier", "Grade"} <= columns
 
     def translate(self, titles: list[str]) -> list[str]:
         plain = {fold(TOTAL): TOTAL}  # newer ones write it in small letters
-        for name, others in TITLES.items():
+        for name, others in load_titles().items():
             for other in others:
                 if other != "ID" or "Bestwertung" in titles:  # many lists have an ID that is none
                     plain.setdefault(fold(other), name)
@@ -124,7 +94,7 @@ class Moodle(Lms):
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
         """Return files whose names hold a participant's number and the kind of upload."""
-        if match := NAME.fullmatch(source.name):
+        if match := self.match(source):
             first = f"{match['name']}_{match['id']}"
             for each in pages:
                 file = PAGE if each.participant else each.file

@@ -34,6 +34,5 @@ def make_portable(words: str) -> str:
 
 
 def shorten_list(names: list[str]) -> str:
-    """Return names for one note."""
     more = f" and {len(names) - MENTIONED} more" if len(names) > MENTIONED else ""
     return ", ".join(names[:MENTIONED]) + more

@@ -9,6 +9,8 @@ import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path, PurePosixPath
 from typing import NoReturn
 from urllib.parse import unquote
@@ -85,9 +87,6 @@ def list_package_work() -> frozenset[str]:
     """Return the files of the package that a student works on."""
     names = (name for name in list_package_files() if name != INIT)
     return frozenset(n for n in names if regions_in(load_given()[f"{PACKAGE}/{n}"]))
-
-
-# ---------------------------------------------------------------- finding them
 
 
 @dataclass(frozen=True)
@@ -203,10 +202,8 @@ def is_package(folder: PurePosixPath, inside: list[PurePosixPath]) -> bool:
 
 
 def group_by_module(pieces: list[Piece]) -> list[list[Piece]]:
-    groups: dict[str, list[Piece]] = {}
-    for piece in pieces:
-        groups.setdefault(piece.module, []).append(piece)
-    return [groups[name] for name in sorted(groups)]
+    by_module = attrgetter("module")
+    return [list(group) for _, group in groupby(sorted(pieces, key=by_module), by_module)]
 
 
 def choose_piece(pieces: list[Piece], folder: Path, notes: list[str], matters: bool) -> Piece:

@@ -38,19 +38,13 @@ def cut_suffix(path: Path) -> str:
 def enter_single_folders(folder: Path) -> Path:
     """Enter each folder that holds nothing but one other, and return the innermost."""
     for _ in range(DEEPEST):
-        inside = [path for path in folder.iterdir() if not is_system_file(path.name)]
-        if len(inside) != 1 or inside != list_subfolders(folder) or inside[0].name == "notebooks":
+        inside = list_folder(folder)
+        if len(inside) != 1 or inside[0].name in {"notebooks", *IGNORED}:
+            break
+        if not inside[0].is_dir() or inside[0].is_symlink():
             break
         folder = inside[0]
     return folder
-
-
-def list_subfolders(folder: Path) -> list[Path]:
-    return [
-        path
-        for path in list_folder(folder)
-        if path.is_dir() and not path.is_symlink() and path.name not in IGNORED
-    ]
 
 
 def has_program(folder: Path) -> bool:

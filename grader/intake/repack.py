@@ -54,15 +54,15 @@ def main(source: str, target: str) -> int:
                     raise Refused("the archive holds too much: ask for the program alone")
                 out.writestr(zipfile.ZipInfo(name), content)
     except Refused as refusal:
-        say(str(refusal))
-        return REFUSED
+        words = str(refusal)
     except MemoryError:
-        say("the archive takes too much memory to unpack")
-        return REFUSED
+        words = "the archive takes too much memory to unpack"
     except Exception as error:  # each library has many; the bytes are a stranger's
-        say(f"the archive is broken ({type(error).__name__}: {error!s:.100})")
-        return REFUSED
-    return 0
+        words = f"the archive is broken ({type(error).__name__}: {error!s:.100})"
+    else:
+        return 0
+    say(words)
+    return REFUSED
 
 
 def say(words: str) -> None:

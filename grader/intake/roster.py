@@ -46,7 +46,6 @@ class Roster:
     other_rows: list[Row] = field(default_factory=list)  # such as Canvas's points possible
 
     def choose_key(self, wanted: str = "") -> str:
-        """Return the column that identifies students."""
         if wanted and wanted not in self.columns:
             columns = ", ".join(self.columns)
             raise Stop(f"{self.path} has no column {wanted!r}; it has {columns}")

@@ -17,49 +17,42 @@ TEMPLATES = Path(__file__).with_name("templates")
 MAX_WORDS = 1000  # characters of a submission in one line: a page has more room than a terminal
 
 
-def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
-    """Return the page of one failed check: `words` say why it failed, `script` asks again."""
-    player = read_player()
+def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay) -> str:
+    """Return the page of one failed check: `words` say why it failed."""
     return fill_template(
         TEMPLATES / "player.html",
-        read("player.css"),
-        player,
+        "player.css",
+        read_player(),
         title=clean_line(title),
         words=[(name, clean_line(text)) for name, text in words],
-        code=script,
         replay=encode_data(replay),
-        player=Markup(player),
+        player=Markup(read_player()),
     )
 
 
 def fill_template(
-    template: Path,
-    style: str,
-    *scripts: str,
-    around: tuple[str, str] | None = None,
-    **values: object,
+    template: Path, css: str, *scripts: str, has_replays: bool = False, **values: object
 ) -> str:
-    """Return a page of this style and the theme's, in which only these scripts may run.
+    """Return a page with the style sheet `css` beside its template, and the theme's.
 
-    It also allows the style and script of a page that it is put `around`, given by their hashes.
+    Only these scripts may run in it, and where it `has_replays` their player.
     """
-    style = read_theme() + style
-    inner_style, inner_script = ([each] for each in around) if around else ([], [])
-    return (
-        load_environment(template.parent)
-        .get_template(template.name)
-        .render(
-            style=Markup(style),
-            styles=list_sources([hash_content(style), *inner_style]),
-            scripts=list_sources([*map(hash_content, scripts), *inner_script]),
-            **values,
-        )
+    style = read_style(template.with_name(css))
+    styles, allowed = [style], list(scripts)
+    if has_replays:
+        styles.append(read_style(TEMPLATES / "player.css"))
+        allowed.append(read_player())
+    page = load_environment(template.parent).get_template(template.name)
+    sources = {"styles": list_sources(styles), "scripts": list_sources(allowed)}
+    return page.render(style=Markup(style), **sources, **values)
+
+
+def list_sources(contents: Sequence[str]) -> Markup:
+    """Return the hashes of scripts or style sheets as a page's policy lists them."""
+    digests = [hashlib.sha256(each.encode("utf-8")).digest() for each in contents]
+    return Markup(" ").join(
+        Markup("'sha256-{}'").format(base64.b64encode(each).decode()) for each in digests
     )
-
-
-def list_sources(hashes: Sequence[str]) -> Markup:
-    """Return these hashes as a page's policy lists them."""
-    return Markup(" ").join(Markup("'{}'").format(each) for each in hashes)
 
 
 @cache
@@ -69,29 +62,17 @@ def load_environment(templates: Path) -> jinja2.Environment:
     return jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
 
 
-def read_theme() -> str:
-    """Read the style of all pages, in light and in dark."""
-    return read("theme.css")
+@cache
+def read_style(path: Path) -> str:
+    """Read a style sheet behind the style of all pages, which is for light and dark."""
+    theme = TEMPLATES / "theme.css"
+    return theme.read_text(encoding="utf-8") + path.read_text(encoding="utf-8")
 
 
 @cache
-def read(name: str) -> str:
-    return (TEMPLATES / name).read_text(encoding="utf-8")
-
-
-def hash_player() -> tuple[str, str]:
-    """Return the hashes of the style and the script of a replay, for the page around it."""
-    return hash_content(read_theme() + read("player.css")), hash_content(read_player())
-
-
 def read_player() -> str:
-    return read("stage.js") + read("player.js")
-
-
-def hash_content(content: str) -> str:
-    """Return the name of a script or a style sheet in the policy of its page."""
-    digest = hashlib.sha256(content.encode("utf-8")).digest()
-    return f"sha256-{base64.b64encode(digest).decode('ascii')}"
+    scripts = (TEMPLATES / "stage.js", TEMPLATES / "player.js")
+    return "".join(each.read_text(encoding="utf-8") for each in scripts)
 
 
 def encode_data(value: object) -> Markup:

@@ -3,10 +3,11 @@
 The recorder is the `send` of a lab's connection, so that all requests and answers pass through it.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice
+from string import ascii_letters
 
 import msgspec
 
@@ -14,7 +15,7 @@ from grader.judge.children import Child
 from grader.judge.failures import Failing
 from grader.judge.lab import Lab
 from grader.player.runs import Line, Mark, Run, describe_body, describe_reply
-from grader.player.script import Step, Translator, signature_of
+from grader.player.translator import Names, Translator, signature_of
 from grader.protocol import (
     MAX_BODIES,
     MAX_RODS,
@@ -56,7 +57,7 @@ class Recorder:
     translator: Translator
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
-    steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
+    called: list[tuple[Run, int, str]] = field(default_factory=list)  # bodies, by name in code
     _new_scene: bool = True
     _new_run: bool = True
     _count: int = 0
@@ -78,7 +79,7 @@ class Recorder:
 
     def _ask_only(self, child: Child, request: Request) -> Answered:
         answered = child.ask(request)
-        self._add_step(request, answered)
+        self._translate(request, answered)
         return answered
 
     def _record(self, child: Child, request: Request) -> Answered:
@@ -98,14 +99,12 @@ class Recorder:
     def _begin_run(self) -> None:
         if self._new_scene and self.scenes[-1]:
             self.scenes.append([])
-            self.steps.append([])
         self._new_scene = self._new_run = False
         self.scenes[-1].append(Run(self.experiment))
 
     def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]
-        step = self._add_step(request, answered)
-        step.place = run, len(run.lines)
+        code = self._translate(request, answered)
         moments = limit_moments(recorded.moments)
         answer = describe_reply(recorded.reply) if isinstance(request, Call | Play) else ""
         if isinstance(request, Integrate):
@@ -125,32 +124,31 @@ class Recorder:
                 answer,
                 moments,
                 is_setup(request),
-                "\n".join(step.code),
+                "\n".join(code),
                 find_marks(request, run),
                 isinstance(request, Call) and request.work,
             )
         )
-        if moments:
-            step.bodies = {self._name_of(run, row.number): row for row in moments[-1].bodies}
-        elif len(run.lines) == 1:
-            step.bodies = {}  # those of another process
+        for row in moments[-1].bodies if moments else []:
+            if row.number in run.looks:
+                name = self.translator.names.get(run.looks[row.number].ref, "")
+                self.called.append((run, row.number, name))
 
-    def _name_of(self, run: Run, number: int) -> str:
-        """Return a body's name in the script, or else its name on the page."""
-        ref = run.looks[number].ref if number in run.looks else 0
-        name = self.translator.names.get(ref, "")
-        return name if name.isidentifier() else run.names.get(number, "")
+    def _translate(self, request: Request, answered: Answered) -> list[str]:
+        assert not isinstance(answered.reply, WithMoments)
+        return self.translator.translate(request, answered.reply)
 
-    def _add_step(self, request: Request, answered: Answered) -> Step:
-        reply = answered.reply
-        assert not isinstance(reply, WithMoments)
-        code = self.translator.translate(request, reply)
-        before = self.steps[-1][-1].bodies if self.steps[-1] else {}
-        value = reply.value if isinstance(reply, Returned) else reply
-        watched = self.translator.watched_names(request)
-        step = Step(request, code, value is None, watched, before)
-        self.steps[-1].append(step)
-        return step
+    def renumber(self, shown: Sequence[Run]) -> None:
+        """Name bodies, contacts and worlds from 1 on, in the code of these runs and the picture."""
+        names = Names([line.code for run in shown for line in run.lines])
+        for run in shown:
+            run.lines = [
+                msgspec.structs.replace(line, code=names.in_code(line.code)) for line in run.lines
+            ]
+        for run, body, name in self.called:
+            if name.isidentifier() and any(run is each for each in shown):
+                number = names.in_code(name).lstrip(ascii_letters)
+                run.names[body] = describe_body(run.looks[body], number)
 
     def scenes_to_show(self, every_scene: bool) -> slice:
         """Return the last scene, or all where only all of them together say something."""
@@ -159,8 +157,6 @@ class Recorder:
 
 
 class RecordingLab(Lab):
-    """A lab whose connection is recorded."""
-
     def __init__(
         self,
         module: str,

@@ -8,7 +8,6 @@ from msgspec import Struct
 
 from grader.protocol import (
     BodyLook,
-    BodyRow,
     ContactValue,
     Items,
     Missing,
@@ -54,8 +53,6 @@ class Line(Struct, frozen=True, omit_defaults=True):
 
 
 class Run(Struct, omit_defaults=True):
-    """The requests of one process in one scene."""
-
     experiment: str
     lines: list[Line] = []
     looks: dict[int, BodyLook] = {}  # of the bodies by number
@@ -103,16 +100,16 @@ class Replay(Struct, frozen=True):
     note: str = ""  # shown in place of a comparison
 
 
-# ---------------------------------------------------------------- moments
-
-
 def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
     """Yield each moment with what changed since the one before, and which bodies are gone."""
     bodies: dict[int, list[float]] = {}
     touches: Any = []
     rods: Any = []
     for moment in moments:
-        rows = {row.number: round_row(row) for row in moment.bodies}
+        rows = {
+            row.number: [row.number, *map(round_number, numbers_of(row)[1:])]
+            for row in moment.bodies
+        }
         changed = [row for number, row in rows.items() if bodies.get(number) != row]
         gone = [number for number in bodies if number not in rows]
         new_touches = [[round_number(each) for each in numbers_of(row)] for row in moment.touches]
@@ -128,10 +125,6 @@ def encode_moments(moments: Iterable[Moment]) -> Iterator[PageMoment]:
         bodies, touches, rods = rows, new_touches, new_rods
 
 
-def round_row(row: BodyRow) -> list[float]:
-    return [row.number, *(round_number(each) for each in numbers_of(row)[1:])]
-
-
 def numbers_of(row: Struct) -> list[float]:
     return [getattr(row, name) for name in row.__struct_fields__]
 
@@ -139,9 +132,6 @@ def numbers_of(row: Struct) -> list[float]:
 def round_number(value: float) -> float:
     """Round to six digits; infinity and NaN stay (JSON has null for them)."""
     return float(f"{value:.6g}") + 0.0 if math.isfinite(value) else value
-
-
-# ---------------------------------------------------------------- in words
 
 
 def describe_body(look: BodyLook, number: str) -> str:

@@ -14,9 +14,6 @@ FLOOR, FLOOR_TOP = (450.0, 580.0), 560.0
 DEPTH = 0.25  # px, less than SLOP: nothing is pushed out
 
 
-# ---------------------------------------------------------------- slot 1: contacts and rods
-
-
 @maker(1, "1 2", scene=SEEDS, ball=range(1, 9), speed=range(120, 480))
 def impulse(program: Program, draw: Draw) -> Case:
     """Predict the normal impulse of a ball that lands on the ledge."""
@@ -151,9 +148,6 @@ def rod(program: Program, draw: Draw) -> Case:
             (answer * 6, "gave an impulse: it is divided by k, and so by the mass again"),
         ],
     )
-
-
-# ---------------------------------------------------------------- slot 2: friction
 
 
 @maker(2, "2", scene=SEEDS, ball=range(1, 9), speed=range(90, 400))

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 from grader.checks import exact
 from grader.judge.lab import STEP
 from grader.protocol import Rng
-from grader.questions.numbers import Case, Draw, Unsuited, maker
+from grader.questions.numbers import Case, Draw, Maker, Unsuited, maker
 from grader.questions.program import CannotAsk, Program
 from grader.text import digits
 
@@ -40,7 +41,7 @@ def compute_error(method: str, steps: int, seconds: float) -> float:
     return measure_error([state], seconds)
 
 
-def make_halving_case(program: Program, method: str, draw: Draw) -> Case:
+def make_halving_case(method: str, program: Program, draw: Draw) -> Case:
     """Make the case: the error of a method with half the step."""
     order, per_second, quarters = ORDERS[method], draw["per_second"], draw["quarters"]
     seconds = quarters / 4
@@ -71,25 +72,16 @@ def make_halving_case(program: Program, method: str, draw: Draw) -> Case:
     )
 
 
-STEPS = {"per_second": range(40, 121, 4), "quarters": range(5, 40, 2)}
+def halving(name: str, todo: str, method: str, per_second: range) -> Maker:
+    draws = {"per_second": per_second, "quarters": range(5, 40, 2)}
+    return Maker(name, (todo,), draws, partial(make_halving_case, method), 5)
 
 
-@maker(5, "8b", **STEPS)
-def verlet(program: Program, draw: Draw) -> Case:
-    """Predict the error of velocity Verlet with half the step."""
-    return make_halving_case(program, "velocity_verlet", draw)
-
-
-@maker(5, "8c", per_second=range(16, 41, 4), quarters=range(5, 40, 2))
-def rk4(program: Program, draw: Draw) -> Case:
-    """Predict the error of RK4 with half the step, from coarser ones: else it is too small."""
-    return make_halving_case(program, "rk4", draw)
-
-
-@maker(5, "8a", **STEPS)
-def semi_implicit(program: Program, draw: Draw) -> Case:
-    """Predict the error of semi-implicit Euler with half the step."""
-    return make_halving_case(program, "semi_implicit_euler", draw)
+HALVINGS = (
+    halving("verlet", "8b", "velocity_verlet", range(40, 121, 4)),
+    halving("rk4", "8c", "rk4", range(16, 41, 4)),  # coarser: else the error is too small
+    halving("semi-implicit", "8a", "semi_implicit_euler", range(40, 121, 4)),
+)
 
 
 @maker(5, "7b", scene=range(100, 1000))
@@ -144,4 +136,4 @@ def fall(program: Program, draw: Draw) -> Case:
     )
 
 
-MAKERS = (verlet, rk4, semi_implicit, moment, fall)
+MAKERS = (*HALVINGS, moment, fall)

@@ -71,10 +71,6 @@ PURSE = {
 }
 
 
-def read_case(draw: Draw) -> Purse:
-    return Purse(draw["start"], draw["count"], draw["length"], draw["long"])
-
-
 def make_steps_case(purse: Purse, owed: Fraction, where: str, measured: int) -> Case:
     steps, step = math.floor(owed), STEP_MS
     each_alone = sum(math.floor(min(Fraction(each), CAP) / step) for each in purse.frames)
@@ -97,8 +93,7 @@ def make_steps_case(purse: Purse, owed: Fraction, where: str, measured: int) -> 
 
 @maker(3, "6", **PURSE)
 def steps(program: Program, draw: Draw) -> Case:
-    """Count the steps that the engine runs."""
-    case = read_case(draw)
+    case = Purse(**draw)
     owed = case.owed
     with program.own.lab("mini_engine") as lab:
         measured, _ = case.run(lab, lab.world())
@@ -107,8 +102,7 @@ def steps(program: Program, draw: Draw) -> Case:
 
 @maker(3, "7d", **PURSE)
 def pymunk_steps(program: Program, draw: Draw) -> Case:
-    """Count the steps that the pymunk scene runs."""
-    case = read_case(draw)
+    case = Purse(**draw)
     owed = case.owed
     with program.own.lab("pymunk_scene") as lab:
         measured, _ = case.run(lab, lab.thing(lab.call("empty_space")))
@@ -118,7 +112,7 @@ def pymunk_steps(program: Program, draw: Draw) -> Case:
 @maker(4, "6", **PURSE)
 def purse(program: Program, draw: Draw) -> Case:
     """Predict what is left in the accumulator."""
-    case = read_case(draw)
+    case = Purse(**draw)
     owed = case.owed
     with program.own.lab("mini_engine") as lab:
         _, measured = case.run(lab, lab.world())

@@ -5,9 +5,8 @@ films of a change are nearer to each other than to those of any other one. At ho
 reference, and nothing to gain by a lie.
 
 It is not enough that films differ: soon after a first impact everything differs. Each change has a
-sign that the lesson lets one expect, such as that nothing turns without friction. It is asked only
-where its film shows this sign clearly more, or clearly less, than all the others, on paper as well.
-The unchanged program has no sign, and is what is left.
+sign that the lesson lets one expect, such as that nothing turns without friction, and its film must
+show this clearly more, or less, than all others. The unchanged program has none: it is left over.
 
 Some changes do not show in the lab scene within two seconds: one pass of the solver, no push-out,
 rods before contacts. Friction without a limit has no sign.
@@ -51,7 +50,6 @@ class Change:
     restitution: float | None = None  # of all bodies of the scene
 
     def film(self, tree: Tree, scene: int) -> Film:
-        """Record the lab scene of a tree with this change."""
         return make_film(tree, self.texts(tree), scene, self.restitution)
 
 
@@ -163,7 +161,7 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         )
     shown = list(films)
     rng.shuffle(shown)
-    options = sorted(films, key=lambda each: (each is not AS_IT_IS, CHANGES_IN_ORDER[each.name]))
+    options = sorted(films, key=(AS_IT_IS, *CHANGES).index)
     letters = "abcd"
     answer = "".join(letters[options.index(each)] for each in shown)
     frame = find_bounds(list(films.values()))
@@ -186,9 +184,6 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         pictures=pictures,
         why="\n".join(f"{each.words}: {each.why}" for each in options if each.why),
     )
-
-
-CHANGES_IN_ORDER = {each.name: number for number, each in enumerate((AS_IT_IS, *CHANGES))}
 
 
 def choose_changes(program: Program, able: list[Change], scene: int) -> dict[Change, Film]:

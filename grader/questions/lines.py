@@ -11,6 +11,7 @@ import math
 import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 from grader.judge.decode import Thing
 from grader.judge.failures import Broke, NotYet
@@ -34,6 +35,7 @@ MOST_CODE = 4000  # characters of a function; each change of it costs a look at 
 TRIES = 12  # changes of one function
 FAR = 3 * VISIBLE  # px, by which rounding may have led two films apart
 LEAST = 0.02  # of a number, by which it must change
+SIMILAR = 0.6  # only one thing in a line was changed, so that it does not stand out
 ENDLESS = ("while", "for")  # changed heads of loops may never end
 FILMS = ("3", "4", "2", "1")  # TODOs whose changes a film shows
 Values = dict[str, float]  # by what they are
@@ -130,7 +132,8 @@ def change_lines(tree: Tree, todo: str, text: Text) -> Iterator[Changed]:
         if len(lines) != len(before) or len(differ) != 1:
             continue
         number, was, now = differ[0]
-        if number in own and not was.strip().startswith(ENDLESS) and is_similar(was, now):
+        similar = difflib.SequenceMatcher(None, was, now).ratio() > SIMILAR
+        if number in own and not was.strip().startswith(ENDLESS) and similar:
             yield Changed(after, number, was, now)
 
 
@@ -155,18 +158,12 @@ def find_own_lines(
     return frozenset(new for old, new in lines if first <= old <= last)
 
 
-def is_similar(was: str, now: str) -> bool:
-    """Return whether only one thing in a line was changed, so that it does not stand out."""
-    return difflib.SequenceMatcher(None, was, now).ratio() > 0.6
-
-
 # ---------------------------------------------------------------- what a change does
 
 
 def show_films(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Show two films, without and with the change."""
     target, own, reference = FUNCTIONS[todo], program.own, program.reference
     before = film_unchanged(own, scene)
     after = make_film(own, own.replace_function(target, change.code), scene)
@@ -184,16 +181,13 @@ def show_films(
         draw_film(film, name, f"The lab scene for {SECONDS:g} s", frame)
         for name, film in zip(titles, films.values(), strict=True)
     )
-    return (
-        f"The films show your lab scene of `random.Random({scene})` without and with it.",
-        pictures,
-    )
+    words = f"The films show your lab scene of `random.Random({scene})` without and with it."
+    return words, pictures
 
 
 def show_numbers(
     todo: str, program: Program, change: Changed, scene: int
 ) -> tuple[str, tuple[Picture, ...]]:
-    """Show some numbers, without and with the change."""
     changed = change.code
     without, with_it = (run_experiment(program.own, todo, code) for code in ("", changed))
     if reference := program.reference:
@@ -237,14 +231,6 @@ def measure_damping(lab: Lab) -> Values:
 FRAMES = (10, 30, 150)  # ms
 
 
-def run_engine_frames(lab: Lab) -> Values:
-    return run_frames(lab, lab.world())
-
-
-def run_pymunk_frames(lab: Lab) -> Values:
-    return run_frames(lab, lab.thing(lab.call("empty_space")))
-
-
 def run_frames(lab: Lab, world: Thing) -> Values:
     found: Values = {}
     for each in FRAMES:
@@ -254,23 +240,20 @@ def run_frames(lab: Lab, world: Thing) -> Values:
     return found
 
 
-def measure_method(method: str) -> Callable[[Lab], Values]:
-    def experiment(lab: Lab) -> Values:
-        states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
-        return {
-            "x after one step, from x = 100 and v = 20": states[0][0],
-            "v after one step": states[0][1],
-            "x after 20 steps": states[-1][0],
-        }
-
-    return experiment
+def measure_method(method: str, lab: Lab) -> Values:
+    states = lab.integrate(method, (100.0, 20.0), 0.05, (0.0, -40.0), 20)
+    return {
+        "x after one step, from x = 100 and v = 20": states[0][0],
+        "v after one step": states[0][1],
+        "x after 20 steps": states[-1][0],
+    }
 
 
 EXPERIMENTS: dict[str, Callable[[Lab], Values]] = {
-    "8b": measure_method("velocity_verlet"),
-    "6": run_engine_frames,
+    "8b": partial(measure_method, "velocity_verlet"),
+    "6": lambda lab: run_frames(lab, lab.world()),
     "5": measure_damping,
-    "8c": measure_method("rk4"),
-    "8a": measure_method("semi_implicit_euler"),
-    "7d": run_pymunk_frames,
+    "8c": partial(measure_method, "rk4"),
+    "8a": partial(measure_method, "semi_implicit_euler"),
+    "7d": lambda lab: run_frames(lab, lab.thing(lab.call("empty_space"))),
 }

@@ -1,6 +1,7 @@
 """Make sheets and keys as files, of a submission or a class."""
 
 import secrets
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import msgspec
 from rich.console import Console
 
+from grader.errors import Stop
 from grader.intake.found import CannotTake, Found
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
@@ -27,7 +29,7 @@ from grader.questions.program import open_program
 from grader.questions.question import Sheet
 from grader.questions.sheet import make_sheet
 from grader.questions.tally import read_tally, write_bank
-from grader.report.files import write_whole
+from grader.report.files import read_result, write_whole
 from grader.report.progress import Counter
 from grader.text import plural, printable
 
@@ -70,13 +72,12 @@ class Making:
 
     def result_of(self, student: str) -> Result | None:
         """Return an earlier result of grading, if there is one."""
-        path = self.results / f"{make_portable(student)}.json" if self.results else None
-        if path is None:
+        if self.results is None:
             return None
         try:
-            return msgspec.json.decode(path.read_bytes(), type=Result)
-        except (OSError, msgspec.DecodeError) as error:
-            raise CannotGrade(f"{path} is no result of grading: leave out --results") from error
+            return read_result(self.results / f"{make_portable(student)}.json")
+        except Stop as error:
+            raise CannotGrade(f"{error}: leave out --results") from error
 
     def make(self, student: str, path: Path, worker: Worker) -> SheetResult:
         """Write the sheet of the submission at `path`."""
@@ -86,10 +87,8 @@ class Making:
             sheet = make_sheet(program, student, self.seed, asked, MAKERS)
         self.write(sheet)
         left_out = f", {len(sheet.dropped)} not asked" if sheet.dropped else ""
-        count = plural(len(sheet.questions), "question")
-        return SheetResult(
-            student, sheet, f"{student}: {count}, {plural(sheet.points, 'point')}{left_out}"
-        )
+        count = f"{plural(len(sheet.questions), 'question')}, {plural(sheet.points, 'point')}"
+        return SheetResult(student, sheet, f"{student}: {count}{left_out}")
 
     def write(self, sheet: Sheet) -> None:
         title, name = self.options.course.title, make_portable(sheet.student)
@@ -118,14 +117,10 @@ class Making:
 def make_one(making: Making, path: Path, student: str) -> SheetResult:
     """Make the sheet of one submission; `student` is its author, where that is not its name."""
     notes: list[str] = []
-    worker = start_worker()
-    try:
-        with open_submission(path, notes.append, making.options.course.modules) as folder:
-            name = printable(student or folder.resolve().name)
-            made = making.make(name, folder, worker)
-        making.finish()
-    finally:
-        worker.close()
+    opened = open_submission(path, notes.append, making.options.course.modules)
+    with closing(start_worker()) as worker, opened as folder:
+        made = making.make(printable(student or folder.resolve().name), folder, worker)
+    making.finish()
     return replace(made, words="\n".join([*notes, made.words]))
 
 
@@ -133,21 +128,15 @@ def make_class(
     making: Making, path: Path, roster: Path | None, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    worker = start_worker()
-    try:
-        with open_class(path, read_class_list(path, roster)) as intake:
-            troubles = [
-                SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()
-            ]
-            made = []
-            with Counter("making sheets", len(intake.found), console) as counter:
-                for each in intake.found:
-                    made.append(make_for(making, each, worker))
-                    counter.reached(len(made))
-        making.finish()
-        return [*troubles, *made]
-    finally:
-        worker.close()
+    opened = open_class(path, read_class_list(path, roster))
+    with closing(start_worker()) as worker, opened as intake:
+        made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
+        with Counter("making sheets", len(intake.found), console) as counter:
+            for number, each in enumerate(intake.found, 1):
+                made.append(make_for(making, each, worker))
+                counter.reached(number)
+    making.finish()
+    return made
 
 
 def make_for(making: Making, found: Found, worker: Worker) -> SheetResult:

@@ -30,8 +30,6 @@ BY_HAND = "points"  # a column that may be left out: those that a person gave
 
 @dataclass(frozen=True)
 class GivenAnswer:
-    """A line of the table of answers."""
-
     line: int
     student: str
     question: str
@@ -159,9 +157,6 @@ def mark_question(student: str, number: int, question: Question, given: GivenAns
             notes.append(f"waits for a person: 0 to {question.by_hand} in the column {BY_HAND}")
     worth = None if waits else machine + person
     return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)
-
-
-# ---------------------------------------------------------------- tables
 
 
 def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:

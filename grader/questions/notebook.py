@@ -4,13 +4,12 @@ What nbgrader hands out has neither answers nor hidden tests. A test that ends w
 that many points.
 """
 
-import base64
 import json
 from collections.abc import Iterator
 from typing import Any
 
-from grader.questions.moodle import name_file
-from grader.questions.question import KINDS, Picture, Question, Sheet
+from grader.questions.moodle import encode_picture, name_file
+from grader.questions.question import KINDS, Question, Sheet
 
 Cell = dict[str, Any]
 SHAPES = {
@@ -32,38 +31,33 @@ TESTS = {
     "film": "sum(map(str.__eq__, {name}, {answer!r})) * {points} // {count}",
 }
 WANTED = {"number": "a number", "line": "the number of the line", "film": 'letters, as "abcd",'}
-PLAIN = {"grade": False, "solution": False, "locked": True}
-ANSWER = {"grade": False, "solution": True, "locked": False}
-TEST = {"grade": True, "solution": False, "locked": True}
-WORDS = {"grade": True, "solution": True, "locked": False}
+PLAIN = {"grade": False, "solution": False, "locked": True, "task": False}  # nbgrader's flags
+ANSWER = PLAIN | {"solution": True, "locked": False}
+TEST = PLAIN | {"grade": True}
+WORDS = ANSWER | {"grade": True}
+TASK = PLAIN | {"task": True}
 
 
 def write_notebook(sheet: Sheet, title: str) -> bytes:
-    """Return the notebook of one student."""
     about = f"# {title}: {sheet.student}\n\nAbout your own program, as you handed it in."
-    cells = [make_cell("title", "markdown", about, PLAIN)]
+    cells = [make_marked("title", "markdown", about, PLAIN)]
     for number, question in enumerate(sheet.questions, 1):
         cells += make_cells(number, question)
-    names = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    whole = {
-        "cells": cells,
-        "metadata": {"kernelspec": names, "language_info": {"name": "python"}},
-        "nbformat": 4,
-        "nbformat_minor": 5,
-    }
-    return (json.dumps(whole, indent=1, ensure_ascii=False) + "\n").encode()
+    return encode_notebook(make_notebook(cells)).encode()
 
 
 def make_cells(number: int, question: Question) -> Iterator[Cell]:
-    asked = make_cell(f"question-{number}", "markdown", write_text(number, question), PLAIN)
+    asked = make_marked(f"question-{number}", "markdown", write_text(number, question), PLAIN)
     if question.pictures:
-        asked["attachments"] = {name_file(each): attach(each) for each in question.pictures}
+        asked["attachments"] = {
+            name_file(each): {"image/svg+xml": encode_picture(each)} for each in question.pictures
+        }
     yield asked
     if question.by_machine:
         name = f"answer_{number}"
         right = repr(question.answer) if question.kind == "film" else question.answer
         solution = f"{name} = None\n### BEGIN SOLUTION\n{name} = {right}\n### END SOLUTION"
-        yield make_cell(f"answer-{number}", "code", solution, ANSWER)
+        yield make_marked(f"answer-{number}", "code", solution, ANSWER)
         given = {
             "name": name,
             "answer": question.answer,
@@ -74,10 +68,10 @@ def make_cells(number: int, question: Question) -> Iterator[Cell]:
         shape = SHAPES[question.kind].format(**given)
         test = TESTS[question.kind].format(**given)
         text = f"{shape}\n### BEGIN HIDDEN TESTS\n{test}\n### END HIDDEN TESTS"
-        yield make_cell(f"test-{number}", "code", text, TEST, question.by_machine)
+        yield make_marked(f"test-{number}", "code", text, TEST, question.by_machine)
     if question.by_hand:
         text = "\n".join(["What to look for:", "", *(f"- {each}" for each in question.rubric)])
-        yield make_cell(f"words-{number}", "markdown", text, WORDS, question.by_hand)
+        yield make_marked(f"words-{number}", "markdown", text, WORDS, question.by_hand)
 
 
 def write_text(number: int, question: Question) -> str:
@@ -101,23 +95,30 @@ def write_text(number: int, question: Question) -> str:
     return "\n\n".join(parts)
 
 
-def attach(picture: Picture) -> dict[str, str]:
-    return {"image/svg+xml": base64.b64encode(picture.svg.encode()).decode()}
+# ---------------------------------------------------------------- notebooks of any kind
 
 
-def make_cell(
+def make_marked(
     id: str, kind: str, text: str, flags: dict[str, bool], points: int | None = None
 ) -> Cell:
     """Make a cell with the flags of nbgrader."""
-    marks = {**flags, "grade_id": id, "schema_version": 3, "task": False}
+    marks = {**flags, "grade_id": id, "schema_version": 3}
     if points is not None:
         marks["points"] = points
-    found: Cell = {
-        "cell_type": kind,
-        "id": id,
-        "metadata": {"nbgrader": marks},
-        "source": text.splitlines(keepends=True),
-    }
-    if kind == "code":
-        found |= {"execution_count": None, "outputs": []}
-    return found
+    return make_cell(id, kind, text, {"nbgrader": dict(sorted(marks.items()))})
+
+
+def make_cell(id: str, kind: str, text: str, metadata: Cell) -> Cell:
+    lines = text.splitlines(keepends=True)
+    found: Cell = {"cell_type": kind, "id": id, "metadata": metadata, "source": lines}
+    return found | ({"execution_count": None, "outputs": []} if kind == "code" else {})
+
+
+def make_notebook(cells: list[Cell]) -> Cell:
+    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
+    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+
+
+def encode_notebook(notebook: Cell) -> str:
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"

@@ -6,7 +6,7 @@ the two do not agree to a hundredth of the tolerance, the question is not asked.
 
 import math
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from grader.questions.program import CannotAsk, Program
@@ -44,7 +44,7 @@ class Maker:
 
     name: str
     todos: tuple[str, ...]
-    draws: dict[str, Sequence[int]]
+    draws: Mapping[str, Sequence[int]]
     find: Callable[[Program, Draw], Case]
     slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
 

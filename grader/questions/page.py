@@ -2,12 +2,12 @@
 
 import re
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from markupsafe import Markup, escape
 
 from grader.player.page import clean_line, fill_template
-from grader.questions.question import KINDS, Picture, Sheet
+from grader.questions.question import KINDS, Sheet
 from grader.text import digits
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -16,17 +16,12 @@ PageKind = Literal["sheet", "key", "practice"]
 
 def make_page(sheet: Sheet, title: str, kind: PageKind) -> str:
     """Return one page that needs nothing else."""
-    return fill_template(
-        TEMPLATES / "sheet.html",
-        (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
-        sheet=sheet,
-        title=title,
-        kind=kind,
-        kinds=KINDS,
-        mark_up=mark_up,
-        show_picture=show_picture,
-        number_of=digits,
-    )
+    return fill_page("sheet.html", sheet=sheet, title=title, kind=kind)
+
+
+def fill_page(template: str, **values: Any) -> str:
+    helpers: dict[str, Any] = {"kinds": KINDS, "mark_up": mark_up, "number_of": digits}
+    return fill_template(TEMPLATES / template, "sheet.css", **helpers, **values)
 
 
 def mark_up(text: str, tag: str = "p") -> Markup:
@@ -43,8 +38,3 @@ def mark_up_code(line: str) -> Markup:
         Markup("<code>{}</code>").format(part) if number % 2 else escape(part)
         for number, part in enumerate(parts)
     )
-
-
-def show_picture(picture: Picture) -> Markup:
-    """Show a picture of ours, which has numbers of a submission in it and no words."""
-    return Markup(picture.svg)

@@ -5,10 +5,11 @@ A picture is one SVG that runs no script. Everything in it is a number: no word 
 
 import math
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 
+from grader.player.page import load_environment
+from grader.questions.page import TEMPLATES
 from grader.questions.question import Picture
 
 MOMENTS = 4  # at which a picture shows the bodies, the last one clearest
@@ -41,6 +42,12 @@ class Film:
 
     def angle(self, row: int, body: int) -> float:
         return self.rows[row][6 * body + 4]
+
+    def spoke(self, row: int, body: int) -> tuple[float, float]:
+        """Return the end of the spoke of a ball."""
+        (x, y), angle = self.place(row, body), self.angle(row, body)
+        long = SPOKE * self.looks[body].radius
+        return x + long * math.cos(angle), y + long * math.sin(angle)
 
     @property
     def moving(self) -> list[int]:
@@ -84,117 +91,9 @@ def measure_difference(one: Film, other: Film) -> float:
 
 def draw_film(film: Film, name: str, alt: str, frame: tuple[float, float, float, float]) -> Picture:
     """Draw the film; `frame` is x, y, width and height of what is shown, px."""
-    key = "film" + hash_film(name, film)
-    parts = [draw_fixed(look) for look in film.looks if not look.moves]
-    parts += [draw_trail(film, body) for body in film.moving]
-    parts += [draw_rim(film, body) for body in film.loose]
-    for number, row in enumerate(film.moments, 1):
-        shown = "".join(draw_disc(film, row, body) for body in film.moving)
-        rods = "".join(draw_rod(film, row, *ends) for ends in film.rods)
-        parts.append(f'<g opacity="{(number / MOMENTS) ** 2:.2f}">{rods}{shown}</g>')
-    parts.append(f'<g opacity="0">{show_on_click(key, film)}{animate_bodies(key, film)}</g>')
+    # It tells a picture's clicks from those of others, and is the same in every run.
+    key = f"film{zlib.crc32(repr([name, *film.rows[-1]]).encode())}"
     box = " ".join(f"{each:g}" for each in frame)
-    drawn = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" id="{key}" viewBox="{box}" role="img" '
-        f'aria-label="{escape(alt)}">{"".join(parts)}</svg>'
-    )
+    template = load_environment(TEMPLATES).get_template("film.svg")
+    drawn = template.render(film=film, key=key, box=box, alt=alt, spoke=SPOKE, degrees=math.degrees)
     return Picture(name, alt, drawn)
-
-
-# As attributes, so that a picture looks the same alone, as in Moodle; a page's style goes before.
-FIXED, BALL, LINE, RIM = "#b3b9c6", "#1f6fd6", "#5a6275", "#c25700"
-
-
-def hash_film(name: str, film: Film) -> str:
-    """Return a number that tells a picture's clicks from those of others; stable between runs."""
-    return str(zlib.crc32(repr([name, *film.rows[-1]]).encode()))
-
-
-def draw_fixed(look: Look) -> str:
-    x, y = look.place
-    if look.radius:
-        return f'<circle class="fixed" fill="{FIXED}" cx="{x:g}" cy="{y:g}" r="{look.radius:g}"/>'
-    wide, high = look.half
-    return (
-        f'<rect class="fixed" fill="{FIXED}" x="{x - wide:g}" y="{y - high:g}" '
-        f'width="{2 * wide:g}" height="{2 * high:g}"/>'
-    )
-
-
-def draw_trail(film: Film, body: int) -> str:
-    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (film.place(n, body) for n in rows_of(film)))
-    look = f'fill="none" stroke="{BALL}" stroke-width="2" opacity="0.3"'
-    return f'<polyline class="trail" {look} points="{points}"/>'
-
-
-def draw_rim(film: Film, body: int) -> str:
-    """Draw the way of a spoke's end: it shows on paper how a ball turns."""
-    points = " ".join(
-        f"{x:.1f},{y:.1f}" for x, y in (spoke_end(film, n, body) for n in rows_of(film))
-    )
-    return f'<polyline class="rim" fill="none" stroke="{RIM}" stroke-width="1" points="{points}"/>'
-
-
-def spoke_end(film: Film, row: int, body: int) -> tuple[float, float]:
-    """Return the end of the spoke of a ball."""
-    (x, y), angle = film.place(row, body), film.angle(row, body)
-    long = SPOKE * film.looks[body].radius
-    return x + long * math.cos(angle), y + long * math.sin(angle)
-
-
-def rows_of(film: Film) -> range:
-    return range(len(film.rows))
-
-
-def draw_disc(film: Film, row: int, body: int) -> str:
-    (x, y), radius = film.place(row, body), film.looks[body].radius
-    to_x, to_y = spoke_end(film, row, body)
-    return (
-        f'<circle class="ball" fill="{BALL}" cx="{x:.1f}" cy="{y:.1f}" r="{radius:g}"/>'
-        f'<line class="spoke" stroke="#fff" stroke-width="3" x1="{x:.1f}" y1="{y:.1f}" '
-        f'x2="{to_x:.1f}" y2="{to_y:.1f}"/>'
-    )
-
-
-def draw_rod(film: Film, row: int, first: int, second: int) -> str:
-    (x1, y1), (x2, y2) = film.place(row, first), film.place(row, second)
-    ends = f'x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"'
-    return f'<line class="rod" stroke="{LINE}" stroke-width="3" {ends}/>'
-
-
-def show_on_click(key: str, film: Film) -> str:
-    return f'<set attributeName="opacity" to="1" begin="{key}.click" dur="{film.seconds:g}s"/>'
-
-
-def animate_bodies(key: str, film: Film) -> str:
-    """Move each ball with its spoke, and rods, from row to row once the picture is clicked."""
-    timed = f'begin="{key}.click" dur="{film.seconds:g}s"'
-    rows = rows_of(film)
-    parts = []
-    for first, second in film.rods:
-        moves = "".join(
-            animate(name, timed, (f"{film.place(row, body)[axis]:.1f}" for row in rows))
-            for number, body in enumerate((first, second), 1)
-            for axis, name in enumerate((f"x{number}", f"y{number}"))
-        )
-        parts.append(f'<line stroke="{LINE}" stroke-width="3">{moves}</line>')
-    for body in film.moving:
-        radius = film.looks[body].radius
-        places = (f"{x:.1f} {y:.1f}" for x, y in (film.place(row, body) for row in rows))
-        turns = (f"{math.degrees(film.angle(row, body)):.0f}" for row in rows)
-        parts.append(
-            f'<g>{animate_shape("translate", timed, places)}<circle fill="{RIM}" r="{radius:g}"/>'
-            f'<line stroke="#fff" stroke-width="3" x2="{SPOKE * radius:.1f}">'
-            f"{animate_shape('rotate', timed, turns)}</line></g>"
-        )
-    return "".join(parts)
-
-
-def animate(name: str, timed: str, values: Iterable[str]) -> str:
-    return f'<animate attributeName="{name}" {timed} values="{";".join(values)}"/>'
-
-
-def animate_shape(kind: str, timed: str, values: Iterable[str]) -> str:
-    """Write a transform that goes from value to value."""
-    form = f'attributeName="transform" type="{kind}" {timed}'
-    return f'<animateTransform {form} values="{";".join(values)}"/>'

@@ -51,7 +51,6 @@ class Tree:
 
     @cached_property
     def texts(self) -> dict[str, str]:
-        """Return its Python files."""
         folder = self.submission.folder
         return {
             path.relative_to(folder).as_posix(): read_source(path) for path in python_files(folder)

@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.questions.program import FUNCTIONS, CannotAsk, Program, Text
+from grader.questions.program import FUNCTIONS, CannotAsk, Program
 from grader.questions.question import Question
 from grader.source.regions import parsed
 from grader.text import printable
@@ -33,7 +33,6 @@ class Reason(Struct, frozen=True, forbid_unknown_fields=True):
     is_a: set[str] = set()
 
     def fits(self, statement: ast.stmt) -> bool:
-        """Return whether a statement has the form."""
         if self.is_a:
             return type(statement).__name__ in self.is_a
         nodes = list(walk_statement(statement))
@@ -70,7 +69,6 @@ def find_reasons(program: Program) -> list[Reason]:
 
 
 def ask_reason(each: Reason, program: Program, points: int) -> Question:
-    """Ask the question with the student's own line in it."""
     line = quote_line(program, each)
     if not line:
         raise CannotAsk("no line of theirs has this form")
@@ -103,13 +101,10 @@ def quote_line(program: Program, each: Reason) -> str:
         node = next(filter(each.fits, found), None)
     except RecursionError:  # nested deeper than anybody writes
         return ""
-    return line_of(text, node) if node is not None else ""
+    if node is None:
+        return ""
+    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]
 
 
 def is_docstring(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-
-
-def line_of(text: Text, node: ast.stmt) -> str:
-    """Return the line on which a statement begins."""
-    return printable(text.source.splitlines()[node.lineno - 1]).strip()[:MOST_QUOTED]

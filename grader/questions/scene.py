@@ -38,7 +38,6 @@ class Scene:
         return thing, state
 
     def find_box(self, place: tuple[float, float]) -> tuple[Thing, BodyValue]:
-        """Return a box of the scene by its centre."""
         here = [each for each in self.bodies if (each[1].pos.x, each[1].pos.y) == place]
         if not here:
             raise CannotAsk(f"the scene has no box at {place}")

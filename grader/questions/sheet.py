@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import Protocol, TypeVar
+from typing import Protocol
 
 from grader.judge.course import Asked
 from grader.judge.failures import Broke, NotYet
@@ -29,9 +29,6 @@ class Asks(Protocol):
     def ask(self, program: Program, seed: str, points: int) -> Question: ...
 
 
-Each = TypeVar("Each", bound=Asks)
-
-
 def make_sheet(
     program: Program, student: str, seed: str, asked: Asked, makers: Sequence[Asks]
 ) -> Sheet:
@@ -39,10 +36,21 @@ def make_sheet(
     own = f"{seed}/{student}"
     dropped: list[str] = []
     found: list[Question] = []
-    numbers = numbers_to_ask(program, own, asked, makers)
+    numbers = (
+        (each.name, partial(each.ask, program, own, asked.worth("number")))
+        for each in take_turns(makers, program)
+    )
+    shown = (
+        ("films", partial(ask_films, program, f"{own}/{number}", asked.worth("film")))
+        for number in range(asked.film)
+    )
+    changed = (
+        (f"line of TODO {todo}", partial(ask_line, todo, program, own, asked.worth("line")))
+        for todo in list_line_todos(program)
+    )
     found += ask_some(numbers, asked.number, dropped)
-    found += ask_some(films_to_ask(program, own, asked), asked.film, dropped)
-    found += ask_some(lines_to_ask(program, own, asked), asked.line, dropped)
+    found += ask_some(shown, asked.film, dropped)
+    found += ask_some(changed, asked.line, dropped)
     missing = asked.number + asked.film + asked.line - len(found)
     found += ask_some(numbers, missing, dropped)  # where there is no film to ask about, a number
     lines = {todo for each in found if each.kind == "line" for todo in each.todos}
@@ -74,34 +82,13 @@ def why_not(error: Exception) -> str:
     raise error
 
 
-def numbers_to_ask(
-    program: Program, seed: str, asked: Asked, makers: Sequence[Asks]
-) -> Iterator[Ask]:
-    for each in take_turns(makers, program):
-        yield each.name, partial(each.ask, program, seed, asked.worth("number"))
-
-
-def films_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for number in range(asked.film):
-        own = f"{seed}/{number}"
-        yield "films", partial(ask_films, program, own, asked.worth("film"))
-
-
-def lines_to_ask(program: Program, seed: str, asked: Asked) -> Iterator[Ask]:
-    for todo in list_line_todos(program):
-        yield (
-            f"line of TODO {todo}",
-            partial(ask_line, todo, program, seed, asked.worth("line")),
-        )
-
-
 def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[Ask]:
     """Yield reasons; those about a function whose lines the sheet shows already come last."""
     for each in sorted(find_reasons(program), key=lambda each: each.todo in lines):
         yield each.name, partial(ask_reason, each, program, asked.worth("why"))
 
 
-def take_turns(makers: Iterable[Each], program: Program) -> Iterator[Each]:
+def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:
     """Yield makers whose TODOs are all right: the first of each slot, then the second of each.
 
     One about TODOs that have had their turn waits for all the others: no sheet asks the same twice

@@ -10,12 +10,10 @@ import msgspec
 from msgspec import Struct
 
 from grader.judge.submission import CannotGrade
-from grader.player.page import fill_template
 from grader.questions.marking import Mark
-from grader.questions.page import TEMPLATES, mark_up, show_picture
+from grader.questions.page import fill_page
 from grader.questions.question import KINDS, Question, Sheet
 from grader.report.files import write_whole
-from grader.text import digits
 
 
 class Count(Struct):
@@ -80,31 +78,15 @@ class Row:
 def make_rows(sheets: Sequence[Sheet], tally: Tally) -> Iterator[Row]:
     examples = {each.name: each for sheet in reversed(sheets) for each in sheet.questions}
     order = list(KINDS)
-    for name, example in sorted(
-        examples.items(), key=lambda each: (order.index(each[1].kind), each[0])
-    ):
+    for name in sorted(examples, key=lambda each: (order.index(examples[each].kind), each)):
         counts = [each[name] for each in tally.values() if name in each]
-        wrong: Counter[str] = Counter()
-        for count in counts:
-            wrong.update(count.wrong)
-        yield Row(
-            example,
-            len(counts),
-            sum(each.answered for each in counts),
-            sum(each.right for each in counts),
-            wrong.most_common(5),
-        )
+        answered = sum(each.answered for each in counts)
+        right = sum(each.right for each in counts)
+        wrong = sum((Counter(each.wrong) for each in counts), Counter[str]())
+        yield Row(examples[name], len(counts), answered, right, wrong.most_common(5))
 
 
 def write_bank(path: Path, sheets: Sequence[Sheet], tally: Tally) -> None:
     """Write the instructor's page of all questions that these sheets have."""
-    page = fill_template(
-        TEMPLATES / "bank.html",
-        (TEMPLATES / "sheet.css").read_text(encoding="utf-8"),
-        rows=list(make_rows(sheets, tally)),
-        kinds=KINDS,
-        mark_up=mark_up,
-        show_picture=show_picture,
-        number_of=digits,
-    )
+    page = fill_page("bank.html", rows=list(make_rows(sheets, tally)))
     write_whole(page.encode("utf-8"), path)

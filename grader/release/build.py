@@ -106,9 +106,6 @@ def build(work: Path, wrong: Iterable[Tree], course: Course = FULL) -> Path:
     return built
 
 
-# ---------------------------------------------------------------- what students get
-
-
 def lay_out(tree: Path, course: Course) -> None:
     """Write the student's folder, except what is made last: wheel, requirements and manifest."""
     files = make_students_tree(KIT, course)
@@ -167,7 +164,6 @@ def list_files(folder: Path) -> list[tuple[str, Path]]:
 
 
 def hash_folders(folders: list[Path], text: str) -> str:
-    """Return the SHA-256 of all names and contents."""
     rows = [
         f"{name} {sha256(path.read_bytes())}" for each in folders for name, path in list_files(each)
     ]
@@ -176,9 +172,6 @@ def hash_folders(folders: list[Path], text: str) -> str:
 
 def sha256(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
-
-
-# ---------------------------------------------------------------- proof
 
 
 def prove(wheel: Path, folder: Path, tree: Path = KIT / "starter", course: Course = FULL) -> None:

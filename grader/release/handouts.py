@@ -38,11 +38,6 @@ pages = Environment(
 )
 
 
-def render_page(text: str, course: Course) -> str:
-    """Return a page of Markdown as a course has it."""
-    return cut_page(pages.from_string(text).render(list_words(course)), course)
-
-
 def cut_page(text: str, course: Course) -> str:
     """Remove the sections and rows of tables that a course leaves out."""
     todos = {todo.id: todo for todo in course.rubric.todos}
@@ -72,7 +67,10 @@ def make_handouts(folder: Path, course: Course) -> dict[str, str]:
     """Return the students' pages in this folder, by name; dead links are plain words."""
     bonus = any(todo.bonus for todo in course.rubric.todos)
     paths = [path for path in sorted(folder.glob("*.md")) if bonus or path.name != "bonus.md"]
-    texts = {path.name: render_page(path.read_text(encoding="utf-8"), course) for path in paths}
+    words, texts = list_words(course), {}
+    for path in paths:
+        text = pages.from_string(path.read_text(encoding="utf-8")).render(words)
+        texts[path.name] = cut_page(text, course)
     return {name: drop_dead_links(text, texts.keys()) for name, text in texts.items()}
 
 
@@ -85,7 +83,6 @@ def drop_dead_links(text: str, names: Iterable[str]) -> str:
 
 
 def list_words(course: Course) -> dict[str, Any]:
-    """Return what a page may ask of the course, and say of it."""
     todos = {todo.id: todo for todo in course.rubric.todos}
     tasks = [todo for todo in course.rubric.counted if todo.function]
     bonus = [todo for todo in course.rubric.todos if todo.bonus]

@@ -139,14 +139,11 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
                 if not any(each.find_in(known)):
                     found.setdefault(each.pattern.pattern, []).append(each)
                     break
-    merged = [merge(alike) for alike in found.values()]
+    merged = [  # what several TODOs have in common is one secret
+        replace(alike[0], what=" and ".join(dict.fromkeys(each.what for each in alike)))
+        for alike in found.values()
+    ]
     return [*merged, *find_hidden_secrets(course.rubric)]
-
-
-def merge(alike: list[Secret]) -> Secret:
-    """Make one secret of what several TODOs have in common."""
-    what = " and ".join(dict.fromkeys(each.what for each in alike))
-    return replace(alike[0], what=what)
 
 
 def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:

@@ -19,7 +19,6 @@ PIECES = (  # of a step: what all effects that may run at once add to it
 
 
 def make_script(results: Mapping[str, Mapping[str, Any]]) -> str:
-    """Return the script that a page loads before its figures."""
     data = {
         "prices": read_prices(results["effects.md"]),
         "charts": results["charts"],

@@ -3,7 +3,6 @@
 import re
 import shutil
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS
@@ -39,10 +38,12 @@ def make_course(
             f"there is an assignment in {source} already. --renew replaces it; "
             "settings, submissions and gradebook stay."
         )
-    files = dict(list_assignment_files(taken))
-    if release is not None:
-        notebooks = {name: text for name, text in files.items() if name.endswith(".ipynb")}
-        files = read_release(release, taken) | notebooks
+    if release is None:
+        tree = make_students_tree(KIT, taken)
+        files = {name: text for name, text in tree.items() if not name.startswith(".")}
+    else:
+        files = read_release(release, taken)
+    files |= make_notebooks(KIT / "solution" / NOTEBOOKS, taken)
     shutil.rmtree(source, ignore_errors=True)
     write_tree(files, source)
     for name in SETTINGS:
@@ -88,14 +89,5 @@ def cut_manifest(manifest: bytes, files: dict[str, bytes]) -> bytes:
 
 
 def find_newest_release(folder: Path) -> Path | None:
-    """Return the newest archive that `release` left in a folder."""
     found = sorted(folder.glob(f"{ASSIGNMENT}-*.zip"), key=lambda path: path.stat().st_mtime)
     return found[-1] if found else None
-
-
-def list_assignment_files(taken: Course) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of the assignment's source: notebooks, and beside them students' files."""
-    for name, content in make_students_tree(KIT, taken).items():
-        if not name.startswith("."):
-            yield name, content
-    yield from make_notebooks(KIT / "solution" / NOTEBOOKS, taken).items()

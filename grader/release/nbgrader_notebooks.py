@@ -31,7 +31,10 @@ def renew_notebooks(kit: Path) -> list[str]:
         if write(path, tidy(read(path))):
             changed.append(f"solution/notebooks/{path.name}")
     with tempfile.TemporaryDirectory() as temporary:
-        made = generate_release(Path(temporary))
+        course = Path(temporary)
+        make_course(course)
+        run_nbgrader(course, "generate_assignment", ASSIGNMENT)
+        made = course / "release" / ASSIGNMENT
         for path in starter.glob("*.ipynb"):
             if not (made / path.name).exists():
                 path.unlink()
@@ -40,13 +43,6 @@ def renew_notebooks(kit: Path) -> list[str]:
             if write(starter / path.name, tidy(read(path))):
                 changed.append(f"starter/notebooks/{path.name}")
     return changed
-
-
-def generate_release(course: Path) -> Path:
-    """Return the folder that nbgrader releases from a fresh course."""
-    make_course(course)
-    run_nbgrader(course, "generate_assignment", ASSIGNMENT)
-    return course / "release" / ASSIGNMENT
 
 
 def run_nbgrader(course: Path, *arguments: str) -> None:

@@ -13,12 +13,19 @@ from typing import Any
 
 from grader.judge.course import Course
 from grader.judge.rubric import Rubric
+from grader.questions.notebook import (
+    TASK,
+    Cell,
+    encode_notebook,
+    make_cell,
+    make_marked,
+    make_notebook,
+)
+from grader.text import plural
 
 ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
 PRACTICE = "practice-"  # and a number: the questions of the page
 QUESTION = re.compile(r"<!--% if asked\((.*?)\) %-->\n(.*?)\n<!--% endif %-->", re.S)
-
-Cell = dict[str, Any]
 
 INTRO = """\
 # The engine
@@ -35,26 +42,14 @@ With the feedback you get the reasons for missing points in the same places.\
 
 def make_engine_notebook(rubric: Rubric) -> Cell:
     """Make a notebook with a cell for each TODO, worth its points, without bonus tasks."""
-    cells = [make_markdown("title", INTRO, {})]
+    cells = [make_cell("title", "markdown", INTRO, {})]
     for todo in rubric.counted:
         name = f"TODO {todo.id}" if todo.function else "The whole"
-        noun = "point" if todo.max_points == 1 else "points"
-        text = f"### {name}: {todo.title}\n\n{todo.max_points} {noun}"
+        text = f"### {name}: {todo.title}\n\n{plural(todo.max_points, 'point')}"
         if todo.function:
             text += f", for `{todo.function.partition(':')[2]}` in `{todo.module}`"
-        details = {
-            "grade": False,
-            "grade_id": f"todo-{todo.id}",
-            "locked": True,
-            "points": todo.max_points,
-            "schema_version": 3,
-            "solution": False,
-            "task": True,
-        }
-        cells.append(make_markdown(f"todo-{todo.id}", text, {"nbgrader": details}))
-    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
-    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+        cells.append(make_marked(f"todo-{todo.id}", "markdown", text, TASK, todo.max_points))
+    return make_notebook(cells)
 
 
 def add_practice(notebook: Cell, page: str) -> Cell:
@@ -62,15 +57,10 @@ def add_practice(notebook: Cell, page: str) -> Cell:
     cells = [cell for cell in notebook["cells"] if not cell["id"].startswith(PRACTICE)]
     at = 1 + next(n for n, cell in enumerate(cells) if cell["id"] == "about-practice")
     asked = [
-        make_markdown(f"{PRACTICE}{number}", text, {"todos": re.findall(r'"(\w+)"', about)})
+        make_cell(f"{PRACTICE}{number}", "markdown", text, {"todos": re.findall(r'"(\w+)"', about)})
         for number, (about, text) in enumerate(QUESTION.findall(page), 1)
     ]
     return notebook | {"cells": [*cells[:at], *asked, *cells[at:]]}
-
-
-def make_markdown(name: str, text: str, metadata: Cell) -> Cell:
-    lines = text.splitlines(keepends=True)
-    return {"cell_type": "markdown", "id": name, "metadata": metadata, "source": lines}
 
 
 def tidy(notebook: Cell) -> Cell:
@@ -87,10 +77,6 @@ def tidy(notebook: Cell) -> Cell:
 def read(path: Path) -> Cell:
     notebook: Cell = json.loads(path.read_text(encoding="utf-8"))
     return notebook
-
-
-def encode_notebook(notebook: Cell) -> str:
-    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
 
 def write(path: Path, notebook: Cell) -> bool:
@@ -121,19 +107,16 @@ def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
 
 
 def read_points(notebook: Cell) -> dict[str, Any]:
-    """Return the points of its cells, by their names."""
     return {
         cell["id"]: cell["metadata"].get("nbgrader", {}).get("points") for cell in notebook["cells"]
     }
 
 
 def is_in_course(cell: Cell, course: Course) -> bool:
-    """Return whether a course has any of the TODOs that a cell is about."""
     about = cell["metadata"].get("todos")
     return about is None or any(todo.id in about for todo in course.rubric.todos)
 
 
 def has_task(cell: Cell) -> bool:
-    """Return whether a cell has a task, or is marked."""
     details = cell["metadata"].get("nbgrader", {})
     return any(details.get(each) for each in ("grade", "solution", "task"))

@@ -1,17 +1,16 @@
 """Write the handouts as pages that open with a double click, for the student's folder."""
 
-import html
 import json
 import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from grader.judge.course import FULL, Course
-from grader.player.page import TEMPLATES
+from grader.player.page import TEMPLATES, load_environment
 from grader.release.formulas import typeset
 from grader.release.handouts import make_handouts
 from grader.release.measured import make_script
@@ -24,7 +23,6 @@ FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
 HERE = Path(__file__).with_name("templates")
 STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
-PAGE = (HERE / "handout.html").read_text(encoding="utf-8")
 
 
 def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
@@ -53,15 +51,12 @@ def find_figures(text: str) -> list[str]:
     return re.findall(r"\]\((figures/[^)]+)\)", text)
 
 
-def list_scripts(text: str, handouts: Path) -> str:
-    """Return the tags that make those figures of a page movable that have a script in touch/."""
+def list_scripts(text: str, handouts: Path) -> list[str]:
+    """Return the scripts in touch/ of those figures of a page that are movable."""
     names = [Path(figure).stem for figure in find_figures(text)]
     kinds = dict.fromkeys(each for name in names for each in (name, name.partition("-")[0]))
     movable = [name for name in kinds if (handouts / "touch" / f"{name}.js").is_file()]
-    if not movable:
-        return ""
-    tags = [f'<script defer src="touch/{name}.js"></script>' for name in [*SHARED, *movable]]
-    return "\n".join(['<link rel="stylesheet" href="touch/touch.css">', *tags, ""])
+    return [*SHARED, *movable] if movable else []
 
 
 def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
@@ -71,7 +66,7 @@ def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
     return {name: SITE_ONLY.sub("", texts[name]) for name in names}
 
 
-def make_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
+def make_page(name: str, texts: Mapping[str, str], scripts: Sequence[str] = ()) -> str:
     """Make one page; a link to a handout that is not among the pages becomes plain words."""
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))
@@ -83,13 +78,19 @@ def make_page(name: str, texts: Mapping[str, str], scripts: str = "") -> str:
         mend_links(token.children or [], texts)
     body = reader.renderer.render(tokens, reader.options, {})
     heading, end, rest = body.partition("</h1>\n")
-    return PAGE.format(
-        title=html.escape(find_title(texts[name])),
+    template = load_environment(HERE).get_template("handout.html")
+    return template.render(
+        name=name,
+        texts=texts,
         style=STYLE,
         scripts=scripts,
-        ways=make_links(name, texts, "Pages"),
-        body=heading + end + list_sections(sections) + make_scrollable(rest),
-        ways_below=make_links(name, texts, "Next and previous page"),
+        ways=list_ways(name, list(texts)),
+        heading=heading + end.strip(),
+        sections=sections if len(sections) >= FEWEST else [],
+        rest=make_scrollable(rest),
+        find_title=find_title,
+        html_name=html_name,
+        make_anchor=make_anchor,
     )
 
 
@@ -101,29 +102,11 @@ def html_name(name: str) -> str:
     return name.removesuffix(".md") + ".html"
 
 
-def make_links(name: str, texts: Mapping[str, str], label: str) -> str:
-    """Link to the first page and to those before and after this one."""
-    names = list(texts)
+def list_ways(name: str, names: list[str]) -> list[tuple[str, str, str]]:
+    """Return links to the first page and to those before and after this one."""
     at = names.index(name)
-    found = [("", "Start", names[0])] if at else []
-    found += [("previous", "Previous", names[at - 1])] if at else []
-    found += [("next", "Next", names[at + 1])] if at + 1 < len(names) else []
-    links = (
-        f'<a class="{rel}" href="{html_name(to)}">{words}'
-        + f": {html.escape(find_title(texts[to]))}" * bool(rel)
-        + "</a>"
-        for rel, words, to in found
-    )
-    return f'<nav class="pages" aria-label="{label}">{" ".join(links)}</nav>'
-
-
-def list_sections(sections: list[str]) -> str:
-    """List a page's sections, for pages that have some."""
-    if len(sections) < FEWEST:
-        return ""
-    words = [(make_anchor(each), html.escape(re.sub(r"[`*]", "", each))) for each in sections]
-    items = "\n".join(f'<li><a href="#{to}">{word}</a></li>' for to, word in words)
-    return f'<nav aria-label="On this page">\n<ul>\n{items}\n</ul>\n</nav>\n'
+    back = [("", "Start", names[0]), ("previous", "Previous", names[at - 1])] if at else []
+    return [*back, *(("next", "Next", each) for each in names[at + 1 : at + 2])]
 
 
 def make_scrollable(body: str) -> str:
@@ -145,6 +128,5 @@ def mend_links(tokens: list[Token], pages: Iterable[str]) -> None:
 
 
 def make_anchor(heading: str) -> str:
-    """Return the name of this heading in links."""
     words = re.sub(r"[^\w\s-]", "", heading).strip().lower()
     return re.sub(r"[\s-]+", "-", words)

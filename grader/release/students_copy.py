@@ -9,7 +9,7 @@ import json
 import shutil
 import tomllib
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from functools import wraps
 from itertools import product
 from pathlib import Path
@@ -35,18 +35,12 @@ NOT_FOR_STUDENTS = (
     *("bank", "bench", "classroom", "intake", "release", "__pycache__"),
     *("checks/*/mistakes.py", "checks/expected_runs.json"),
     *("cli/classroom.py", "cli/dev.py", "cli/questions.py"),
-    *("questions/cases*.py", "questions/numbers.py", "questions/templates/bank.html"),
-    *(f"questions/{name}.py" for name in ("making", "marking", "tally")),
+    *(f"questions/{name}.py" for name in ("cases*", "making", "marking", "numbers", "tally")),
     *(f"questions/{name}.py" for name in ("moodle", "notebook")),
+    *("questions/templates/bank.html", "questions/templates/moodle.xml"),
 )  # below the package
-HELPERS = (
-    "whole.lab_scene",
-    "whole.lesson_rules",
-    "pacing",
-    "strategies",
-    "telling",
-    "exact",
-)  # of the checks; each uses only those after it
+# Of the checks; each uses only those after it.
+HELPERS = ("whole.lab_scene", "whole.lesson_rules", "pacing", "strategies", "telling", "exact")
 Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all
 
 
@@ -92,18 +86,15 @@ def skip_files(folder: str, names: list[str]) -> set[str]:
     return {name for name in names if any(map(paths[name].match, NOT_FOR_STUDENTS))}
 
 
-# ---------------------------------------------------------------- cutting
-
-
 def write_rubric(rubric: Rubric) -> str:
-    """Return the text of a rubric.toml."""
     lines = ["# What is asked and what it is worth, as far as it is checked here."]
     for todo in rubric.todos:
         fields = dict(msgspec.to_builtins(todo))
-        checks = [list_unusual_fields(check) for check in todo.checks]
         del fields["checks"]
-        lines += ["", "[[todos]]", *(f"{name} = {json.dumps(fields[name])}" for name in fields)]
-        lines += ["checks = [", *(f"  {write_inline_table(check)}," for check in checks), "]"]
+        lines += ["", "[[todos]]", *write_fields(fields), "checks = ["]
+        for check in todo.checks:  # a table on one line
+            lines.append(f"  {{ {', '.join(write_fields(list_unusual_fields(check)))} }},")
+        lines.append("]")
     return "\n".join(lines) + "\n"
 
 
@@ -115,9 +106,9 @@ def list_unusual_fields(check: Check) -> dict[str, Any]:
     return {n: v for n, v in fields.items() if n in always or v != getattr(usual, n)}
 
 
-def write_inline_table(table: dict[str, Any]) -> str:
-    """Write a table of TOML on one line; JSON and TOML write its values the same."""
-    return "{ " + ", ".join(f"{name} = {json.dumps(table[name])}" for name in table) + " }"
+def write_fields(table: dict[str, Any]) -> list[str]:
+    """Write the fields of a TOML table, whose values JSON writes the same."""
+    return [f"{name} = {json.dumps(value)}" for name, value in table.items()]
 
 
 def cut_course_files(course: Course) -> dict[str, str]:
@@ -129,18 +120,16 @@ def cut_course_files(course: Course) -> dict[str, str]:
     programs = {n: files[n].decode() for n in files if n.endswith(".py") and not is_laid_in(n)}
     hints = tomllib.loads((CHECKS / "hints.toml").read_text(encoding="utf-8"))
     kept = [f"{id} = {json.dumps(hints[id])}\n" for id in hints if id in asked]
-    about = {"title": course.title, "due": course.due.isoformat() if course.due else ""}
+    due = f"due = {course.due.isoformat()}\n" if course.due else ""
     return {
         "stubs.json": json.dumps(stubs, indent=1) + "\n",
         "given.json": json.dumps(read_given_sources(programs), indent=1) + "\n",
         "hints.toml": "".join(kept),
-        "course.toml": f"title = {json.dumps(about['title'])}\n"
-        + (f"due = {about['due']}\n" if about["due"] else ""),
+        "course.toml": f"title = {json.dumps(course.title)}\n{due}",
     }
 
 
 def cut_checks(rubric: Rubric) -> dict[str, str]:
-    """Return the files of checks as students get them, by name."""
     shown: dict[str, set[str]] = {}
     for todo in rubric.todos:
         name = f"{todo.folder}.checks"
@@ -169,19 +158,13 @@ def replace_oracles(source: str) -> str:
     return with_bodies(source, bodies)
 
 
-# ---------------------------------------------------------------- recording
-
-
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
     """Record what the visible checks ask, and what the oracles and all models answer."""
-    worker = start_worker()
-    try:
+    with closing(start_worker()) as worker:
         with note_oracles() as notes:
             seen = observe(KIT / "solution", frozenset(), rubric, worker)
         for path, todos in wrong:
             seen += observe(path, todos, drop_properties(rubric), worker)
-    finally:
-        worker.close()
     asked = [todo.id for todo in rubric.todos]
     for todo in asked:
         misconceptions.load_known(todo)

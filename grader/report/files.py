@@ -6,6 +6,7 @@ from pathlib import Path
 
 import msgspec
 
+from grader.errors import Stop
 from grader.judge.result import Result
 
 DAY_ONE = (1980, 1, 1, 0, 0, 0)  # an archive knows no earlier one
@@ -19,6 +20,14 @@ def as_json(result: Result) -> bytes:
 
 def write_json(result: Result, path: Path) -> None:
     write_whole(as_json(result), path)
+
+
+def read_result(path: Path) -> Result:
+    """Read a result; raises Stop where the file is none."""
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=Result)
+    except (OSError, msgspec.MsgspecError) as error:
+        raise Stop(f"{path} is no result of the grader ({error})") from error
 
 
 def write_whole(content: bytes, path: Path) -> None:

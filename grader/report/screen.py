@@ -1,6 +1,5 @@
 """Print the first screen of `check`: one TODO in full, on the lines that a terminal shows."""
 
-import os
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from grader.report.terminal import (
     STYLES,
     describe_obstacle,
     group_checks,
+    locate_replay,
     name_checks,
     suggest_todo,
     wrap,
@@ -56,9 +56,11 @@ class Screen:
     ) -> list[Line]:
         """Return the lines: how all TODOs stand, what fails in one, and what to do next."""
         todo = choose_todo(result, touched)
-        end = [Line(each) for note in notes for each in self.wrap(note, 2)]
-        if todo is None or not todo.failed:
-            return [*self.list_states(result, None), *end, *self.suggest_next(todo)]
+        end = [Line(each) for note in notes for each in wrap(note, self.console, 2)]
+        if todo is None or not todo.failed:  # nothing that was begun fails
+            headline, *commands = suggest_todo(todo) if todo else [""]
+            next_one = [*self.set_bold(headline), *map(Line, commands)]
+            return [*self.list_states(result, None), *end, *next_one]
         head = self.shorten(write_todo(todo))
         states = [*self.list_states(result, todo), Line(head, STYLES[todo.state])]
         end += self.suggest_commands(todo)
@@ -73,11 +75,8 @@ class Screen:
         """Return a TODO's own line, without its columns where it is too long."""
         return line if len(line) <= self.width else self.cut(" ".join(line.split()))
 
-    def wrap(self, words: str, indent: int = 0, whole: bool = False) -> list[str]:
-        return wrap(words, self.console, indent, whole)
-
     def set_bold(self, words: str) -> list[Line]:
-        return [Line(each, "bold") for each in self.wrap(words, 6)]
+        return [Line(each, "bold") for each in wrap(words, self.console, 6)]
 
     # ------------------------------------------------------------ how it stands
 
@@ -88,19 +87,12 @@ class Screen:
             parts = [list_ids(result, state, apart) for state in states]
             words = "   ".join(filter(None, parts))
             style = STYLES[states[0]]
-            rows += [Line(each, style) for each in self.wrap(words, STATES)] if words else []
+            rows += [Line(each, style) for each in wrap(words, self.console, STATES)]
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0
         if free <= len(points) or self.console.width < WIDTH:
             return [Line(points, "bold"), *rows]
         return [Line(rows[0].text + points.rjust(free), rows[0].style), *rows[1:]]
-
-    def suggest_next(self, todo: TodoResult | None) -> list[Line]:
-        """Return what to begin with, where nothing that was begun fails."""
-        if todo is None:
-            return []
-        headline, *commands = suggest_todo(todo)
-        return [*self.set_bold(headline), *map(Line, commands)]
 
     def suggest_commands(self, todo: TodoResult) -> list[Line]:
         """Return what to type, or what must be corrected before anything else."""
@@ -142,11 +134,11 @@ class Screen:
     def explain(self, todo: TodoResult, check: CheckResult, room: int) -> list[str]:
         """Return why a check failed: a line for each text, and the rest of `room` for the cause."""
         texts = {
-            name: self.wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", MARGIN + NAMES)
+            name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
             for name, text in named_reasons(check, task_of(todo))
         }
         free = room - len(texts)
-        replay = self.locate_replay(check)
+        replay = locate_replay(check, self.replays, self.console)
         cause = sum(len(texts[name]) - 1 for name in CAUSES[:2] if name in texts)
         if len(replay) + cause > free:  # the cause is worth more than a picture of it
             replay = []
@@ -159,12 +151,6 @@ class Screen:
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
         return [*(line for name in texts for line in shown[name]), *replay]
-
-    def locate_replay(self, check: CheckResult) -> list[str]:
-        if self.replays is None or check.replay is None:
-            return []
-        path = os.path.relpath(self.replays.parent / check.replay).replace(os.sep, "/")
-        return self.wrap(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", 2, whole=True)
 
 
 def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:

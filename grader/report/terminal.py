@@ -37,13 +37,7 @@ MARGIN = 4  # columns left of why a check failed
 WIDTH = 80  # at most
 
 
-def show(result: Result, console: Console) -> None:
-    """Print the whole result."""
-    Printer(console).print(result)
-
-
 def show_isolation(result: Result, console: Console) -> None:
-    """Print what confined the submission, and what did not."""
     say(f"isolation: {', '.join(result.isolation)}", console, indent=11, style="bright_black")
     if lacking := unconfined(result.isolation):
         words = f"not confined here: {', '.join(lacking)}. Grade only submissions you trust."
@@ -88,9 +82,8 @@ class Printer:
         self.given |= {find_reason(first), ("meaning", first.meaning)}
         for line in reasons(first, task_of(todo)):
             say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
-        if self.replays is not None and first.replay is not None:
-            path = os.path.relpath(self.replays.parent / first.replay).replace(os.sep, "/")
-            say(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", self.console, indent=2, whole=True)
+        for line in locate_replay(first, self.replays, self.console):
+            write(line, self.console)
 
 
 def write_todo(todo: TodoResult) -> str:
@@ -100,8 +93,15 @@ def write_todo(todo: TodoResult) -> str:
     return f"{todo.state.upper():<{STATES}}{todo.id:<6}{todo.title:<48}{points}"
 
 
+def locate_replay(check: CheckResult, replays: Path | None, console: Console) -> list[str]:
+    """Return the lines that name the replay of a check, if it has one; a path is not broken."""
+    if replays is None or check.replay is None:
+        return []
+    path = os.path.relpath(replays.parent / check.replay).replace(os.sep, "/")
+    return wrap(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", console, indent=2, whole=True)
+
+
 def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
-    """Return the checks in groups that have the same reason."""
     groups: dict[tuple[str, ...], list[CheckResult]] = {}
     for check in checks:
         groups.setdefault(find_reason(check), []).append(check)
@@ -128,15 +128,10 @@ def show_all(result: Result, console: Console, replays: Path | None = None) -> N
     if words := hidden_points_note(result):
         say(words, console)
     console.print()
-    show_states(result, console)
-    show_next(result, console)
-
-
-def show_states(result: Result, console: Console) -> None:
-    """Print what the states in a result mean."""
     for state, meaning in MEANINGS.items():
         if any(todo.state == state for todo in result.shown):
             say(f"{state.upper():<{STATES}}{meaning}", console, STATES, "bright_black")
+    show_next(result, console)
 
 
 def show_next(result: Result, console: Console) -> None:
@@ -180,19 +175,14 @@ def find_place(todo: TodoResult) -> str:
     return next(filter(None, map(place_of, todo.checks)), "")
 
 
-def say(
-    words: str, console: Console, indent: int = 0, style: str = "", whole: bool = False
-) -> None:
-    """Print words, wrapped into lines of which all but the first are indented.
-
-    A single word that is longer than a line is broken, unless it must stay `whole`.
-    """
-    for line in wrap(words, console, indent, whole):
+def say(words: str, console: Console, indent: int = 0, style: str = "") -> None:
+    """Print words, wrapped into lines of which all but the first are indented."""
+    for line in wrap(words, console, indent):
         write(line, console, style)
 
 
 def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> list[str]:
-    """Return the lines that `say` prints."""
+    """Return the lines; a word longer than one is broken, unless it must stay `whole`."""
     return textwrap.wrap(
         words,
         min(console.width, WIDTH),

@@ -66,7 +66,6 @@ def without_gaps(lines: list[str]) -> Iterator[str]:
 
 
 def defined(node: ast.stmt) -> Iterator[str]:
-    """Yield the names that a statement of a module binds."""
     match node:
         case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
             yield name
@@ -84,7 +83,6 @@ def bound_by(alias: ast.alias) -> str:
 
 
 def used(node: ast.AST) -> set[str]:
-    """Return the names that a statement reads."""
     return {
         each.id
         for each in ast.walk(node)

@@ -55,28 +55,14 @@ class Class:
 
 
 @dataclass(frozen=True, slots=True)
-class From:
-    """What another module has, under this name."""
-
-    module: str
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Star:
-    """All that another module has."""
-
-    module: str
-
-
-@dataclass(frozen=True, slots=True)
 class Imported:
-    """A module."""
+    """What another module has under a name; all of it for `*`, and the module itself without."""
 
     module: str
+    name: str = ""
 
 
-Binding = Function | Class | Alias | From | Star | Imported
+Binding = Function | Class | Alias | Imported
 
 
 @dataclass
@@ -182,7 +168,6 @@ class Program:
         return self.modules[name]
 
     def _summary(self, name: str) -> Module:
-        """Summarise a module's tree."""
         text = self.texts[self.paths[name]]
         if self.read + len(text) > MAX_READ:
             self.unread.append(self.paths[name])
@@ -204,11 +189,9 @@ class Program:
                 case ast.ImportFrom():
                     source = self._source(name, node)
                     for each in node.names:
-                        if each.name == "*":
-                            module.stars.append((number, Star(source)))
-                        else:
-                            bound = module.names[each.asname or each.name]
-                            bound.append((number, From(source, each.name)))
+                        star = each.name == "*"
+                        bound = module.stars if star else module.names[each.asname or each.name]
+                        bound.append((number, Imported(source, each.name)))
                 case ast.Import():
                     for each in node.names:
                         bound = module.names[each.asname or each.name]
@@ -267,17 +250,18 @@ class Program:
                     return self._bound(module, other, hops)
                 case Alias(target=target, path=other) if "." not in target + other:
                     return self._bound(module, f"{other}.{rest}", hops)
-                case From(module=source, name=name):
+                case Imported(module=source, name="*"):
+                    found = self._bound(source, path, hops)
+                    found = found if found and found.function else None
+                case Imported(module=source, name=""):
+                    if rest:
+                        return self._bound(source, rest, hops)
+                case Imported(module=source, name=name):
                     inside = f"{source}.{name}"
                     if rest and inside in self.paths:  # a module, not a name in one
                         found = self._bound(inside, rest, hops)
                     else:
                         found = self._bound(source, ".".join(filter(None, [name, rest])), hops)
-                case Star(module=source):
-                    found = self._bound(source, path, hops)
-                    found = found if found and found.function else None
-                case Imported(module=source) if rest:
-                    return self._bound(source, rest, hops)
             if found is not None:
                 return found
         return Definition(module, None) if known.empty else None  # nothing to tell

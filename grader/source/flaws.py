@@ -58,13 +58,11 @@ class Flaw:
 
     @property
     def words(self) -> str:
-        """Say what Python says."""
         text = f": {self.text}" if self.text else ""
         return f"SyntaxError: {self.message} (in {self.file}, line {self.line}{text})"
 
     @property
     def advice(self) -> str:
-        """Say what to do."""
         for version, pattern, instead in NEWER:
             if version > sys.version_info[:2] and pattern.search(self.text):
                 ours, theirs = (".".join(map(str, v)) for v in (sys.version_info[:2], version))

@@ -192,7 +192,6 @@ def choices(text: str, flaw: Flaw, patches: list[Patch]) -> Iterator[list[Patch]
 
 
 def is_no_code(lines: Sequence[str]) -> bool:
-    """Return whether lines do not even parse by themselves."""
     text = textwrap.dedent("\n".join(lines))
     return bool(text.strip()) and parsed(text) is None
 
@@ -303,7 +302,6 @@ def one_line(source: str) -> str:
 
 
 def indented(source: str, like: str) -> str:
-    """Return source that begins as far to the right as a line."""
     return textwrap.indent(source, like[: len(like) - len(like.lstrip())])
 
 

@@ -21,8 +21,8 @@ from grader.judge.isolation import Isolation
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
-from grader.report.sinks.gradescope import write_gradescope
-from grader.report.terminal import show, show_isolation
+from grader.report.sinks.gradescope import SHOWN, write_gradescope
+from grader.report.terminal import Printer, show_isolation
 from grader.text import clean
 
 NO_MARK = "This is no mark, and not 0 points."
@@ -69,7 +69,7 @@ def grade_submission(submission: Path) -> bytes:
     console = Console(highlight=False, markup=False, width=100)
     for note in package.notes:
         console.print(clean(note))
-    show(result, console)
+    Printer(console).print(result)
     show_isolation(result, console)
     return write_gradescope(withhold_reasons(result, course), course)
 
@@ -77,13 +77,6 @@ def grade_submission(submission: Path) -> bytes:
 def explain(why: str, next_step: str) -> bytes:
     """Return results with the reason and no score, in a test that is worth nothing."""
     reason = f"{clean(why)} {NO_MARK} {next_step}"
-    test = {"name": "Not graded", "status": "failed", "output": reason, "output_format": "text"}
-    return msgspec.json.encode(
-        {
-            "output": reason,
-            "output_format": "text",
-            "visibility": "visible",
-            "stdout_visibility": "hidden",
-            "tests": [test | {"visibility": "visible"}],
-        }
-    )
+    test = {"name": "Not graded", "status": "failed", "output": reason, **SHOWN}
+    whole = {"output": reason, **SHOWN, "stdout_visibility": "hidden", "tests": [test]}
+    return msgspec.json.encode(whole)

@@ -9,8 +9,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import msgspec
-
 from grader.classroom.marks import ENGINE, Marking, Part, Parts
 from grader.classroom.nbgrader.submissions import ASSIGNMENT
 from grader.errors import Stop
@@ -18,8 +16,7 @@ from grader.intake.names import fold, split_login
 from grader.intake.roster import Roster, list_people
 from grader.judge.result import Result, TodoResult
 from grader.judge.wording import reasons
-
-# ---------------------------------------------------------------- marks into the gradebook
+from grader.report.files import read_result
 
 
 @dataclass(frozen=True)
@@ -37,9 +34,9 @@ def read_results(paths: Iterable[Path]) -> Iterator[tuple[str, Result | str]]:
     for path in paths:
         for file in sorted(path.glob("*.json")) if path.is_dir() else [path]:
             try:
-                yield file.stem, msgspec.json.decode(file.read_bytes(), type=Result)
-            except (OSError, msgspec.MsgspecError) as error:
-                yield file.stem, f"{file} is no result of the grader ({error})"
+                yield file.stem, read_result(file)
+            except Stop as error:
+                yield file.stem, str(error)
 
 
 def fill_gradebook(
@@ -86,7 +83,6 @@ def has_submission(book: Any, api: ModuleType, student: str) -> bool:
 
 
 def write_marks(book: Any, cells: list[Any], student: str, result: Result) -> Filled:
-    """Write one student's points and the reasons for missing ones."""
     todos = {f"todo-{todo.id}": todo for todo in result.todos}
     notes = []
     for cell in cells:
@@ -189,7 +185,6 @@ def write_names(course: Path, roster: Roster, key: str) -> None:
 
 
 def find_engine_cells(book: Any, api: ModuleType) -> list[Any]:
-    """Return the cells that take the grader's marks, in the order of the notebook."""
     try:
         cells = book.find_notebook(ENGINE, ASSIGNMENT).task_cells
     except api.MissingEntry:

@@ -1,6 +1,5 @@
 """Take submissions into a course folder of nbgrader, and grade their engines."""
 
-import filecmp
 import re
 import shutil
 import tempfile
@@ -26,9 +25,6 @@ NOTEBOOKS = "notebooks"  # the folder of both trees
 NAME = re.compile(r"[^\s*?\[\]/\\.][^*?\[\]/\\]*")  # nbgrader looks students up with such patterns
 
 
-# ---------------------------------------------------------------- taking submissions in
-
-
 @dataclass(frozen=True)
 class Taken:
     """A student's folder, and what became of it."""
@@ -44,7 +40,9 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
     starter, or beside the engine. A submission that changed will be autograded anew.
     """
-    require_course(course)
+    if not (course / "source" / ASSIGNMENT).is_dir():
+        make = f"python -m grader nbgrader course {course}"
+        raise Stop(f"{course} is no course yet: make it with {make}")
     with open_class(folder) as intake:
         for found in intake.found:
             try:
@@ -64,7 +62,7 @@ def take_submission(student: str, path: Path, course: Path) -> Taken:
     with tempfile.TemporaryDirectory() as temporary:
         copy = Path(temporary) / ASSIGNMENT
         notebooks = copy_files(path, copy)
-        if target.exists() and is_same_tree(copy, target):
+        if target.exists() and read_files(copy) == read_files(target):
             return Taken(student, "unchanged")
         shutil.rmtree(target, ignore_errors=True)
         shutil.rmtree(course / "autograded" / student / ASSIGNMENT, ignore_errors=True)
@@ -88,21 +86,8 @@ def copy_files(path: Path, target: Path) -> int:
     return sum((target / name).exists() for name in wanted)
 
 
-def is_same_tree(one: Path, other: Path) -> bool:
-    names = [{p.relative_to(top) for p in top.rglob("*") if p.is_file()} for top in (one, other)]
-    if names[0] != names[1]:
-        return False
-    return all(filecmp.cmp(one / name, other / name, shallow=False) for name in names[0])
-
-
-def require_course(course: Path) -> None:
-    if not (course / "source" / ASSIGNMENT).is_dir():
-        raise Stop(
-            f"{course} is no course yet: make it with python -m grader nbgrader course {course}"
-        )
-
-
-# ---------------------------------------------------------------- grading what was taken in
+def read_files(top: Path) -> dict[Path, bytes]:
+    return {p.relative_to(top): p.read_bytes() for p in top.rglob("*") if p.is_file()}
 
 
 def grade_submitted(course: Path, options: Options, jobs: int, console: Console) -> list[str]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from grader.judge.isolation import unconfined
 from grader.judge.result import Result
 from grader.judge.wording import named_reasons
-from grader.player.page import clean_line, fill_template, hash_player
+from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -25,22 +25,16 @@ class Standing:
     lines: list[tuple[str, str]] = field(default_factory=list)
 
 
-def write_report(
-    result: Result,
-    path: Path,
-    folder: Path | None = None,
-    standing: Standing | None = None,
-) -> None:
-    """Write the page with the replays that are in `folder`, or else beside the page."""
-    replays = find_replays(result, folder or path.parent)
-    write_whole(render(result, replays, standing).encode("utf-8"), path)
+def write_report(result: Result, path: Path, standing: Standing | None = None) -> None:
+    """Write the page with the replays that are beside it."""
+    page = render(result, find_replays(result, path.parent), standing)
+    write_whole(page.encode("utf-8"), path)
 
 
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
-    page = fill_template(
-        TEMPLATES / "standing.html", read_style(), standing=standing, clean=clean_line
-    )
+    template = TEMPLATES / "standing.html"
+    page = fill_template(template, "report.css", standing=standing, clean=clean_line)
     write_whole(page.encode("utf-8"), path)
 
 
@@ -48,8 +42,8 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
     """Return the page; `replays` are the pages to embed, by their paths in the result."""
     return fill_template(
         TEMPLATES / "report.html",
-        read_style(),
-        around=hash_player(),
+        "report.css",
+        has_replays=True,
         result=result,
         replays=replays,
         standing=standing,
@@ -57,10 +51,6 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         clean=clean_line,
         reasons=named_reasons,
     )
-
-
-def read_style() -> str:
-    return (TEMPLATES / "report.css").read_text(encoding="utf-8")
 
 
 def find_replays(result: Result, folder: Path) -> dict[str, str]:

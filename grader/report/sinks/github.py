@@ -50,7 +50,6 @@ def escape_property(words: str) -> str:
 
 
 def write_outputs(result: Result) -> str:
-    """Return what later steps of the job may read, a line each."""
     encoded = base64.b64encode(write_reporter(result)).decode("ascii")
     return f"points={result.points}\nmax-points={result.max_points}\nresult={encoded}\n"
 

@@ -7,6 +7,8 @@ from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.wording import named, points_in_words, reasons
 from grader.text import clean
 
+SHOWN = {"output_format": "text", "visibility": "visible"}  # to the student
+
 
 def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     """Return a test per check, all visible: one hidden test would hide the student's total.
@@ -18,30 +20,25 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
     if course.out_of is not None and course.out_of != result.max_points:
         score = round(score * course.out_of / result.max_points, 2)
         output += f": {score:g} of {course.out_of:g}"
-    tests = [
-        make_test(todo, check, number)
-        for todo in result.shown
-        for number, check in enumerate(todo.checks, 1)
-    ]
-    return msgspec.json.format(
-        msgspec.json.encode(
-            {
-                "score": score,
-                "output": output,
-                "output_format": "text",
-                "test_output_format": "text",
-                "visibility": "visible",
-                "stdout_visibility": "hidden",
-                "tests": tests,
-                "extra_data": {
-                    "schema": result.schema,
-                    "submission": clean(result.submission),
-                    "bonus": result.bonus,
-                    "isolation": result.isolation,
-                },
-            }
-        )
-    )
+    results = {
+        "score": score,
+        "output": output,
+        "test_output_format": "text",
+        **SHOWN,
+        "stdout_visibility": "hidden",
+        "tests": [
+            make_test(todo, check, number)
+            for todo in result.shown
+            for number, check in enumerate(todo.checks, 1)
+        ],
+        "extra_data": {
+            "schema": result.schema,
+            "submission": clean(result.submission),
+            "bonus": result.bonus,
+            "isolation": result.isolation,
+        },
+    }
+    return msgspec.json.format(msgspec.json.encode(results))
 
 
 def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, object]:
@@ -50,9 +47,8 @@ def make_test(todo: TodoResult, check: CheckResult, number: int) -> dict[str, ob
         "status": "passed" if check.state == "passed" else "failed",
         "number": f"{todo.id}.{number}",
         "output": "\n".join(reasons(check)) if check.state != "passed" else "",
-        "output_format": "text",
         "tags": [f"todo-{todo.id}", check.kind, check.state.replace(" ", "-")],
-        "visibility": "visible",
+        **SHOWN,
     }
 
 

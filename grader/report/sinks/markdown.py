@@ -56,5 +56,4 @@ def limit(parts: list[str]) -> list[str]:
 
 
 def escape_markdown(words: str) -> str:
-    """Escape words for Markdown, its tables and HTML."""
     return re.sub(r"[^\w ,()/'-]|_", lambda found: f"&#{ord(found[0])};", clean(words))

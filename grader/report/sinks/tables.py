@@ -8,25 +8,11 @@ from grader.judge.result import Result
 from grader.judge.wording import place_of
 from grader.text import clean, format_csv
 
-COLUMNS = (
-    "submission",
-    "todo",
-    "check",
-    "kind",
-    "state",
-    "points",
-    "max_points",
-    "misconception",
-    "expected",
-    "got",
-    "where",
-)
-
 
 def write_csv(results: Iterable[Result]) -> bytes:
     """Return a line per check, as Excel and all others read it: UTF-8 with its mark, CRLF."""
-    table = [COLUMNS, *(row.values() for row in make_rows(results))]
-    return format_csv(table).encode("utf-8-sig")
+    rows = list(make_rows(results))
+    return format_csv([rows[0], *(row.values() for row in rows)]).encode("utf-8-sig")
 
 
 def write_json_lines(results: Iterable[Result]) -> bytes:
@@ -39,17 +25,16 @@ def make_rows(results: Iterable[Result]) -> Iterator[dict[str, str | int]]:
     for result in results:
         for todo in result.todos:
             for check in todo.checks:
-                values = (
-                    clean(result.submission),
-                    todo.id,
-                    check.id,
-                    check.kind,
-                    check.state,
-                    check.points,
-                    check.max_points,
-                    clean(todo.misconception or ""),
-                    clean(check.expected),
-                    clean(check.got),
-                    clean(place_of(check)),
-                )
-                yield dict(zip(COLUMNS, values, strict=True))
+                yield {
+                    "submission": clean(result.submission),
+                    "todo": todo.id,
+                    "check": check.id,
+                    "kind": check.kind,
+                    "state": check.state,
+                    "points": check.points,
+                    "max_points": check.max_points,
+                    "misconception": clean(todo.misconception or ""),
+                    "expected": clean(check.expected),
+                    "got": clean(check.got),
+                    "where": clean(place_of(check)),
+                }
