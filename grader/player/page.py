@@ -17,14 +17,15 @@ TEMPLATES = Path(__file__).with_name("templates")
 MAX_WORDS = 1000  # characters of a submission in one line: a page has more room than a terminal
 
 
-def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay) -> str:
-    """Return the page of one failed check: `words` say why it failed."""
+def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
+    """Return the page of one failed check: `words` say why it failed, `script` asks again."""
     return fill_template(
         TEMPLATES / "player.html",
         "player.css",
         read_player(),
         title=clean_line(title),
         words=[(name, clean_line(text)) for name, text in words],
+        code=script,
         replay=encode_data(replay),
         player=Markup(read_player()),
     )

@@ -190,7 +190,7 @@ def compare_moments(
 
 
 def name_of(number: int, runs: tuple[Run, Run]) -> str:
-    """Return a body's name: the names of your run are those of its code."""
+    """Return a body's name: the names of your run are those of its script."""
     mine, right = runs
     return mine.names.get(number) or right.names.get(number, f"body {number}")
 

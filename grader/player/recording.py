@@ -3,11 +3,10 @@
 The recorder is the `send` of a lab's connection, so that all requests and answers pass through it.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice
-from string import ascii_letters
 
 import msgspec
 
@@ -15,7 +14,7 @@ from grader.judge.children import Child
 from grader.judge.failures import Failing
 from grader.judge.lab import Lab
 from grader.player.runs import Line, Mark, Run, describe_body, describe_reply
-from grader.player.translator import Names, Translator, signature_of
+from grader.player.script import Step, Translator, signature_of
 from grader.protocol import (
     MAX_BODIES,
     MAX_RODS,
@@ -57,7 +56,7 @@ class Recorder:
     translator: Translator
     experiment: str = ""
     scenes: list[list[Run]] = field(default_factory=lambda: [[]])
-    called: list[tuple[Run, int, str]] = field(default_factory=list)  # bodies, by name in code
+    steps: list[list[Step]] = field(default_factory=lambda: [[]])  # by scene
     _new_scene: bool = True
     _new_run: bool = True
     _count: int = 0
@@ -79,7 +78,7 @@ class Recorder:
 
     def _ask_only(self, child: Child, request: Request) -> Answered:
         answered = child.ask(request)
-        self._translate(request, answered)
+        self._add_step(request, answered)
         return answered
 
     def _record(self, child: Child, request: Request) -> Answered:
@@ -99,12 +98,14 @@ class Recorder:
     def _begin_run(self) -> None:
         if self._new_scene and self.scenes[-1]:
             self.scenes.append([])
+            self.steps.append([])
         self._new_scene = self._new_run = False
         self.scenes[-1].append(Run(self.experiment))
 
     def _add_line(self, request: Request, answered: Answered, recorded: WithMoments) -> None:
         run = self.scenes[-1][-1]
-        code = self._translate(request, answered)
+        step = self._add_step(request, answered)
+        step.place = run, len(run.lines)
         moments = limit_moments(recorded.moments)
         answer = describe_reply(recorded.reply) if isinstance(request, Call | Play) else ""
         if isinstance(request, Integrate):
@@ -124,31 +125,32 @@ class Recorder:
                 answer,
                 moments,
                 is_setup(request),
-                "\n".join(code),
+                "\n".join(step.code),
                 find_marks(request, run),
                 isinstance(request, Call) and request.work,
             )
         )
-        for row in moments[-1].bodies if moments else []:
-            if row.number in run.looks:
-                name = self.translator.names.get(run.looks[row.number].ref, "")
-                self.called.append((run, row.number, name))
+        if moments:
+            step.bodies = {self._name_of(run, row.number): row for row in moments[-1].bodies}
+        elif len(run.lines) == 1:
+            step.bodies = {}  # those of another process
 
-    def _translate(self, request: Request, answered: Answered) -> list[str]:
-        assert not isinstance(answered.reply, WithMoments)
-        return self.translator.translate(request, answered.reply)
+    def _name_of(self, run: Run, number: int) -> str:
+        """Return a body's name in the script, or else its name on the page."""
+        ref = run.looks[number].ref if number in run.looks else 0
+        name = self.translator.names.get(ref, "")
+        return name if name.isidentifier() else run.names.get(number, "")
 
-    def renumber(self, shown: Sequence[Run]) -> None:
-        """Name bodies, contacts and worlds from 1 on, in the code of these runs and the picture."""
-        names = Names([line.code for run in shown for line in run.lines])
-        for run in shown:
-            run.lines = [
-                msgspec.structs.replace(line, code=names.in_code(line.code)) for line in run.lines
-            ]
-        for run, body, name in self.called:
-            if name.isidentifier() and any(run is each for each in shown):
-                number = names.in_code(name).lstrip(ascii_letters)
-                run.names[body] = describe_body(run.looks[body], number)
+    def _add_step(self, request: Request, answered: Answered) -> Step:
+        reply = answered.reply
+        assert not isinstance(reply, WithMoments)
+        code = self.translator.translate(request, reply)
+        before = self.steps[-1][-1].bodies if self.steps[-1] else {}
+        value = reply.value if isinstance(reply, Returned) else reply
+        watched = self.translator.watched_names(request)
+        step = Step(request, code, value is None, watched, before)
+        self.steps[-1].append(step)
+        return step
 
     def scenes_to_show(self, every_scene: bool) -> slice:
         """Return the last scene, or all where only all of them together say something."""

@@ -17,12 +17,13 @@ from grader.judge.children import Worker
 from grader.judge.failures import Failing
 from grader.judge.grade import Options, grading
 from grader.judge.result import CheckResult, Result, TodoResult
-from grader.judge.rubric import CHECKS, Rubric
+from grader.judge.rubric import CHECKS, Rubric, load_rubric
 from grader.judge.wording import named_reasons
 from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.recording import OpenChild, record_again
 from grader.player.runs import Run
+from grader.player.script import find_parting_step, renumber, write_script
 
 MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
 MAX_DEATHS = 3  # of children, after which no more replays are made of a submission
@@ -40,16 +41,20 @@ def grade_with_replays(
         if not run.failing and not any(folder.glob("*.html")):
             return result
         open_right = run.open_right if options.reference else None
-        return Replays(folder, run.sandbox.open_child, open_right).add_to(result, run.failing)
+        known = frozenset(run.submission.functions)
+        return Replays(folder, run.sandbox.open_child, open_right, known).add_to(
+            result, run.failing
+        )
 
 
 @dataclass
 class Replays:
-    """Writes a page for each failed check of one submission."""
+    """Writes a page and a script for each failed check of one submission."""
 
     folder: Path
     open_child: OpenChild
     open_reference: OpenChild | None
+    functions: frozenset[str] = frozenset()  # the TODOs whose functions the submission has
     budget: Budget = field(default_factory=Budget)
     deaths: int = 0
     written: int = 0  # characters
@@ -71,25 +76,29 @@ class Replays:
         self, todo: TodoResult, check: CheckResult, failing: Mapping[tuple[str, str], Failing]
     ) -> CheckResult:
         path = self.folder / f"{todo.id}-{check.id}.html"
-        path.unlink(missing_ok=True)
+        for old in (path, path.with_suffix(".py")):
+            old.unlink(missing_ok=True)
         found = failing.get((todo.id, check.id))
         over = self.deaths >= MAX_DEATHS or not self.budget.has_more
         if found is None or not check.failed or over:
             return check
         try:
-            page = self._make_page(todo, check, found)
+            made = self._make_files(todo, check, found)
         except Exception:  # whatever a submission makes of it: the marks stand without a picture
-            page = None
-        if page is None or self.written + len(page) > MAX_TOGETHER:
+            made = None
+        if made is None or self.written + sum(map(len, made)) > MAX_TOGETHER:
             return check
-        self.written += len(page)
+        self.written += sum(map(len, made))
         self.folder.mkdir(parents=True, exist_ok=True)
-        with open(path, "x", encoding="utf-8", newline="\n") as stream:
-            stream.write(page)
+        for file, text in zip((path, path.with_suffix(".py")), made, strict=True):
+            with open(file, "x", encoding="utf-8", newline="\n") as stream:
+                stream.write(text)
         return msgspec.structs.replace(check, replay=f"{self.folder.name}/{path.name}")
 
-    def _make_page(self, todo: TodoResult, check: CheckResult, failing: Failing) -> str | None:
-        """Return the page, or None where nothing is to be seen."""
+    def _make_files(
+        self, todo: TodoResult, check: CheckResult, failing: Failing
+    ) -> list[str] | None:
+        """Return the page and the script, or None where nothing is to be seen."""
         lab = record_again(failing, for_words(self.open_child), failing.pieces)
         self.budget.charge_for_words(lab.connection)
         self.deaths += lab.ended
@@ -101,11 +110,23 @@ class Replays:
         count = len(recorder.scenes)
         right = self._expected_scenes(failing)[:count]
         expected = [run for runs in right[shown] for run in runs] if len(right) == count else []
-        recorder.renumber(yours)
+        steps = [step for steps in recorder.steps[shown] for step in steps]
+        renumber(steps)
         both = pair_runs(yours, expected, exact=self.open_reference is not None)
+        parting = find_parting_step(both, yours, steps)
         task = f"TODO {todo.id}, {todo.title}" if failing.todo.function else todo.title
-        page = make_page(f"{task}: {check.title}", named_reasons(check), both)
-        return page if len(page) <= MAX_CHARACTERS else None
+        title = f"{task}: {check.title}"
+        words = [f"Expected: {check.expected}", f"Got: {check.got}"]
+        again = write_script(
+            title, recorder.translator, steps, parting, words, self._has_pacing(lab.module)
+        )
+        made = [make_page(title, named_reasons(check), both, again), again]
+        return made if len(made[0]) <= MAX_CHARACTERS else None
+
+    def _has_pacing(self, module: str) -> bool:
+        """Return whether the program has a function that runs the steps of a frame."""
+        todos = [todo.id for todo in load_rubric().todos if todo.function == f"{module}:advance"]
+        return any(todo in self.functions for todo in todos)
 
     def _expected_scenes(self, failing: Failing) -> list[list[Run]]:
         """Return the scenes of the right run: the reference's, or what was recorded of it."""

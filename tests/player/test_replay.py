@@ -1,8 +1,11 @@
-"""Replays: what they show, where the runs part, and the page in a real browser."""
+"""Replays: what they show, where the runs part, the script, and the page in a real browser."""
 
 import json
 import math
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -31,7 +34,7 @@ from grader.player.pairing import pair_runs
 from grader.player.recording import MAX_MOMENTS, RecordingLab, record_again
 from grader.player.replay import ExpectedRuns, Replays, grade_with_replays, record_expected
 from grader.player.runs import Line, Replay, Run
-from grader.player.translator import Names, write_polynomial
+from grader.player.script import Names, fold_repeats, write_polynomial
 from grader.protocol import (
     Answered,
     BodyLook,
@@ -110,9 +113,10 @@ def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pag
     for todo, check in failed:
         assert check.replay == f"pages/{todo.id}-{check.id}.html"
         assert (pages.parent / check.replay).is_file()
+        assert (pages.parent / check.replay).with_suffix(".py").is_file()
     passed = [c for t in graded.todos for c in t.checks if c.state != "not yet"]
     assert passed and all(check.replay is None for check in passed)
-    assert len(list(pages.iterdir())) == len(failed)
+    assert len(list(pages.iterdir())) == 2 * len(failed)
 
 
 def test_marks_and_reasons_are_the_same_with_and_without_replays(mistaken: Path, tmp_path: Path):
@@ -278,20 +282,59 @@ def test_a_shorter_run_waits_for_the_longer_one():
     assert len(both.scenes[0].yours) == len(both.scenes[0].expected) == 3
 
 
-# ---------------------------------------------------------------- what ran
+# ---------------------------------------------------------------- scripts
+
+
+def run_script(script: Path, tree: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(script)],
+        cwd=tree,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        timeout=60,
+        env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
+    )
+
+
+SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
+    (
+        "1-overlap_from_outside_points_into_the_box",
+        r"^None$",
+        r"Vector2\(0, 1\), 5\.0, Vector2\(10, -20\)",
+    ),
+    ("1-balls_land_on_a_floor_and_lie_there", r"^\[80, 22", r"^\[80, 3[67]"),
+    ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
+    ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
+    ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.0, 100\.", r"\(1\.0, 50\."),
+    ("7c-the_rod_pushes_and_pulls", r"^Vec2d", r"^Vec2d"),
+    ("8b-velocity_verlet_keeps_the_spring_swinging", r"^2507\.", r"^99\.3"),
+)
+
+
+@pytest.mark.parametrize(("name", "wrong", "right"), SCRIPTS)
+def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
+    name: str, wrong: str, right: str, mistaken: Path, pages: Path
+):
+    printed = []
+    for tree, pattern in ((mistaken, wrong), (KIT / "solution", right)):
+        done = run_script(pages / f"{name}.py", tree)
+        assert done.returncode == 0, done.stderr
+        assert re.search(pattern, done.stdout, re.MULTILINE), done.stdout
+        printed.append(done.stdout)
+    assert printed[0] != printed[1]
 
 
 def test_names_begin_at_one_and_agree_with_the_picture(pages: Path):
-    """Whatever a check has made before: what its code makes has the same name in the picture."""
+    """Whatever a check has made before: what a script makes, its replay has under the same name."""
     bodies = 0
-    for path in pages.glob("*.html"):
-        scenes = read_replay(path)["scenes"]
-        code = "\n".join(line["code"] for scene in scenes for line in scene["lines"])
-        made = re.findall(r"^(ball|box)(\d*) = Body", code, re.MULTILINE)
+    for path in pages.glob("*.py"):
+        made = re.findall(r"^(ball|box)(\d*) = Body", path.read_text("utf-8"), re.MULTILINE)
         for kind in ("ball", "box"):
             numbers = list(dict.fromkeys(n for each, n in made if each == kind))
             assert numbers == ["", *map(str, range(2, len(numbers) + 1))][: len(numbers)], path
         names = {f"{kind} {number}".strip() for kind, number in made}
+        scenes = read_replay(path.with_suffix(".html"))["scenes"]
         seen = {each.partition(",")[0] for scene in scenes for each in scene["names"].values()}
         assert not names or seen <= names, path
         bodies += len(names)
@@ -314,6 +357,24 @@ def test_new_names_are_put_where_a_name_stands_and_nowhere_else():
         "space.add(body=ball.body5, kind='ball5')",
         "rod2 = rod(ball, box)",  # the function is called rod
     ]
+
+
+def test_the_same_line_many_times_over_is_a_loop():
+    lines = ["world.step(1 / 60)"] * 5 + ["print(1)"] * 2
+    assert list(fold_repeats(lines)) == [
+        *("for _ in range(5):", "    world.step(1 / 60)"),
+        *("print(1)", "print(1)"),
+    ]
+
+
+def test_scripts_are_short(pages: Path):
+    """What builds the scene and asks: imports, comments and the way to the tree aside."""
+    for path in pages.glob("*.py"):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        own = [line for line in lines if line and not re.match(r"#|import |from |sys\.path", line)]
+        assert 0 < len(own) <= 24, path
+        if path.name.startswith(("1-overlap", "1-a_centre", "1-no", "7b-", "8b-")):
+            assert len(own) <= 13, path
 
 
 def test_a_force_is_worked_out_as_the_judge_does():
@@ -430,7 +491,7 @@ def test_numbers_that_are_none_stay_data():
     row = BodyRow(1, math.nan, math.inf, 0.0, 0.0, -math.inf, 0.0)
     answer = WithMoments(Returned(None), {1: DISC}, [Moment(0.0, 0, [row], [], [])])
     lab = record_liar(answer, 1)
-    text = make_page("title", [], pair_runs(lab.recorder.scenes[0], []))
+    text = make_page("title", [], pair_runs(lab.recorder.scenes[0], []), "")
     data = re.search(r'id="replay">(.*?)</script>', text)
     assert data and json.loads(data[1])["scenes"][0]["yours"][0][2] == [
         [1, None, None, 0.0, 0.0, None, 0.0]
@@ -440,7 +501,7 @@ def test_numbers_that_are_none_stay_data():
 def test_an_empty_recording_breaks_nothing():
     lab = record_liar(WithMoments(Returned(Vec(1.0, 2.0)), {}, []), 3)
     both = pair_runs(lab.recorder.scenes[0], [])
-    assert both.scenes[0].yours == [] and make_page("title", [], both)
+    assert both.scenes[0].yours == [] and make_page("title", [], both, "")
 
 
 EVERYTHING = """
@@ -492,7 +553,7 @@ def test_old_replays_go_and_links_are_not_followed(graded: Result, tmp_path: Pat
     folder.mkdir()
     todo = graded.todos[0]
     stale = folder / f"{todo.id}-{todo.checks[0].id}.html"
-    for path in (stale, folder / "mine.txt"):
+    for path in (stale, stale.with_suffix(".py"), folder / "mine.txt"):
         path.write_text("old", encoding="utf-8")
     Replays(folder, lambda seconds: None, None).add_to(graded, {})  # type: ignore[arg-type,return-value]
     assert [each.name for each in folder.iterdir()] == ["mine.txt"]
@@ -519,7 +580,7 @@ def test_replays_are_the_same_where_nothing_can_be_forked(
 def test_words_of_a_submission_stay_words():
     line = Line("call", HOSTILE, [Moment(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
     both = pair_runs([Run(HOSTILE, [line], {1: DISC}, {1: HOSTILE})], [])
-    text = make_page(HOSTILE, [("Got", HOSTILE)], both)
+    text = make_page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE)
     seen = Reader(text)
     assert (seen.count("script"), seen.count("img"), seen.handlers) == (2, 0, [])
     assert HARMLESS in seen.text
@@ -678,12 +739,24 @@ def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):
     line = Line("call", HOSTILE, [Moment(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
     both = pair_runs([Run(HOSTILE, [line, line], {1: DISC}, {1: HOSTILE})], [])
     path = tmp_path / "hostile.html"
-    path.write_text(make_page(HOSTILE, [("Got", HOSTILE)], both), encoding="utf-8")
+    path.write_text(make_page(HOSTILE, [("Got", HOSTILE)], both, HOSTILE), encoding="utf-8")
     shown = Screen(browser, path)
     shown.page.keyboard.press("End")
     assert shown.position == 1
     assert "alert(1)" in shown.page.locator("#answer-yours").inner_text()
     assert shown.complaints == []
+
+
+def test_the_script_can_be_copied(browser: Any, pages: Path):
+    context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
+    path = pages / "1-overlap_from_outside_points_into_the_box.html"
+    shown = context.new_page()
+    shown.goto(path.resolve().as_uri())
+    shown.locator("#copy").click()
+    shown.get_by_text("Copied").wait_for()
+    text = shown.evaluate("navigator.clipboard.readText()")
+    assert text == path.with_suffix(".py").read_text(encoding="utf-8")
+    context.close()
 
 
 # ---------------------------------------------------------------- the whole bank
@@ -702,7 +775,7 @@ UNSEEN = {
     [member for member in members(KIT) if member.kind == "wrong"][::5],
     ids=lambda member: f"{member.name}-{member.form}",
 )
-def test_wrong_answers_of_the_bank_part(member: Member, tmp_path: Path):
+def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tmp_path: Path):
     tree = tmp_path / "tree"
     member.build(KIT, tree)
     options = Options(shipped_reference(), only=member.todos)
@@ -712,6 +785,11 @@ def test_wrong_answers_of_the_bank_part(member: Member, tmp_path: Path):
             assert check.replay is not None, check.id
             parts = read_replay(tmp_path / check.replay)["parting"] is not None
             assert parts or member.name in UNSEEN, check.id
+            script = (tmp_path / check.replay).with_suffix(".py")
+            runs_on = "never" in member.name  # a loop that does not end
+            if not runs_on and "main()" not in script.read_text(encoding="utf-8"):
+                done = run_script(script, tree)
+                assert done.returncode == 0 and done.stdout.strip(), (check.id, done.stderr)
 
 
 @pytest.fixture(scope="module")
@@ -747,7 +825,7 @@ def test_friction_is_drawn_with_its_limit(pages: Path):
 def test_lines_in_the_picture_are_named(browser: Any, arms: Replay, screen: Screen, tmp_path: Path):
     screen.page.keyboard.press("End")
     assert "how far friction may turn it" in screen.page.locator("#legend").inner_text()
-    (tmp_path / "arms.html").write_text(make_page("Arms", [], arms), encoding="utf-8")
+    (tmp_path / "arms.html").write_text(make_page("Arms", [], arms, ""), encoding="utf-8")
     shown = Screen(browser, tmp_path / "arms.html")
     assert shown.page.locator("#legend").inner_text().startswith("Dashed: the arm. Grey: the axis.")
     assert shown.complaints == []

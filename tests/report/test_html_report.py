@@ -45,7 +45,7 @@ def little_replay() -> str:
     look = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
     row = BodyRow(1, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0)
     line = Line("call", "1", [Moment(0.0, 0, [row], [], [])], code="it()")
-    return make_page("A replay", [], pair_runs([Run("", [line, line], {1: look})], []))
+    return make_page("A replay", [], pair_runs([Run("", [line, line], {1: look})], []), "print()")
 
 
 def written(tmp_path: Path, made: Result) -> Reader:

@@ -252,6 +252,17 @@
   };
   for (const kind of ["pointermove", "pointerdown"]) canvas.addEventListener(kind, pick); // a finger's tap, too
 
+  byId("copy").addEventListener("click", async () => {
+    const text = byId("script").textContent;
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      getSelection().selectAllChildren(byId("script"));
+      document.execCommand("copy");
+    }
+    byId("copy").textContent = "Copied";
+  });
+
   // ---------------------------------------------------------------- the page
 
   const items = new Map();

@@ -1,0 +1,484 @@
+"""Translate requests to a submission into Python: a line each, and a script to run at home."""
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from string import ascii_letters
+
+import msgspec
+
+from grader.player.runs import Replay, Run, describe_body
+from grader.protocol import (
+    Argument,
+    BodyRow,
+    BodyValue,
+    Call,
+    ContactValue,
+    Get,
+    Integrate,
+    Items,
+    MakeBody,
+    MakeWorld,
+    Play,
+    Ref,
+    Reply,
+    Request,
+    Returned,
+    Rng,
+    Set,
+    Simulate,
+    SpaceBody,
+    SpaceValue,
+    Value,
+    Vec,
+)
+from grader.text import printable
+
+MAX_WIDTH = 96  # of a comment
+FINDERS = ("circle_box", "circle_circle", "collide")  # what returns a Contact or None
+FEW = 40  # lines that are shown as they are
+MANY = 4  # times that the same line is said before a loop says it
+STATE = ("pos", "vel", "angle", "omega")
+PARTS = {  # what a package without a BonusWorld does not pass on
+    "mini_engine:between": "mini_engine.game_loop",
+    "mini_engine:wake": "mini_engine.sleeping",
+}
+
+
+@dataclass
+class Step:
+    """One request, its code in Python, and what a script needs of the answer."""
+
+    request: Request
+    code: list[str]
+    silent: bool  # nothing came back
+    watched: list[str] = field(default_factory=list)  # the bodies it looked at, by name
+    bodies: dict[str, BodyRow] = field(default_factory=dict)  # by name, as they were then
+    place: tuple[Run, int] | None = None  # in the replay: a run and its line
+
+    def rename(self, names: "Names") -> None:
+        """Give it other names, on its line of the replay, too."""
+        self.code = [names.in_code(line) for line in self.code]
+        self.watched = [names.in_code(each) for each in self.watched]
+        self.bodies = {
+            names.in_code(name) if name.isidentifier() else name: row
+            for name, row in self.bodies.items()
+        }
+        if self.place is None:
+            return
+        run, at = self.place
+        run.lines[at] = msgspec.structs.replace(run.lines[at], code="\n".join(self.code))
+        for name, row in self.bodies.items():
+            if name.isidentifier() and row.number in run.looks:
+                number = name.lstrip(ascii_letters)
+                run.names[row.number] = describe_body(run.looks[row.number], number)
+
+
+@dataclass
+class Translator:
+    """Translates requests into Python and remembers the names of objects."""
+
+    module: str
+    names: dict[int, str] = field(default_factory=dict)  # by the child's number
+    imports: set[tuple[str, str]] = field(default_factory=set)
+    libraries: set[str] = field(default_factory=set)
+    parts: dict[str, str] = field(default_factory=dict)  # where to find what is not passed on
+
+    def translate(self, request: Request, reply: Reply) -> list[str]:
+        value = reply.value if isinstance(reply, Returned) else None
+        match request:
+            case MakeBody():
+                return self._make_body(request, value)
+            case MakeWorld():
+                return self._make_world(request, value)
+            case Call(target, args, kwargs):
+                given = [*map(self.write_argument, args)]
+                given += [f"{name}={self.write_argument(each)}" for name, each in kwargs.items()]
+                call = f"{self._write_target(target)}({', '.join(given)})"
+                return [self._assign(value, call, target)]
+            case Get(ref, name):
+                return [self._assign(value, f"{self.name(ref)}.{name}")] if name else []
+            case Set(ref, fields):
+                return [
+                    f"{self.name(ref)}.{k} = {self.write_argument(v)}" for k, v in fields.items()
+                ]
+            case Simulate(ref, dt, steps):
+                stepping = f"{self.name(ref)}.step({write_number(dt)})"
+                return [f"for _ in range({steps}):", f"    {stepping}"] if steps > 1 else [stepping]
+            case Integrate():
+                return self._integrate(request)
+            case Play(frames=frames):
+                return [f"main()  # {len(frames)} frames"]
+        return []
+
+    def _integrate(self, request: Integrate) -> list[str]:
+        x, v, dt = map(write_number, (request.x, request.v, request.dt))
+        accel = write_polynomial(request.force)
+        step = f"x, v = {self._write_target(request.target)}(x, v, {dt}, {accel})"
+        start = f"x, v = {x}, {v}"
+        if request.steps == 1:
+            return [start, step]
+        return [start, f"for _ in range({request.steps}):", f"    {step}"]
+
+    def watched_names(self, request: Request) -> list[str]:
+        """Return the names of the bodies, or of the space, whose state a request reads."""
+        match request:
+            case Get(ref, ""):
+                return [self.name(ref)]
+            case Simulate(watch=watch):
+                return [self.name(ref) for ref in watch]
+        return []
+
+    def forget(self) -> None:
+        self.names.clear()
+
+    # ------------------------------------------------------------ names
+
+    def name(self, ref: int) -> str:
+        return self.names.get(ref, f"object_{ref}")
+
+    def _name_new(self, ref: int, kind: str) -> str:
+        taken = set(self.names.values())
+        numbered = (f"{kind}{number}" if number > 1 else kind for number in range(1, 1000))
+        self.names[ref] = next(name for name in numbered if name not in taken)
+        return self.names[ref]
+
+    def _assign(self, value: Value, code: str, target: str = "") -> str:
+        """Keep the result of the code under a name if it is something new."""
+        match value:
+            case BodyValue(ref=ref) | SpaceBody(ref=ref) if ref not in self.names:
+                return f"{self._name_new(ref, 'body')} = {code}"
+            case ContactValue(ref=ref) if ref not in self.names:
+                return f"{self._name_new(ref, 'contact')} = {code}"
+            case SpaceValue(ref=ref) if ref not in self.names:
+                name = self._name_new(ref, "space")
+                self._name_contents(value, name)
+                return f"{name} = {code}"
+            case Ref(id=ref, kind=kind) if ref not in self.names:
+                name = self._name_new(ref, "rod" if "joint" in kind.lower() else "thing")
+                return f"{name} = {code}"
+            case Items(items) if any(isinstance(each, SpaceValue) for each in items):
+                parts = [self._name_part(each) for each in items]
+                return f"{', '.join(parts)} = {code}"
+            case SpaceValue(ref=ref):
+                self._name_contents(value, self.names[ref])
+        if value is None and target.rpartition(":")[2] in FINDERS:
+            return f"contact = {code}"
+        return code
+
+    def _name_part(self, value: Value) -> str:
+        if not isinstance(value, SpaceValue):
+            return "_"
+        name = self._name_new(value.ref, "space")
+        self._name_contents(value, name)
+        return name
+
+    def _name_contents(self, space: SpaceValue, name: str) -> None:
+        for number, body in enumerate(space.bodies):
+            place = f"list({name}.bodies)[{number - 1}]" if number else f"{name}.static_body"
+            self.names.setdefault(body.ref, place)
+
+    def _write_target(self, target: str) -> str:
+        if target.startswith("#"):
+            ref, _, path = target[1:].partition(".")
+            return f"{self.name(int(ref))}.{path}"
+        module, _, path = target.partition(":")
+        if module == "pymunk":
+            self.libraries.add(module)
+            return f"pymunk.{path}"
+        self.imports.add((self.parts.get(target, module), path.partition(".")[0]))
+        return path
+
+    # ------------------------------------------------------------ values
+
+    def write_argument(self, value: Argument) -> str:
+        match value:
+            case Vec(x, y):
+                return self.write_pair(x, y)
+            case Ref(id=ref):
+                return self.name(ref)
+            case Rng(seed):
+                self.libraries.add("random")
+                return f"random.Random({seed})"
+        return write_number(value) if isinstance(value, float) else repr(value)
+
+    def write_pair(self, x: float, y: float) -> str:
+        if self.module == "pymunk_scene":
+            self.libraries.add("pymunk")
+            return f"pymunk.Vec2d({write_number(x)}, {write_number(y)})"
+        self.imports.add(("pygame", "Vector2"))
+        return f"Vector2({write_number(x)}, {write_number(y)})"
+
+    def _make_body(self, request: MakeBody, value: Value) -> list[str]:
+        self.imports |= {(request.module, "Body"), (request.module, request.shape)}
+        name = "object_0"
+        if isinstance(value, BodyValue | Ref):
+            ref = value.ref if isinstance(value, BodyValue) else value.id
+            name = self._name_new(ref, "ball" if request.shape == "Circle" else "box")
+        shape = f"{request.shape}({self.write_argument(request.size)})"
+        given = [shape, self.write_argument(request.pos), write_number(request.mass)]
+        given += [f"{key}={write_number(each)}" for key, each in request.kwargs.items()]
+        fields = [f"{name}.{k} = {self.write_argument(v)}" for k, v in request.fields.items()]
+        return [f"{name} = Body({', '.join(given)})", *fields]
+
+    def _make_world(self, request: MakeWorld, value: Value) -> list[str]:
+        made = value.kind if isinstance(value, Ref) else ""
+        kind = "BonusWorld" if request.bonus and made == "BonusWorld" else "World"
+        if request.bonus and kind == "World":
+            self.parts = PARTS
+        self.imports.add((request.module, kind))
+        name = self._name_new(value.id, "world") if isinstance(value, Ref) else "world"
+        given = [
+            f"gravity={self.write_argument(request.gravity)}",
+            f"linear_damping={write_number(request.linear_damping)}",
+            f"angular_damping={write_number(request.angular_damping)}",
+        ]
+        lines = [f"{name} = {kind}({', '.join(given)})"]
+        if len(request.bodies) > 2:
+            bodies = ", ".join(map(self.name, request.bodies))
+            lines += [f"for body in ({bodies}):", f"    {name}.add(body)"]
+        else:
+            lines += [f"{name}.add({self.name(ref)})" for ref in request.bodies]
+        return lines + [f"{name}.joints.append({self.name(ref)})" for ref in request.joints]
+
+
+def write_number(value: float) -> str:
+    """Write the exact number; a step size as a fraction."""
+    parts = round(1 / value) if value and abs(value) < 0.1 else 0
+    if parts % 10 == 0 and parts and 1 / parts == value:
+        return f"1 / {parts}"
+    return repr(value)
+
+
+def write_polynomial(coefficients: Sequence[float]) -> str:
+    """Write the force as the judge computes it: by Horner's rule."""
+    terms = list(coefficients)
+    while len(terms) > 1 and not terms[-1]:
+        terms.pop()
+    text = repr(terms.pop()) if terms else "0.0"
+    for each in reversed(terms):
+        text = f"({text}) * x" if "+" in text else f"{text} * x"
+        text += f" + {each!r}" if each else ""
+    return f"lambda x: {text}"
+
+
+# ---------------------------------------------------------------- names
+
+KINDS = ("ball", "box", "body", "contact", "world", "rod", "space", "thing")
+NAME = re.compile(rf"(?<![\w.'\"])({'|'.join(KINDS)})(\d*)\b(?![=(])")
+
+
+class Names:
+    """New names for what a script makes, counted from its own beginning.
+
+    A child numbers what it makes from its start on. A script of its end alone would begin with the
+    sixth ball.
+    """
+
+    def __init__(self, lines: Sequence[str]) -> None:
+        text = "\n".join(lines)
+        self.new: dict[str, str] = {}
+        counts = dict.fromkeys(KINDS, 0) | {
+            kind: 1 for kind in KINDS if re.search(rf"(?<![\w.]){kind}\(", text)
+        }  # a function has that name
+        for found in NAME.finditer(text):
+            if found[0] not in self.new:
+                counts[found[1]] += 1
+                number = counts[found[1]]
+                self.new[found[0]] = f"{found[1]}{number if number > 1 else ''}"
+
+    def in_code(self, text: str) -> str:
+        return NAME.sub(lambda found: self.new.get(found[0], found[0]), text)
+
+
+def renumber(steps: Sequence[Step]) -> None:
+    """Name the bodies, contacts and worlds of a script, and of its replay, from 1 on."""
+    names = Names([line for step in steps for line in step.code])
+    for step in steps:
+        step.rename(names)
+
+
+# ---------------------------------------------------------------- the whole script
+
+
+def write_script(
+    title: str,
+    translator: Translator,
+    steps: Sequence[Step],
+    parting: Step | None,
+    words: Sequence[str],
+    paced: bool,
+) -> str:
+    """Write a script that asks the same again; `words` say what was expected and what came.
+
+    `paced`: the program has a function advance() that runs the steps of a frame.
+    """
+    plays = [each.request for each in steps if isinstance(each.request, Play)]
+    if plays:
+        imports, body = write_play(translator.module, plays[-1], paced)
+    else:
+        body = list(fold_repeats(shorten(steps, parting)))
+        imports = list(write_imports(translator, "\n".join(body)))
+    comments = [f"# {write_comment(each)}" for each in words if each]
+    head = [f"# {write_comment(title)}", "# Run it in the folder of your own files.", "import sys"]
+    begin = ['sys.path.insert(0, "")  # your own files come first', ""]
+    return "\n".join([*head, *begin, *imports, "", *body, *comments, ""])
+
+
+def find_parting_step(both: Replay, runs: Sequence[Run], steps: Sequence[Step]) -> Step | None:
+    if both.parting is None:
+        return None
+    lines = both.scenes[both.parting.scene].lines
+    at = max(n for n, line in enumerate(lines) if line.at <= both.parting.moment)
+    run = runs[both.parting.scene]
+    return next((s for s in steps if s.place and s.place[0] is run and s.place[1] == at), None)
+
+
+def write_imports(translator: Translator, body: str) -> Iterator[str]:
+    """Yield the imports of what the body uses, libraries first."""
+    for library in sorted(translator.libraries, reverse=True):  # random stands before pymunk
+        if f"{library}." in body:
+            yield f"import {library}"
+    sources = {source for source, _ in translator.imports}
+    for source in sorted(sources, key=lambda each: (each != "pygame", each)):
+        names = sorted(name for each, name in translator.imports if each == source)
+        used = [name for name in names if re.search(rf"\b{name}\b", body)]
+        if used:
+            yield f"from {source} import {', '.join(used)}"
+
+
+def write_comment(text: str) -> str:
+    """Put it on one line, whatever a submission put into it."""
+    line = printable(text)
+    return line if len(line) <= MAX_WIDTH * 3 else line[: MAX_WIDTH * 3] + "…"
+
+
+def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
+    """Yield the lines, with only one round of a long loop, and print what to look at."""
+    start, period = find_rounds(steps)
+    chosen = list(steps)
+    if period:
+        count = (len(steps) - start) // period
+        at = next((i for i, each in enumerate(steps) if each is parting), len(steps) - 1)
+        begin = start + period * min(max(at - start, 0) // period, count - 1)
+        chosen = [*steps[:start], *drop_setup(steps[begin : begin + period])]
+    for index, step in enumerate(chosen):
+        if period and index == start:
+            yield from restore_bodies(steps[start - 1], steps[begin - 1])
+        last = index == len(chosen) - 1
+        for line in step.code:
+            assigned = re.match(r"[\w, ]+ = ", line)
+            answers = isinstance(step.request, Call | Get) and not assigned
+            yield f"print({print_form(line)})" if answers and (last or not step.silent) else line
+        if isinstance(step.request, Integrate):
+            yield "print(x, v)"
+    yield from print_last_state(chosen)
+
+
+def fold_repeats(lines: Iterable[str]) -> Iterator[str]:
+    """Turn the same line many times over into a loop."""
+    for line, group in groupby(lines):
+        count = len(list(group))
+        if count < MANY or line.startswith(" "):
+            yield from [line] * count
+        else:
+            yield from (f"for _ in range({count}):", f"    {line}")
+
+
+def drop_setup(steps: Sequence[Step]) -> list[Step]:
+    """Leave out of a round what sets the next one up."""
+    last_call = max((i for i, s in enumerate(steps) if isinstance(s.request, Call)), default=0)
+    return [s for i, s in enumerate(steps) if i < last_call or not isinstance(s.request, Set)]
+
+
+def print_form(code: str) -> str:
+    if code.endswith(".find_contacts()"):
+        return f"[(each.normal, each.depth, each.point) for each in {code}]"
+    return code
+
+
+def find_rounds(steps: Sequence[Step]) -> tuple[int, int]:
+    """Return where the same few requests begin to repeat until the end, and their number."""
+    signs = [signature_of(each.request) for each in steps]
+    if len(signs) <= FEW:
+        return 0, 0
+    for period in range(1, 13):
+        start = len(signs) - period
+        while start >= period and signs[start - period : start] == signs[-period:]:
+            start -= period
+        if (len(signs) - start) // period >= 4:
+            return start, period
+    return 0, 0
+
+
+def signature_of(request: Request) -> str:
+    """Return the kind of a request without its numbers and objects: runs may differ in both."""
+    match request:
+        case Integrate(target):
+            return f"integrate {target}"
+        case Call(target):
+            return f"call {target.partition('.')[2] if target.startswith('#') else target}"
+        case Get(name=name):
+            return f"get {name}"
+        case Set(fields=fields):
+            return f"set {' '.join(fields)}"
+    return type(request).__name__
+
+
+def restore_bodies(before: Step, after: Step) -> Iterator[str]:
+    """Move the bodies to where the rounds left out have brought them."""
+    for name, row in after.bodies.items():
+        if before.bodies.get(name) != row and name.isidentifier():
+            yield f"{name}.pos = Vector2({row.x!r}, {row.y!r})"
+            yield f"{name}.vel = Vector2({row.vx!r}, {row.vy!r})"
+            yield f"{name}.angle, {name}.omega = {row.angle!r}, {row.omega!r}"
+
+
+def print_last_state(steps: Sequence[Step]) -> Iterator[str]:
+    """Print what the check looked at last."""
+    last = next((step for step in reversed(steps) if step.code), None)
+    if last is None:
+        return
+    code = last.code[-1].strip()
+    if isinstance(last.request, Call) and code.startswith("contact"):
+        name = code.partition(" ")[0]
+        yield f"print({name} and ({name}.normal, {name}.depth, {name}.point))"
+    elif isinstance(last.request, Call) and code.startswith("space"):
+        yield "print(space.gravity, [(type(each), each.a, each.b) for each in space.constraints])"
+    elif isinstance(last.request, Simulate) and last.request.contacts:
+        world = code.partition(".")[0]
+        yield f"print([(each.jn, each.jt) for each in {world}.contacts])"
+    for name in dict.fromkeys(name for step in steps[steps.index(last) :] for name in step.watched):
+        if name.startswith("space") and name.isidentifier():
+            yield f"print([(each.mass, each.moment) for each in {name}.bodies])"
+            continue
+        pymunk = not name.isidentifier() or name.startswith("body")
+        fields = ("position", "velocity", "angle", "angular_velocity") if pymunk else STATE
+        yield f"print({', '.join(f'{name}.{each}' for each in fields)})"
+
+
+def write_play(module: str, play: Play, paced: bool) -> tuple[list[str], list[str]]:
+    """Write the lab scene with the same frames; clicks and keys are left to a person."""
+    if play.events or play.pictures or not paced:
+        person = [
+            f"{each.kind} {each.pos}{f' with {each.held}' if each.held else ''}"
+            for each in play.events[:2]
+        ]
+        frames = f"frames of {', '.join(map(str, play.frames[:12]))} ms and so on"
+        return [f"from {module} import main"], [f"main()  # {', '.join([*person, frames])}"]
+    scene = "make_world(random.Random(12))"
+    look = "    print(body.pos, body.vel, body.angle)"
+    if module == "pymunk_scene":
+        scene, look = "make_space(random.Random(12))[0]", look.replace("pos", "position")
+        look = look.replace("vel", "velocity")
+    count = "    print(milliseconds, 'ms:', steps, 'steps, left over:', accumulator, 's')"
+    imports = ["import random", f"from {module} import advance, {scene.partition('(')[0]}"]
+    same = len(set(play.frames)) == 1
+    frames = f"[{play.frames[0]}] * {len(play.frames)}" if same else repr(play.frames)
+    return imports, [
+        f"world, accumulator = {scene}, 0.0",
+        f"for milliseconds in {frames}:",
+        "    accumulator, steps = advance(world, accumulator, milliseconds / 1000)",
+        *(["for body in world.bodies:", look] if play.trail_every else [count]),
+    ]
