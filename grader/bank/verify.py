@@ -4,7 +4,6 @@ A member that got the marks it must is not graded again until something changes 
 them. So a run that was stopped resumes.
 """
 
-import os
 import tempfile
 import time
 from collections import Counter as Count
@@ -29,7 +28,7 @@ from grader.judge.children import WarmWorker, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.passed import PASSED, PassedPrograms
-from grader.judge.processes import begin_process
+from grader.judge.processes import begin_process, count_cores
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.report.progress import Counter
@@ -188,7 +187,7 @@ def run_in_processes(
     if not todo:
         return
     context = get_context("spawn")
-    with ProcessPoolExecutor(jobs or os.cpu_count(), context, begin_process) as pool:
+    with ProcessPoolExecutor(jobs or count_cores(), context, begin_process) as pool:
         futures = [pool.submit(function, each) for each in todo]
         try:
             for future in as_completed(futures):

@@ -4,7 +4,6 @@ Both run the same function on the same packages. A package that ends its process
 """
 
 import multiprocessing
-import os
 import sys
 import time
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -16,7 +15,7 @@ from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options, grade
-from grader.judge.processes import begin_process, end_all
+from grader.judge.processes import begin_process, count_cores, end_all
 from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 
@@ -65,7 +64,7 @@ class Pool:
     work = staticmethod(grade_package)
 
     def __init__(self, options: Options, jobs: int) -> None:
-        self.options, self.jobs = options, jobs or os.cpu_count() or 1
+        self.options, self.jobs = options, jobs or count_cores()
         if sys.platform == "win32":
             self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
 

@@ -29,6 +29,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.processes import count_cores
 from grader.judge.result import Result
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
@@ -89,7 +90,8 @@ def grade_command(
         Path | None, typer.Option(help="The complete tree; the kit's own if left out.")
     ] = None,
     jobs: Annotated[
-        int, typer.Option(help="For a class: submissions at a time; 0 for one per core.")
+        int,
+        typer.Option(help="Checks, or submissions of a class, at a time; 0 for one per core."),
     ] = 0,
     isolation: Confinement = "auto",
     seed: SecretSeed = None,
@@ -130,8 +132,9 @@ def grade_command(
 
         grade_folder(path, ClassOptions(options, out, jobs, roster, adjust, cluster))
     elif ci is not None:
-        grade_in_ci(path, ci, output, options)
+        grade_in_ci(path, ci, output, replace(options, jobs=jobs or count_cores()))
     else:
+        options = replace(options, jobs=jobs or count_cores())
         with open_path(path, taken.modules) as folder:
             replays = None if out is None else out / folder.resolve().name
             result = grade_and_show(folder, options, replays)

@@ -12,6 +12,7 @@ from grader.cli.shared import CourseFile, check_todos, console, grade_one
 from grader.errors import Stop
 from grader.judge.course import Course, read_course
 from grader.judge.grade import Options
+from grader.judge.processes import count_cores
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.wording import command, hidden_points_note
@@ -68,7 +69,7 @@ def show_first(result: Result, folder: Path, replays: Path | None) -> None:
 
 def make_options(todos: frozenset[str], course: Course) -> Options:
     """Return the options of `check`: those of `grade` without a reference and confinement."""
-    return Options(only=todos, trusted=True, course=course)
+    return Options(only=todos, trusted=True, course=course, jobs=count_cores())
 
 
 def find_tree(path: Path, course: Course) -> Path:

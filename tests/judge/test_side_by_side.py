@@ -1,0 +1,69 @@
+"""How many checks run at a time changes no result."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from grader.judge.budget import Budget
+from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult
+from grader.source.regions import replaced
+
+WRONG = "        keep_vel = keep_omega = 1 - self.linear_damping * dt"
+ENDLESS = "        while True:", "            pass"
+
+
+def broken(folder: Path, code: tuple[str, ...]) -> Path:
+    """Return the solution with other code in TODO 5."""
+    shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("notebooks"))
+    path = folder / "mini_engine" / "world.py"
+    path.write_text(replaced(path.read_text("utf-8"), {"5": code}), "utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("jobs", [2, 3])
+def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
+    tree = broken(tmp_path / "tree", (WRONG,))
+    told: dict[int, list[CheckResult]] = {1: [], jobs: []}
+    results = [
+        grade(
+            tree,
+            Options(
+                shipped_reference(),
+                only=frozenset({"2", "5", "8a"}),
+                trusted=True,
+                jobs=number,
+                progress=told[number].append,
+            ),
+        )
+        for number in told
+    ]
+    first, second = map(msgspec.json.encode, results)
+    assert first == second
+    assert told[1] == told[jobs]
+    assert 0 < results[0].points < results[0].max_points
+
+
+@pytest.mark.soak
+def test_who_uses_up_the_time_of_a_todo_has_as_little_beside_others(tmp_path: Path):
+    tree = broken(tmp_path / "tree", ENDLESS)
+    alone = Options(shipped_reference(), only=frozenset({"5"}), trusted=True)
+    first, second = (grade(tree, options) for options in (alone, replace(alone, jobs=3)))
+    assert first == second and first.points == 0
+
+
+def test_a_copy_of_a_budget_is_counted_once():
+    budget = Budget()
+    budget.cpu["5"] = 3.0
+    before = budget.copy()
+    after = before.copy()
+    after.cpu["5"] += 8.0
+    after.rest["5"] += 1.0
+    budget.cpu["5"] += 1.0
+    assert before.allowance("5") == budget.allowance("5")
+    budget.add("5", before, after)
+    assert (budget.cpu["5"], budget.rest["5"]) == (12.0, 1.0)
+    assert before.allowance("5") != budget.allowance("5")
