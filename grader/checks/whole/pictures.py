@@ -7,9 +7,9 @@ be a frame late, or between two steps.
 
 import math
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from grader.checks.whole.lab_scene import HOOK
 from grader.checks.whole.movers import Mover
@@ -45,11 +45,14 @@ class Disc:
         reach = share * self.radius
         return [(x + reach * math.cos(turn), y + reach * math.sin(turn)) for turn in turns]
 
-    def is_near(self, point: Pair) -> bool:
-        """Return whether it, or the rod it hangs on, may have coloured a point."""
-        if math.dist(point, self.place) <= self.radius + MARGIN:
-            return True
-        return self.is_bob and from_line(point, HOOK, self.place) <= MARGIN
+    def circles(self) -> Iterator[tuple[float, float, float]]:
+        """Yield circles (x, y, radius) of what it, or the rod it hangs on, may have coloured."""
+        yield *self.place, self.radius + MARGIN
+        if self.is_bob:
+            (x, y), (along_x, along_y) = HOOK, self.place
+            count = int(math.dist(HOOK, self.place) / MARGIN) + 1
+            for share in (number / count for number in range(count)):
+                yield x + share * (along_x - x), y + share * (along_y - y), 1.5 * MARGIN
 
 
 class Picture:
@@ -59,15 +62,34 @@ class Picture:
         self.colours = decompressed(photo)
         self.moments = moments
         self.discs = moments[-1]  # until it is known which of them it shows
+        self.covered = covered(disc for discs in moments for disc in discs)
 
     def __getitem__(self, point: Pair) -> tuple[int, ...]:
         """Return the colour at a point."""
-        start = 3 * (SIZE[0] * round(point[1]) + round(point[0]))
+        start = 3 * pixel(point)
         return tuple(self.colours[start : start + 3])
 
     def is_free(self, point: Pair) -> bool:
         """Return whether nothing that moves is near a point."""
-        return not any(disc.is_near(point) for discs in self.moments for disc in discs)
+        return not self.covered[pixel(point)]
+
+
+def pixel(point: Pair) -> int:
+    """Return the number of the pixel at a point, row by row."""
+    return SIZE[0] * round(point[1]) + round(point[0])
+
+
+def covered(discs: Iterable[Disc]) -> bytearray:
+    """Return for each pixel of the window whether one of the discs may have coloured it."""
+    width, height = SIZE
+    pixels = bytearray(width * height)
+    for x, y, radius in (circle for disc in discs for circle in disc.circles()):
+        for row in range(max(math.ceil(y - radius), 0), min(math.floor(y + radius) + 1, height)):
+            half = math.sqrt(radius**2 - (row - y) ** 2)
+            begin, end = max(math.floor(x - half), 0), min(math.ceil(x + half) + 1, width)
+            if begin < end:
+                pixels[width * row + begin : width * row + end] = b"\1" * (end - begin)
+    return pixels
 
 
 def want_pictures(lab: Lab, played: Played, movers: Sequence[Mover], frames: Sequence[int]) -> None:
@@ -132,7 +154,7 @@ def is_shown(disc: Disc, picture: Picture, others: list[Picture]) -> bool:
     known = [
         differ(picture[point], other[point])
         for point in points
-        for other in [each for each in others if each.is_free(point)][:1]
+        for other in islice((each for each in others if each.is_free(point)), 1)
     ]
     return not known or sum(known) >= SHOWN * len(known)
 
@@ -201,13 +223,3 @@ def is_clear(point: Pair) -> bool:
 
 def differ(one: Sequence[int], other: Sequence[int]) -> bool:
     return any(abs(a - b) > APART for a, b in zip(one, other, strict=True))
-
-
-def from_line(point: Pair, start: Pair, end: Pair) -> float:
-    """Return the distance of a point from a line between two others, px."""
-    along = end[0] - start[0], end[1] - start[1]
-    from_start = point[0] - start[0], point[1] - start[1]
-    square = along[0] ** 2 + along[1] ** 2 or 1.0
-    share = (along[0] * from_start[0] + along[1] * from_start[1]) / square
-    share = min(max(share, 0.0), 1.0)
-    return math.dist(from_start, (share * along[0], share * along[1]))
