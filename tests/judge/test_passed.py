@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from grader.bank.members import members
+from grader.bank.verify import grade_member
 from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
@@ -73,3 +75,15 @@ def test_all_but_replaced_code_belongs_to_a_program(
     tree = changed(tmp_path / "tree", file, text.replace(old, new))
     usual = key_for(KIT / "solution", tmp_path / "usual")
     assert (key_for(tree, tmp_path / "copy") == usual) is same
+
+
+@pytest.mark.soak
+def test_the_bank_gets_the_same_results_without_a_memory(tmp_path: Path):
+    """Of every member, and however long that takes."""
+    passed = PassedPrograms(tmp_path / "passed")
+    differ = []
+    for member in members(KIT):
+        with_memory, without = (grade_member(member, passed=each) for each in (passed, None))
+        if with_memory.result != without.result:
+            differ.append(f"{member.kind}/{member.name} as {member.form}")
+    assert differ == []
