@@ -82,7 +82,7 @@ TIMED = re.compile("time|as fast|within|work for a digit")  # lines that a clock
 def test_a_quick_run_agrees_with_the_full_one_in_all_that_they_share(tmp_path: Path) -> None:
     accuracy.main(["--quick", "--no-figures", "--out", str(tmp_path)])
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
-    lines = results["statements"]
+    lines = results["lines"]
     shared = [line for claim in CLAIMS["accuracy.md"].values() for line in claim]
     shared = [line for line in shared if line[0] in lines and known(lines, line[2])]
     assert len(shared) > 20
