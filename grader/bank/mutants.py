@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.members import Entry, Member
-from grader.bank.slips import SCOPES, make_slips
+from grader.bank.slips import SCOPES, Scope, make_slips
 from grader.bank.verify import run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
@@ -74,7 +74,7 @@ def mutate(todo: str) -> Iterator[Mutant]:
     assert function is not None
     parameters = frozenset(each.arg for each in function.args.args)
     scope = msgspec.structs.replace(
-        SCOPES[todo], parameters=parameters, unfinished=code_of(unfinished)
+        SCOPES.get(todo, Scope()), parameters=parameters, unfinished=code_of(unfinished)
     )
     code = code_of(region)
     operators: dict[str, str] = {}
