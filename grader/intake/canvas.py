@@ -25,6 +25,7 @@ class Canvas(Lms):
     name = "canvas"
     title_sign = "("
     names_alone = False
+    takes_feedback = True
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         match, empty = match_file(path), NO_FILE.fullmatch(path.name)

@@ -61,6 +61,7 @@ class Moodle(Lms):
     name = "moodle"
     only_commas = True
     names_alone = False
+    takes_feedback = True
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         match = NAME.fullmatch(path.name)
