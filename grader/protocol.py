@@ -473,7 +473,7 @@ class Answered(Struct, frozen=True):
 
 
 class Limits(Struct, frozen=True):
-    cpu_seconds: int = 10
+    cpu_seconds: int
     memory_mb: int = 1024
     file_mb: int = 16  # each
     scratch_mb: int = 64  # all files together
