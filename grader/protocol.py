@@ -39,6 +39,8 @@ ENVIRONMENT = {
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
 MAX_PRINTED = 65 * 1024  # of one answer
 MAX_LINES = 200  # that a program printed
+MAX_OUTPUT = 64 * 1024  # bytes kept of what is printed before an answer, and characters of a check
+MAX_STEP_SIZES = 16  # different ones that a play reports
 MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
 MAX_FRAMES = 12  # functions that an error went through
 

@@ -34,7 +34,9 @@ from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
 
-CPU_SECONDS = 2  # budget of a mutant's child: many never end, and the solution needs a quarter
+MUTANT_CPU_SECONDS = (
+    2  # budget of a mutant's child: many never end, and the solution needs a quarter
+)
 OTHER_SEEDS = (7919, 104729)  # a name must hold for the questions of these as well
 
 # ---------------------------------------------------------------- making them
@@ -244,7 +246,9 @@ def grade_quickly(
 @cache
 def load_quick_rubric() -> Rubric:
     replace, todos = msgspec.structs.replace, load_rubric().todos
-    quick = [[replace(each, cpu_seconds=CPU_SECONDS) for each in todo.checks] for todo in todos]
+    quick = [
+        [replace(each, cpu_seconds=MUTANT_CPU_SECONDS) for each in todo.checks] for todo in todos
+    ]
     return Rubric([replace(todo, checks=checks) for todo, checks in zip(todos, quick, strict=True)])
 
 

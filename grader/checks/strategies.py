@@ -11,10 +11,9 @@ from grader.checks.exact import (
     Disc,
     Rect,
 )
+from grader.checks.pacing import MAX_STEPS
 from grader.judge.drawing import between
 from grader.judge.lab import STEP
-
-MAX_STEPS = 8  # in a frame
 
 
 def eighths(number: int) -> float:

@@ -13,10 +13,9 @@ from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from grader.judge.children import Child
+from grader.judge.children import REST_SECONDS, Child
 from grader.judge.connection import Connection
 
-REST = 8.0  # s, in one check
 TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
@@ -44,7 +43,7 @@ class Budget:
     def rest_for(self, todo: str) -> float:
         """Seconds for which a process of a check may rest."""
         much = self.rest[todo] >= TODO_REST or sum(self.rest.values()) >= SUBMISSION_REST
-        return LITTLE_REST if much else REST
+        return LITTLE_REST if much else REST_SECONDS
 
     def charge(self, todo: str, connection: Connection) -> None:
         self.cpu[todo] += connection.cpu

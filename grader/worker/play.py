@@ -21,6 +21,7 @@ from pymunk.constraints import PinJoint
 from grader.protocol import (
     MAX_LINES,
     MAX_PHOTO,
+    MAX_STEP_SIZES,
     MAX_TEXT,
     RUNAWAY,
     ContactRow,
@@ -42,8 +43,6 @@ from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.start import start
 from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
-
-MAX_STEP_SIZES = 16
 
 
 class Runaway(BaseException):
