@@ -88,9 +88,9 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
     Each step takes so many ms of the frame, as on a slow computer.
 
-    One that waits by itself makes short frames as long as it likes: who always waits for as many
-    steps as always run has no need of an accumulator. So it is asked once more, with longer frames
-    that its waiting does not fill.
+    A program that waits makes short frames as long as it likes. If it always waits for the same
+    number of steps, it needs no accumulator. So it is run again with frames that are longer than
+    its wait.
     """
     paced, waits = played_at(lab, frames, step_ms)
     if not waits:
@@ -111,7 +111,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """Return the length of a frame, ms, for a program that waits for so long by itself.
+    """Return the length of a frame (ms) for a program that itself waits this long.
 
     Frames stay below the cap that were below it, and of two the longer one is longer.
     """
@@ -216,7 +216,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
 
 
 def want_a_proper_end(lab: Lab, played: Played, frames: int) -> None:
-    """The program must run until its window is closed after so many frames, and no longer."""
+    """Demand that the program runs until its window is closed after `frames`, and no longer."""
     lab.want(
         played.ended != "runaway",
         "a few steps in each frame",

@@ -1,4 +1,4 @@
-"""*Expected* and *Got* in so many digits that they look different."""
+"""Write *Expected* and *Got* with enough digits to look different."""
 
 import math
 from collections.abc import Callable, Iterable

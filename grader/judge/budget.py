@@ -36,12 +36,12 @@ class Budget:
     words_rest: float = 0.0
 
     def cpu_for(self, todo: str, usual: int) -> int:
-        """Processor seconds for a process of a check that would have so many as usual."""
+        """Return the processor seconds for a process of a check that usually has `usual`."""
         much = self.cpu[todo] >= TODO_CPU or sum(self.cpu.values()) >= SUBMISSION_CPU
         return min(usual, LITTLE_CPU) if much else usual
 
     def rest_for(self, todo: str) -> float:
-        """Seconds for which a process of a check may rest."""
+        """Return the seconds for which a process of a check may rest."""
         much = self.rest[todo] >= TODO_REST or sum(self.rest.values()) >= SUBMISSION_REST
         return LITTLE_REST if much else REST_SECONDS
 

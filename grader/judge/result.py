@@ -48,7 +48,7 @@ class CheckResult(Struct, frozen=True):
 
 
 def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
-    """Return a check with so many characters in each of its texts at most: some quote a submission.
+    """Return a check with its texts cut to their greatest length: some quote a submission.
 
     None of them is one that a screen or a terminal obeys, but for the ends of lines.
     """

@@ -55,7 +55,7 @@ class Patch:
     invented: bool = False  # it was never handed out
 
     def distance(self, line: int) -> tuple[bool, int]:
-        """Return how far its end is from a line; what begins behind that line is far."""
+        """Return how far this piece ends from a line; one that begins after the line is far."""
         index = line - 1
         return self.start > index, 0 if self.start <= index < self.stop else abs(index - self.stop)
 
@@ -218,7 +218,7 @@ def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> boo
 
 
 def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
-    """Return the flaw at a line of what was replaced: Python may notice it further down."""
+    """Return the flaw at a line of the replaced code: Python may notice it further down."""
     if patch.start < flaw.line <= patch.stop or not patch.todo:
         return flaw
     lines = text.splitlines()
@@ -229,7 +229,7 @@ def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
 
 
 def flaw_in(text: str, todo: str) -> Flaw | None:
-    """Return what is wrong in a region by itself, at its line in the file."""
+    """Return what is wrong inside a region, at its line in the file."""
     for region in read_regions(text)[0]:
         if region.id == todo:
             own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")

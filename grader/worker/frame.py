@@ -106,7 +106,7 @@ def size_of(shape: Any) -> Numbers:
 
 
 def numbers_in(value: Any) -> Numbers:
-    """Return a field as numbers, and objects by who they are."""
+    """Return a field as numbers, and objects by their identity."""
     if type(value) in PLAIN:
         return (value,)
     if type(value) in PAIRS:
