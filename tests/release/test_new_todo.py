@@ -91,7 +91,7 @@ README_ROW = "| 9 | `integrators.py` | `amplitude` | the farthest stretch | alwa
 
 
 def add_todo_9(kit: Path) -> None:
-    """Edit what steps 1 to 5 name, and no other file."""
+    """Edit what steps 1 to 4 name, and no other file."""
     for tree, line in (("solution", SOLVED), ("starter", STUB)):  # 1
         put_before(kit / tree / "integrators.py", "\n\ndef main():", FUNCTION.format(line=line))
     rubric = kit / "grader" / "checks" / "rubric.toml"  # 2
@@ -101,8 +101,8 @@ def add_todo_9(kit: Path) -> None:
     checks = kit / "grader" / "checks" / "todo_9" / "checks.py"
     checks.parent.mkdir()
     checks.write_text(CHECKS, encoding="utf-8", newline="\n")
-    put_before(kit / "grader" / "checks" / "hints.toml", "\nB1 = [", HINTS)  # 3
-    sheet = kit / "handouts" / "lab-sheet.md"  # 4
+    put_before(kit / "grader" / "checks" / "hints.toml", "\nB1 = [", HINTS)
+    sheet = kit / "handouts" / "lab-sheet.md"  # 3
     edit(
         sheet,
         "(#todo-1-circle-against-box) | 10 | 16 |",
@@ -112,7 +112,7 @@ def add_todo_9(kit: Path) -> None:
     put_before(sheet, "## Done when", SECTION)
     put_before(kit / "solution" / "README.md", "\nAfter TODO 1, balls", README_ROW)
     edit(kit / "course.toml", '"8a", "8b", "8c",', '"8a", "8b", "8c", "9",')
-    wrong = kit / "tests" / "bank" / "wrong" / "9.toml"  # 5
+    wrong = kit / "tests" / "bank" / "wrong" / "9.toml"  # 4
     wrong.write_text(WRONG, encoding="utf-8", newline="\n")
 
 
@@ -137,7 +137,7 @@ def kit(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def make_the_rest(kit: Path) -> None:
-    """Run the commands of step 6, as make does."""
+    """Run the commands of step 5, as make does."""
     said = run_grader(kit, "sync")
     assert "renewed stubs.json for the checks" in said and "TODO 9 is new" in said
     assert "made grader/checks/todo_9/__init__.py" in said
