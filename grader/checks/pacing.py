@@ -8,11 +8,11 @@ import math
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
+from grader.checks.exact import MAX_STEPS
 from grader.judge.lab import STEP, Lab, Thing
 from grader.protocol import RUNAWAY, Played
 
 STEP_MS = 1000 * STEP
-MAX_STEPS = 8  # in a frame
 ROUNDING = 1e-6  # ms
 TINY = 1e-5  # s: who counts in microseconds is right, and who keeps clear of rounding
 DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds

@@ -6,12 +6,12 @@ from hypothesis import strategies as st
 
 from grader.checks.exact import (
     DAMPED_STEPS,
+    MAX_STEPS,
     RATES,
     STEP_SIZES,
     Disc,
     Rect,
 )
-from grader.checks.pacing import MAX_STEPS
 from grader.judge.drawing import between
 from grader.judge.lab import STEP
 

@@ -2,9 +2,9 @@
 
 import re
 
+from grader.checks.exact import MAX_STEPS
 from grader.checks.pacing import (
     LONGEST_UNCUT,
-    MAX_STEPS,
     STEP_MS,
     STEP_TAKES,
     Pace,
