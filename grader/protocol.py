@@ -503,7 +503,7 @@ class Ready(Struct, frozen=True):
 
 
 class Open(Struct, frozen=True, tag="open"):
-    """Fork a child; its end of the channel follows as a file descriptor."""
+    """Fork a child; the file descriptor of its channel follows."""
 
     setup: ChildSetup
 

@@ -25,7 +25,7 @@ LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
-    """Return the frames of so many seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
+    """Return the frames of these seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
     ms.
     """
     ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
@@ -71,7 +71,7 @@ class Pace:
         """Return the first frame when more is simulated than has passed, or over a step less, or
         None.
 
-        Only so many `frames` count, where a number is given.
+        With `frames`, only that many count.
         """
         done = list(accumulate(self.steps[:frames]))
         ends = [0.0, *accumulate(self.lengths[:frames])]
@@ -86,7 +86,7 @@ class Pace:
 def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
     """Play the program with these frames and count its steps without running them.
 
-    Each step takes so many ms of the frame, as on a slow computer.
+    Each step takes `step_ms` of its frame, as on a slow computer.
 
     A program that waits makes short frames as long as it likes. If it always waits for the same
     number of steps, it needs no accumulator. So it is run again with frames that are longer than

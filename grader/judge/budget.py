@@ -1,8 +1,8 @@
-"""Limit what a submission may use up over all of its checks, so that it holds nobody up.
+"""Limit the time that a submission may use in all of its checks, so that it delays nobody.
 
 One question is bounded, and so is a child. Thousands of questions would not be: a program may rest
 before each answer, or run in circles in every check. So seconds are added up, by TODO and in all.
-Who has used up much has little for each check that is left, and who goes on like that has none.
+The budget left for each check shrinks as a submission spends it, down to none.
 
 Seconds are those of a processor that worked for the submission, and those in which it could have
 worked and rested. How long it waits for a processor that others use counts for neither. Added up is

@@ -541,9 +541,7 @@ class Moment:
 
 
 def same(first: Value, second: Value) -> bool:
-    """Return whether two answers are the same but for who they are: each call makes its own
-    contact.
-    """
+    """Return whether two answers are equal but for identity: each call makes a new contact."""
     if isinstance(first, ContactValue) and isinstance(second, ContactValue):
         return msgspec.structs.replace(first, ref=second.ref) == second
     if isinstance(first, Ref) and isinstance(second, Ref):

@@ -48,7 +48,7 @@ Numbers = tuple[Any, ...]
 
 
 class Frame:
-    """The state of what is around a call; made before it."""
+    """The state around a call, noted before it."""
 
     def __init__(self, subject: Subject, refs: Iterable[int], arguments: list[Any]) -> None:
         self.subject = subject

@@ -291,7 +291,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
 
 
 def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
-    """Step a world, and record the watched bodies (and contacts) after every so many steps.
+    """Step a world; record the watched bodies (and contacts) at regular numbers of steps.
 
     The watched bodies are read one by one, not through the world, whose own list may be wrong.
     """

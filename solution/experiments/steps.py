@@ -31,7 +31,7 @@ def ramps(long=1 / 30, short=1 / 1000, count=60):
 
 
 def lasting(seconds, steps):
-    """Yield the first of these steps, until they last so many seconds."""
+    """Yield the first of these steps, until they last `seconds`."""
     passed = 0.0
     for dt in steps:
         if passed >= seconds:
