@@ -18,8 +18,8 @@ from grader.worker.subject import ContractError, Subject
 def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
     """Start a program; if `shown` has counted no frame then, call its main().
 
-    The block that runs as `__main__` may be a test, without a window. Nobody presses Enter: a program
-    that waits for it after all frames has ended.
+    The block that runs as `__main__` may be a test, without a window. Nobody presses Enter: a
+    program that waits for it after all frames has ended.
     """
     failed: Exception | None = None
     try:
