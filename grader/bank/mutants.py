@@ -34,9 +34,7 @@ from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
 
-MUTANT_CPU_SECONDS = (
-    2  # budget of a mutant's child: many never end, and the solution needs a quarter
-)
+MUTANT_CPU_SECONDS = 2  # budget of a child: many never end, and the solution needs a quarter
 OTHER_SEEDS = (7919, 104729)  # a name must hold for the questions of these as well
 
 # ---------------------------------------------------------------- making them
