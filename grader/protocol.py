@@ -39,6 +39,8 @@ ENVIRONMENT = {
 MAX_NAME, MAX_TEXT = 200, 2000  # characters
 MAX_PRINTED = 65 * 1024  # of one answer
 MAX_LINES = 200  # that a program printed
+MAX_OUTPUT = 64 * 1024  # bytes kept of what is printed before an answer, and characters of a check
+MAX_STEP_SIZES = 16  # different ones that a play reports
 MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
 MAX_FRAMES = 12  # functions that an error went through
 
@@ -48,7 +50,7 @@ Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
 
 
 def cut(text: str, most: int) -> str:
-    """Return at most so many characters of a text; its last one shows that some are missing.
+    """Return a text of at most `most` characters; its last one shows that some are missing.
 
     Halves of letters, which no message can hold, become their numbers.
     """
@@ -272,7 +274,7 @@ class Integrate(Struct, frozen=True, tag="integrate"):
 
 
 class Event(Struct, frozen=True):
-    """The input of a person after so many frames, one or more."""
+    """An input of a person, after `frame` frames, at least one."""
 
     frame: int
     kind: Literal["click", "key"]
@@ -473,7 +475,7 @@ class Answered(Struct, frozen=True):
 
 
 class Limits(Struct, frozen=True):
-    cpu_seconds: int = 10
+    cpu_seconds: int
     memory_mb: int = 1024
     file_mb: int = 16  # each
     scratch_mb: int = 64  # all files together
@@ -501,7 +503,7 @@ class Ready(Struct, frozen=True):
 
 
 class Open(Struct, frozen=True, tag="open"):
-    """Fork a child; its end of the channel follows as a file descriptor."""
+    """Fork a child; the file descriptor of its channel follows."""
 
     setup: ChildSetup
 
@@ -549,13 +551,10 @@ def packed(message: object) -> bytes:
 
 
 class Channel:
-    """Framed messages over a connected socket.
+    """Send and receive framed messages over a connected socket.
 
-    An eager one reads as much as there is; one over which file descriptors travel must not.
-
-    `send` and `receive` wait for the other side: a long message is sent only as fast as it is read
-    there, and half a message may be all that comes. Who must not be held up by it uses `post`,
-    `gone` and `complete`.
+    `eager` reads ahead; leave it off where file descriptors travel. `send` and `receive` block;
+    `post`, `gone` and `complete` do not wait longer than told.
     """
 
     def __init__(self, sock: socket.socket, eager: bool = True) -> None:
@@ -575,7 +574,7 @@ class Channel:
         self.behind = packed(message)
 
     def gone(self, seconds: float) -> bool:
-        """Send what was posted, for so many seconds at most; whether all of it is sent."""
+        """Send what was posted, for `seconds` at most; return whether all of it is sent."""
         deadline = time.monotonic() + seconds
         try:
             while self.behind:
@@ -590,9 +589,9 @@ class Channel:
         return True
 
     def complete(self, seconds: float | None = None) -> bool:
-        """Return whether all of a message is there, at the latest after so many seconds.
+        """Return whether all of a message is there, after `seconds` at the latest.
 
-        Of one that is too long nothing more is waited for: `receive` refuses it.
+        Stop waiting once it is too long: `receive` refuses it.
         """
         deadline = None if seconds is None else time.monotonic() + seconds
         while (missing := self._end - len(self.ahead)) > 0:
@@ -623,7 +622,7 @@ class Channel:
         return body
 
     def wait(self, seconds: float) -> bool:
-        """Return whether something is there to be read, at the latest after so many seconds.
+        """Return whether there is something to read, after `seconds` at the latest.
 
         For eager channels only: what is there is taken in at once.
         """
@@ -633,7 +632,7 @@ class Channel:
         self.sock.close()
 
     def _take(self, most: int, seconds: float | None) -> bool:
-        """Take in what is there; whether anything came within so many seconds."""
+        """Take in what is there; return whether anything came within `seconds`."""
         if seconds is not None and not select.select([self.sock], [], [], seconds)[0]:
             return False
         try:

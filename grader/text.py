@@ -11,9 +11,7 @@ MAX_WORDS = 400  # characters of a submission in one line
 
 
 def harmless(words: str) -> str:
-    """Return words without control and direction characters: whoever reads a result may just show
-    it.
-    """
+    """Return words without control and direction characters, so that they are safe to show."""
     return words.translate(HARMLESS)
 
 

@@ -51,12 +51,12 @@ def rk4(x, v, dt, accel):
 
 
 def spring(x):
-    """Acceleration (px/s²) of a spring that pulls back to x = 0."""
+    """Return the acceleration (px/s²) of a spring that pulls back to x = 0."""
     return -(OMEGA**2) * x
 
 
 def energy(x, v):
-    """Energy per unit of mass (px²/s²) of the spring's body."""
+    """Return the energy per unit of mass (px²/s²) of the spring's body."""
     return 0.5 * v**2 + 0.5 * OMEGA**2 * x**2
 
 

@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.members import Entry, Member
-from grader.bank.slips import SCOPES, make_slips
+from grader.bank.slips import SCOPES, Scope, make_slips
 from grader.bank.verify import run_in_processes, shared_worker
 from grader.judge import misconceptions
 from grader.judge.grade import KIT, Options, grading, shipped_reference
@@ -34,7 +34,7 @@ from grader.source.definitions import function_named, statements
 from grader.source.operators import make_changes, names_in, normalize
 from grader.source.regions import Region, python_files, read_source, regions_in
 
-CPU_SECONDS = 2  # budget of a mutant's child: many never end, and the solution needs a quarter
+MUTANT_CPU_SECONDS = 2  # budget of a child: many never end, and the solution needs a quarter
 OTHER_SEEDS = (7919, 104729)  # a name must hold for the questions of these as well
 
 # ---------------------------------------------------------------- making them
@@ -74,7 +74,7 @@ def mutate(todo: str) -> Iterator[Mutant]:
     assert function is not None
     parameters = frozenset(each.arg for each in function.args.args)
     scope = msgspec.structs.replace(
-        SCOPES[todo], parameters=parameters, unfinished=code_of(unfinished)
+        SCOPES.get(todo, Scope()), parameters=parameters, unfinished=code_of(unfinished)
     )
     code = code_of(region)
     operators: dict[str, str] = {}
@@ -244,7 +244,9 @@ def grade_quickly(
 @cache
 def load_quick_rubric() -> Rubric:
     replace, todos = msgspec.structs.replace, load_rubric().todos
-    quick = [[replace(each, cpu_seconds=CPU_SECONDS) for each in todo.checks] for todo in todos]
+    quick = [
+        [replace(each, cpu_seconds=MUTANT_CPU_SECONDS) for each in todo.checks] for todo in todos
+    ]
     return Rubric([replace(todo, checks=checks) for todo, checks in zip(todos, quick, strict=True)])
 
 

@@ -16,7 +16,7 @@ from grader.source.regions import regions_in, replaced
 
 LAID_IN = {"accuracy.py", "experiments", "stable_engine"}
 SKIPPED = {
-    "notebooks",  # the starter's are made by nbgrader: see classroom/nbgrader/notebooks.py
+    "notebooks",  # the starter's are made by nbgrader: see release/nbgrader_notebooks.py
     "build",
     "__pycache__",
     ".ipynb_checkpoints",
@@ -40,7 +40,7 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
         for name in list_given_files(solution)
         if not is_laid_in(name)
     }
-    lines = []
+    lines = mark_check_folders(write)
     for name, content in wanted.items():
         if renew(starter / name, content, write):
             differs = f"{name} differs from the solution outside its TODO regions"
@@ -63,6 +63,19 @@ def sync(solution: Path, starter: Path, write: bool) -> list[str]:
             differs = f"{name}.json, by which the checks know the starter, is not up to date"
             lines.append(f"renewed {name}.json for the checks" if write else differs)
             lines += list_new_todos(before, sources) if write and name == "stubs" else []
+    return lines
+
+
+def mark_check_folders(write: bool) -> list[str]:
+    """Make each folder of checks a package; return a line for each that was none."""
+    lines = []
+    for folder in dict.fromkeys(todo.folder for todo in load_rubric().todos):
+        path = CHECKS / folder / "__init__.py"
+        titles = [todo.title for todo in load_rubric().todos if todo.folder == folder]
+        if not path.exists():
+            renew(path, f'"""Checks: {"; ".join(titles)}."""\n'.encode(), write)
+            name = f"grader/checks/{folder}/__init__.py"
+            lines.append(f"made {name}" if write else f"there is no {name}")
     return lines
 
 

@@ -63,7 +63,7 @@ def measure_all(
 
 
 def run_grader(*arguments: str, tree: Path = KIT, cores: int = 0) -> float:
-    """Run a command of the grader, on so many cores; return the seconds it took."""
+    """Run a command of the grader on `cores` cores; return the seconds it took."""
     start = perf_counter()
     process = psutil.Popen([*GRADER, *arguments], cwd=tree, stdout=subprocess.DEVNULL)
     if cores and hasattr(process, "cpu_affinity"):  # macOS has no such thing
@@ -73,7 +73,7 @@ def run_grader(*arguments: str, tree: Path = KIT, cores: int = 0) -> float:
 
 
 def grade_class(folder: Path, cores: int) -> float:
-    """Grade a class on so many cores; return the seconds that each submission took."""
+    """Grade a class on `cores` cores; return the seconds that each submission took."""
     out = mkdtemp(dir=folder.parent)  # in a new folder all are graded again
     class_ = ["--class", str(folder), "--jobs", str(cores), "--out", out]
     return run_grader("grade", *class_, cores=cores) / len(list(folder.iterdir()))

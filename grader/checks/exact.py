@@ -71,6 +71,7 @@ def ways_out(disc: Disc, rect: Rect) -> list[Touch]:
     ]
 
 
+MAX_STEPS = 8  # in a frame
 STEP_SIZES = [1 / 30, 1 / 60, 1 / 120, 1 / 240, 1 / 480]  # s
 # What properties ask about damping: rates per second, and steps in s.
 RATES = [0.001, 0.05, 0.0625, *(number / 8 for number in range(25)), *map(float, range(4, 21))]

@@ -8,11 +8,11 @@ import math
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
+from grader.checks.exact import MAX_STEPS
 from grader.judge.lab import STEP, Lab, Thing
 from grader.protocol import RUNAWAY, Played
 
 STEP_MS = 1000 * STEP
-MAX_STEPS = 8
 ROUNDING = 1e-6  # ms
 TINY = 1e-5  # s: who counts in microseconds is right, and who keeps clear of rounding
 DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds
@@ -25,7 +25,7 @@ LONGEST_UNCUT, LONGEST_WAIT = 66, 50  # ms: below the cap of 66.7, and with room
 
 
 def frames_at(rate: int, seconds: float) -> list[int]:
-    """Return the frames of so many seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
+    """Return the frames of these seconds at a frame rate, such as 7, 7, 7, 7, 7, 7, 7, 7, 7, 6
     ms.
     """
     ends = [round(1000 * number / rate) for number in range(round(rate * seconds) + 1)]
@@ -71,7 +71,7 @@ class Pace:
         """Return the first frame when more is simulated than has passed, or over a step less, or
         None.
 
-        Only so many `frames` count, where a number is given.
+        With `frames`, only that many count.
         """
         done = list(accumulate(self.steps[:frames]))
         ends = [0.0, *accumulate(self.lengths[:frames])]
@@ -86,11 +86,11 @@ class Pace:
 def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
     """Play the program with these frames and count its steps without running them.
 
-    Each step takes so many ms of the frame, as on a slow computer.
+    Each step takes `step_ms` of its frame, as on a slow computer.
 
-    One that waits by itself makes short frames as long as it likes: who always waits for as many
-    steps as always run has no need of an accumulator. So it is asked once more, with longer frames
-    that its waiting does not fill.
+    A program that waits makes short frames as long as it likes. If it always waits for the same
+    number of steps, it needs no accumulator. So it is run again with frames that are longer than
+    its wait.
     """
     paced, waits = played_at(lab, frames, step_ms)
     if not waits:
@@ -111,7 +111,7 @@ def pace(lab: Lab, frames: list[int], step_ms: float = 0.0) -> Pace:
 
 
 def beyond(waits: float, frame: int) -> int:
-    """Return the length of a frame, ms, for a program that waits for so long by itself.
+    """Return the length of a frame (ms) for a program that itself waits this long.
 
     Frames stay below the cap that were below it, and of two the longer one is longer.
     """
@@ -216,7 +216,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
 
 
 def want_a_proper_end(lab: Lab, played: Played, frames: int) -> None:
-    """The program must run until its window is closed after so many frames, and no longer."""
+    """Demand that the program runs until its window is closed after `frames`, and no longer."""
     lab.want(
         played.ended != "runaway",
         "a few steps in each frame",

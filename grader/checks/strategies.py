@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from grader.checks.exact import (
     DAMPED_STEPS,
+    MAX_STEPS,
     RATES,
     STEP_SIZES,
     Disc,
@@ -13,8 +14,6 @@ from grader.checks.exact import (
 )
 from grader.judge.drawing import between
 from grader.judge.lab import STEP
-
-MAX_STEPS = 8  # in a frame
 
 
 def eighths(number: int) -> float:

@@ -1,4 +1,4 @@
-"""*Expected* and *Got* in so many digits that they look different."""
+"""Write *Expected* and *Got* with enough digits to look different."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -7,7 +7,7 @@ from typing import TypeVar
 from grader.judge.lab import Lab
 from grader.judge.numbers import without_minus_zero
 
-MAX_DIGITS = 17  # what a float has
+FLOAT_DIGITS = 17  # what a float has
 Answer = TypeVar("Answer")
 
 
@@ -37,7 +37,7 @@ def told_apart(
     differ.
     """
     told = without_minus_zero(say(right, digits)), without_minus_zero(say(got, digits))
-    if told[0] == told[1] and digits < MAX_DIGITS:
+    if told[0] == told[1] and digits < FLOAT_DIGITS:
         return told_apart(say, right, got, digits + 1)
     return told
 

@@ -52,7 +52,7 @@ class Outcome(Struct, frozen=True):
 
     @property
     def group_in_words(self) -> str:
-        """The group in words; empty for somebody who worked alone."""
+        """Return the group in words; empty for a student who worked alone."""
         by = f", handed in by {self.handed_in_by}" if self.handed_in_by else ""
         return f"group with {' and '.join(self.group)}{by}" if self.group else ""
 

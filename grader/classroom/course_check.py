@@ -1,7 +1,7 @@
 """Find problems before grading: of a class list, decisions and submissions.
 
 Everything is read as grading reads it, and nothing is written. Each problem is for a person to
-solve, in the file or with the students; what grading handles by itself is not mentioned.
+solve, in the file or with the students; what grading handles without help is not mentioned.
 """
 
 from collections import Counter

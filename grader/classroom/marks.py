@@ -116,7 +116,7 @@ class Scores:
 
     @property
     def absent(self) -> list[str]:
-        """Those who have points and handed in nothing."""
+        """Return the students who have points and handed in nothing."""
         by_name = self.parts.items()
         return [name for name, parts in by_name if not any(p.handed_in for p in parts.values())]
 

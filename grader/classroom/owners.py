@@ -70,7 +70,7 @@ def look_up(index: dict[str, list[Row]], labels: Iterable[str]) -> list[Row]:
 
 
 def share_results(roster: Roster, owners: Owners, absent: set[str]) -> None:
-    """Give members of a group who handed in nothing the result of the one who did."""
+    """Give the group's result to its members who handed in nothing."""
     for rows in roster.list_groups().values():
         handed_in = [name for row in rows for name in owners.find_results(row)]
         handed_in = [name for name in handed_in if name not in absent]

@@ -6,7 +6,7 @@ of the grader, `check` included.
 
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import msgspec
 import typer
@@ -42,7 +42,7 @@ Key = Annotated[str, typer.Option(help="Its column that names students as their 
 Gradebook = Annotated[
     Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")
 ]
-Recipient = Literal["moodle", "canvas", "brightspace", "email", "nbgrader"]
+OTHER_RECIPIENTS = ("email", "nbgrader")  # beside the learning systems
 
 
 @course_app.command("course")
@@ -255,7 +255,7 @@ def alike_command(
 def feedback_command(
     results: ResultsFolder,
     for_: Annotated[
-        Recipient, typer.Option("--for", help="Who takes it: the LMS, mail, or nbgrader.")
+        str, typer.Option("--for", help="Who takes it: the LMS by its name, email, or nbgrader.")
     ],
     submissions: Annotated[
         Path | None, typer.Option(help="The class as it was graded; for an LMS.")
@@ -274,6 +274,10 @@ def feedback_command(
     from grader.intake.systems import BY_NAME, find_file, read_class_list, read_roster
     from grader.report.files import write_whole
 
+    systems = [name for name, system in BY_NAME.items() if system.takes_feedback]
+    if for_ not in (*systems, *OTHER_RECIPIENTS):
+        known = ", ".join((*systems, *OTHER_RECIPIENTS))
+        raise typer.BadParameter(f"{for_!r} is not one of {known}", param_hint="--for")
     taken = read_course(course)
     entries = read_class(results)
     write_dashboard(results, entries, taken)
@@ -296,7 +300,7 @@ def feedback_command(
             made = feedback.answer_export(BY_NAME[for_], intake, graded, people)
         target = results.with_name(f"{results.name}-{for_}.zip")
     target = out or target
-    if for_ in ("email", "nbgrader"):
+    if for_ in OTHER_RECIPIENTS:
         for file, content in made.files.items():
             write_whole(content, target / file)
     else:

@@ -4,13 +4,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from grader.errors import Stop
+from grader.judge.failures import MOST_NAMES
 from grader.judge.result import Result
 from grader.judge.submission import load_given
 from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
 from grader.source.regions import RegionError, read_source
-
-MOST_NAMES = 3  # on one line
 
 
 def find_changes(tree: Path) -> list[Changed]:

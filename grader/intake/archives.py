@@ -27,7 +27,7 @@ MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
 SPARED = 100  # files of a submission's allowance that only the lab's own are given
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
-PATIENCE = 4 * repack.SECONDS  # s on the clock: the last resort where nothing else ends it
+SECONDS_TO_REPACK = 4 * repack.SECONDS  # s on the clock: the last resort where nothing else ends it
 
 
 @dataclass
@@ -110,7 +110,11 @@ def repack_as_zip(path: Path, target: Path) -> list[str]:
     script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
     try:
         done = subprocess.run(
-            script, capture_output=True, encoding="utf-8", errors="replace", timeout=PATIENCE
+            script,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=SECONDS_TO_REPACK,
         )
     except subprocess.TimeoutExpired as error:
         raise CannotTake("the archive takes too long to unpack") from error

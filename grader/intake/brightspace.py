@@ -20,6 +20,7 @@ END_OF_LINE = "End-of-Line Indicator"  # the last column, a # in each row
 class Brightspace(Lms):
     name = "brightspace"
     only_commas = True
+    takes_feedback = True
     side_files = frozenset({"index.html"})  # a list of all that was handed in
 
     def match(self, path: Path) -> re.Match[str] | None:

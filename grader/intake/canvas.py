@@ -25,6 +25,7 @@ class Canvas(Lms):
     name = "canvas"
     title_sign = "("
     names_alone = False
+    takes_feedback = True
 
     def match(self, path: Path) -> re.Match[str] | None:
         if path.is_dir():

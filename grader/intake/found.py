@@ -30,7 +30,7 @@ class Found:
 
     @property
     def team(self) -> tuple[str, ...]:
-        """Words that only those have in common who handed in together."""
+        """Return words that are the same for those who handed in together, and for no others."""
         if self.group:
             return str(self.sources[0].parent), *sorted({self.name, *self.group})
         return tuple(str(each) for each in self.sources)
@@ -44,7 +44,7 @@ class Intake:
 
     @property
     def names(self) -> list[str]:
-        """Everybody who handed in, also what cannot be graded."""
+        """Return everybody who handed in, also those whose work cannot be graded."""
         return [*(each.name for each in self.found), *self.troubles]
 
 
@@ -72,7 +72,7 @@ class Package(Struct, frozen=True):
 
     @property
     def digest(self) -> str:
-        """A hash of the files alone, whoever handed them in."""
+        """Return a hash of the files, without the name of their student."""
         return hashlib.sha256(msgspec.msgpack.encode(self.files)).hexdigest()
 
     def unpack(self, folder: Path) -> Path:

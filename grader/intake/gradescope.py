@@ -64,7 +64,7 @@ class Gradescope(Lms):
         return self.is_export(folder) and bool(re.fullmatch(r"assignment_\d+_export", folder.name))
 
     def read_export(self, folder: Path, people: ClassList, intake: Intake) -> Iterator[Found]:
-        """Return the submissions of an export: one for each of those who handed in together."""
+        """Return the submissions of an export: one for each student, also of a group."""
         for place, entry in read_metadata(folder).items():
             path = folder / make_portable(place)
             names = [person.find_name(people) for person in entry.submitters]

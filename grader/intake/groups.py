@@ -9,7 +9,7 @@ from grader.intake.roster import ClassList
 
 
 def share_work(intake: Intake, people: ClassList, hash_files: Callable[[Found], str]) -> None:
-    """Enter members of a group who handed in nothing, each with the work of the group.
+    """Enter the work of a group for its members who handed in nothing.
 
     Where the group handed in different work, by `hash_files`, a person must say which is theirs.
     """

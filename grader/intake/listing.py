@@ -187,7 +187,7 @@ def tell_apart(names: list[str]) -> list[str]:
 
 
 def hash_files(each: Found) -> str:
-    """Return a hash of what a submission holds, or why it cannot be read."""
+    """Return a hash of a submission's files, or why it cannot be read."""
     try:
         return pack(each).digest
     except CannotTake as error:
@@ -198,10 +198,10 @@ def hash_files(each: Found) -> str:
 
 
 def find_class(folder: Path) -> list[str]:
-    """Return the submissions in a folder that is none itself; empty where it may well be one.
+    """Return the submissions in a folder of a class; empty if the folder may be one submission.
 
-    One submission may lie deeper in, or a folder for each of its programs. So there is a class only
-    where none of the programs is in the folder itself, and one is in two or more of what it holds.
+    A submission may lie deeper in, or have a folder for each program. So it is a class only if the
+    folder itself has none of the programs, and two or more of its entries have one.
     """
     try:
         found = [] if has_program(folder) else list_class(folder, ClassList()).found

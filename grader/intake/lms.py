@@ -41,12 +41,16 @@ class Page:
 
 
 class Lms:
-    """A learning system; this one is any other, whose gradebook asks which column is which."""
+    """A learning system; this one is any other, whose gradebook asks which column is which.
+
+    A new system overrides what it does otherwise, and is entered in `systems.py`.
+    """
 
     name = "plain"
     title_sign = ""  # what follows an assignment's title in a column of the gradebook
     only_commas = False  # it takes back UTF-8 with commas alone
     names_alone = True  # its export identifies students by nothing but their names
+    takes_feedback = False  # its name_pages has a form in which feedback goes back in bulk
     side_files: frozenset[str] = frozenset()  # what its export holds besides submissions
 
     # -------------------------------------------------------- what it exports
@@ -86,7 +90,10 @@ class Lms:
         return True
 
     def translate(self, titles: list[str]) -> list[str]:
-        """Return the titles of columns as this system has them in English."""
+        """Return the titles of columns in English, and those of `roster.KEYS` and SUBMITTED.
+
+        So each way to name a student, or a time, needs no other place that knows it.
+        """
         return titles
 
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:

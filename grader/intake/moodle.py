@@ -29,6 +29,7 @@ class Moodle(Lms):
     name = "moodle"
     only_commas = True
     names_alone = False
+    takes_feedback = True
 
     def match(self, path: Path) -> re.Match[str] | None:
         return NAME.fullmatch(path.name)

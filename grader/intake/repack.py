@@ -22,9 +22,9 @@ try:
 except ImportError:  # Windows: the time that the parent waits is the only limit
     resource = None  # type: ignore[assignment]
 
-MAX_FILE = 20 * 1024**2  # bytes: no submission may have more in all
-MAX_BYTES = 200 * 1024**2  # of one archive, unpacked
-MAX_FILES = 200_000
+MAX_CONTENT = 20 * 1024**2  # bytes of one file: no submission may have more in all
+MAX_UNPACKED = 200 * 1024**2  # of one archive, unpacked
+MAX_MEMBERS = 200_000
 MEMORY = 2 * 1024**3  # bytes
 SECONDS = 60  # of the processor
 PEEK = 8  # bytes that tell a format
@@ -50,7 +50,7 @@ def main(source: str, target: str) -> int:
                     say(name)
                     continue
                 size += len(content)
-                if count >= MAX_FILES or size > MAX_BYTES:
+                if count >= MAX_MEMBERS or size > MAX_UNPACKED:
                     raise Refused("the archive holds too much: ask for the program alone")
                 out.writestr(zipfile.ZipInfo(name), content)
     except Refused as refusal:
@@ -75,7 +75,7 @@ def set_limits() -> None:
         wanted = (
             (resource.RLIMIT_AS, MEMORY),
             (resource.RLIMIT_CPU, SECONDS),
-            (resource.RLIMIT_FSIZE, 2 * MAX_BYTES),
+            (resource.RLIMIT_FSIZE, 2 * MAX_UNPACKED),
         )
         for kind, most in wanted:
             hard = resource.getrlimit(kind)[1]
@@ -103,7 +103,7 @@ def read_tar(source: str) -> Files:
         return
     with tarfile.open(source) as archive:
         for member in archive:
-            if member.isreg() and member.size > MAX_FILE:
+            if member.isreg() and member.size > MAX_CONTENT:
                 yield member.name, None
             elif member.isreg() and (content := archive.extractfile(member)) is not None:
                 yield member.name, content.read()
@@ -118,9 +118,9 @@ def read_single(source: str) -> tuple[str, bytes | None]:
     if opened is None:
         raise Refused("the archive is broken, or of no kind that is read here: ask for a zip")
     with opened(source) as file:
-        content = file.read(MAX_FILE + 1)
+        content = file.read(MAX_CONTENT + 1)
     name = Path(source).name.removeprefix(".")
-    return Path(name).stem, None if len(content) > MAX_FILE else content
+    return Path(name).stem, None if len(content) > MAX_CONTENT else content
 
 
 def read_7z(source: str) -> Files:
@@ -129,12 +129,12 @@ def read_7z(source: str) -> Files:
         with py7zr.SevenZipFile(source) as archive:
             plain = [each for each in archive.list() if each.is_file and not each.is_symlink]
             for each in plain:
-                if each.uncompressed > MAX_FILE:
+                if each.uncompressed > MAX_CONTENT:
                     yield each.filename, None
-            wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_FILE}
-            if sum(wanted.values()) > MAX_BYTES or len(wanted) > MAX_FILES:
+            wanted = {e.filename: e.uncompressed for e in plain if e.uncompressed <= MAX_CONTENT}
+            if sum(wanted.values()) > MAX_UNPACKED or len(wanted) > MAX_MEMBERS:
                 raise Refused("the archive holds too much: ask for the program alone")
-            factory = py7zr.io.BytesIOFactory(MAX_FILE + 1)
+            factory = py7zr.io.BytesIOFactory(MAX_CONTENT + 1)
             archive.extract(targets=list(wanted), factory=factory)
     except py7zr.exceptions.PasswordRequired as error:
         raise Refused("the archive is encrypted: ask for one without a password") from error
@@ -158,8 +158,8 @@ def read_rar(source: str) -> Files:
         raise
     except rarfile.NeedFirstVolume as error:
         raise Refused(PART) from error
-    yield from ((each.filename, None) for each in plain if each.file_size > MAX_FILE)
-    wanted = [each.filename for each in plain if each.file_size <= MAX_FILE]
+    yield from ((each.filename, None) for each in plain if each.file_size > MAX_CONTENT)
+    wanted = [each.filename for each in plain if each.file_size <= MAX_CONTENT]
     tools, failed = find_unpackers(rarfile), []
     for name in tools or ["no tool"]:
         rarfile.CURRENT_SETUP = tools.get(name)

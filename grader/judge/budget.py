@@ -1,8 +1,8 @@
-"""Limit what a submission may use up over all of its checks, so that it holds nobody up.
+"""Limit the time that a submission may use in all of its checks, so that it delays nobody.
 
 One question is bounded, and so is a child. Thousands of questions would not be: a program may rest
 before each answer, or run in circles in every check. So seconds are added up, by TODO and in all.
-Who has used up much has little for each check that is left, and who goes on like that has none.
+The budget left for each check shrinks as a submission spends it, down to none.
 
 Seconds are those of a processor that worked for the submission, and those in which it could have
 worked and rested. How long it waits for a processor that others use counts for neither. Added up is
@@ -13,10 +13,9 @@ from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from grader.judge.children import Child
+from grader.judge.children import REST_SECONDS, Child
 from grader.judge.connection import Connection
 
-REST = 8.0  # s, in one check
 TODO_CPU, SUBMISSION_CPU = 10.0, 40.0  # s; then each check has little
 TODO_REST, SUBMISSION_REST = 8.0, 16.0  # s
 LITTLE_CPU, LITTLE_REST = 1, 0.25  # s; most checks need a tenth of this
@@ -53,14 +52,14 @@ class Budget:
         self.words_rest += after.words_rest - before.words_rest
 
     def cpu_for(self, todo: str, usual: int) -> int:
-        """Processor seconds for a process of a check that would have so many as usual."""
+        """Return the processor seconds for a process of a check that usually has `usual`."""
         much = self.cpu[todo] >= TODO_CPU or sum(self.cpu.values()) >= SUBMISSION_CPU
         return min(usual, LITTLE_CPU) if much else usual
 
     def rest_for(self, todo: str) -> float:
-        """Seconds for which a process of a check may rest."""
+        """Return the seconds for which a process of a check may rest."""
         much = self.rest[todo] >= TODO_REST or sum(self.rest.values()) >= SUBMISSION_REST
-        return LITTLE_REST if much else REST
+        return LITTLE_REST if much else REST_SECONDS
 
     def charge(self, todo: str, connection: Connection) -> None:
         self.cpu[todo] += connection.cpu

@@ -192,7 +192,7 @@ class Child:
             self._give_up("the child was ended", gone=False)
 
     def finish(self) -> None:
-        """Let it end by itself, as far as its time goes: for one that nothing is asked."""
+        """Wait for a child that is asked nothing, as long as its time lasts."""
         with suppress(ChannelClosed, ChannelTimeout, *NOT_A_MESSAGE):
             self.channel.receive(self.wall_seconds)
         self.end()

@@ -7,6 +7,7 @@ from typing import NoReturn
 from grader.judge.children import Child, ChildEnded
 from grader.judge.failures import Broke, NotYet
 from grader.protocol import (
+    MAX_OUTPUT,
     Answered,
     Import,
     Missing,
@@ -19,8 +20,6 @@ from grader.protocol import (
     Simulated,
     WithMoments,
 )
-
-MAX_OUTPUT = 65536  # characters kept of what a submission prints during one check
 
 Answer = Returned | Simulated | Played | WithMoments
 Send = Callable[[Child, Request], Answered]

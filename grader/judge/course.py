@@ -36,7 +36,7 @@ Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
 
 
 class WrongCourse(Stop):
-    """A course cannot be as its file says; the message names the file and what to write."""
+    """Raised if a course file is invalid; names the file and what to write."""
 
 
 class Late(Struct, frozen=True, forbid_unknown_fields=True):
@@ -51,7 +51,7 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:
-        """Return the points that so many days take off; a begun point of a share is kept."""
+        """Return the points that `days` late days take off; a begun point of a share is kept."""
         if isinstance(self.per_day, str):
             share = min(days * int(self.per_day.removesuffix("%")), 100)
             return min(points * share // 100, self.at_most)
@@ -172,7 +172,7 @@ def asking(whole: Todo, programs: set[str], todos: frozenset[str]) -> list[Check
 
 
 def with_points(todo: Todo, points: int) -> Todo:
-    """Return the TODO worth so many points, its checks in the proportion that they had."""
+    """Return the TODO with these points in all, spread over its checks in their proportion."""
     shares = spread(points, [check.points for check in todo.checks])
     pairs = zip(todo.checks, shares, strict=True)
     return structs.replace(todo, checks=[structs.replace(c, points=p) for c, p in pairs])

@@ -233,7 +233,7 @@ class Diagnosis:
     def choose(
         self, fit: list[tuple[Mistake, frozenset[str]]], numbers: list[int]
     ) -> tuple[Mistake, frozenset[str]] | None:
-        """Choose the mistake that changes most; of several alike, the one that fits all.
+        """Choose the mistake that changes most; among equals, the one that fits all answers.
 
         Where still several do, none of what they change is told of by another one.
         """

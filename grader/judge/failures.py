@@ -10,7 +10,7 @@ REMEMBERS = (
     "Asked alone, by a program that has just started, this comes out otherwise: it hangs on "
     "earlier calls, or on chance. The answer must follow from what is given to this call alone."
 )
-MOST_NAMES = 3
+MOST_NAMES = 3  # in one sentence
 KEPT = (
     "Something is kept from call to call in {names}: an answer that hangs on it is another one "
     "each time."

@@ -333,7 +333,7 @@ class Grading:
         return unusable
 
     def result(self, loop: "CheckLoop") -> Result:
-        """Return the marks, and the words of what failed."""
+        """Return the marks, and the reasons of the checks that failed."""
         checks = {
             todo.id: count_guards(todo, self.without_others_mistakes(todo, loop))
             for todo in filter(self.options.wants, self.rubric.todos)

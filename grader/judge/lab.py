@@ -173,7 +173,7 @@ class Lab(Decoder):
         return self._framed(method, request, changes).value
 
     def _framed(self, name: str, request: Call | Integrate, changes: Frame | None) -> Returned:
-        """Return the answer; what was overstepped is kept for the end of the check."""
+        """Ask and return the answer; remember a forbidden change until the check ends."""
         returned = self._returned(request)
         if changes is not None and self.overstepped is None:
             beyond = [
@@ -480,7 +480,7 @@ def starts_at_once(played: Played) -> bool:
 
 
 def with_lead(request: Play, lead: int, event: Event | None) -> Play:
-    """Return the request with so many frames before all others, and an event in them."""
+    """Return the request with `lead` frames before all others, and an event in them."""
     later = [msgspec.structs.replace(each, frame=each.frame + lead) for each in request.events]
     return msgspec.structs.replace(
         request,
@@ -491,7 +491,7 @@ def with_lead(request: Play, lead: int, event: Event | None) -> Play:
 
 
 def without_lead(played: Played, lead: int) -> Played:
-    """Return what a program did after so many frames, as if it had begun then."""
+    """Return what a program did after its first `lead` frames, as if it had begun then."""
     if len(played.steps) <= lead:
         return played
     return msgspec.structs.replace(
@@ -544,9 +544,7 @@ class Moment:
 
 
 def same(first: Value, second: Value) -> bool:
-    """Return whether two answers are the same but for who they are: each call makes its own
-    contact.
-    """
+    """Return whether two answers are equal but for identity: each call makes a new contact."""
     if isinstance(first, ContactValue) and isinstance(second, ContactValue):
         return msgspec.structs.replace(first, ref=second.ref) == second
     if isinstance(first, Ref) and isinstance(second, Ref):

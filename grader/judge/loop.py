@@ -227,9 +227,9 @@ class CheckLoop:
     # ------------------------------------------------------------ one check
 
     def _program_key(self, todo: Todo) -> str:
-        """Return the key of the program that the checks of a TODO run; see PassedPrograms.
+        """Return a key of the program that a TODO's checks run; see PassedPrograms.
 
-        Empty where nothing is to be remembered: of files too long to look into nothing is known.
+        Empty if nothing may be remembered or a file was too long to read.
         """
         if self.passed is None or self.submission.unread:
             return ""
@@ -439,9 +439,9 @@ class CheckLoop:
         return next((by_name[name] for name in names if name in by_name), "")
 
     def _replaceable(self) -> frozenset[str]:
-        """Return the TODOs of which the whole runs with right versions: those that have failed.
+        """Return the TODOs that have failed: the whole runs with right versions of them.
 
-        Not where all that was begun has failed: such a program shows nothing by itself.
+        Return none if all that was begun has failed: such a program shows nothing of its own.
         """
         failed = {id for (id, _), result in self.results.items() if result.state != "passed"}
         begun = [todo.id for todo in self.rubric.counted if self.submission.begun.get(todo.id)]

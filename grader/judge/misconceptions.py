@@ -132,7 +132,7 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
 
 
 def simplest(ids: Collection[str]) -> list[str]:
-    """Drop the ids of two mistakes, `one+other`, one of which is there by itself."""
+    """Drop the ids of two mistakes, `one+other`, one of which is there alone."""
     return [each for each in ids if "+" not in each or not set(each.split("+")) & set(ids)]
 
 

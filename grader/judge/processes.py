@@ -8,7 +8,7 @@ import time
 from multiprocessing.process import BaseProcess
 from typing import NoReturn
 
-PATIENCE = 5  # s that a process has to put away what it grades
+SECONDS_TO_END = 5  # s that a process has to put away what it grades
 
 
 def count_cores() -> int:
@@ -21,7 +21,7 @@ def end_all(processes: list[BaseProcess]) -> None:
     """End them when they have put away what they grade; those that do not are killed."""
     for process in processes:
         process.terminate()
-    until = time.monotonic() + PATIENCE
+    until = time.monotonic() + SECONDS_TO_END
     for process in processes:
         process.join(max(0.0, until - time.monotonic()))
         process.kill()

@@ -12,7 +12,7 @@ State = Literal["passed", "not yet", "not started", "waiting", "error"]
 Kind = Literal["unit", "property", "scene"]
 
 MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
-MAX_WORDS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
+TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
 TEXTS = ("ran", "expected", "got", "meaning")
 MAX_FILE = 255  # characters of a file's name that are told
 
@@ -47,8 +47,8 @@ class CheckResult(Struct, frozen=True):
         return self.state in FAILED
 
 
-def in_bounds(check: CheckResult, most: int = MAX_WORDS[0]) -> CheckResult:
-    """Return a check with so many characters in each of its texts at most: some quote a submission.
+def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
+    """Return a check with its texts cut to their greatest length: some quote a submission.
 
     None of them is one that a screen or a terminal obeys, but for the ends of lines.
     """
@@ -112,7 +112,7 @@ class Result(Struct, frozen=True):
 
     def in_bounds(self) -> "Result":
         """Return the result with texts so short that its JSON has at most MAX_JSON bytes."""
-        for most in MAX_WORDS:
+        for most in TEXT_LENGTHS:
             todos = [
                 structs.replace(todo, checks=[in_bounds(each, most) for each in todo.checks])
                 for todo in self.todos

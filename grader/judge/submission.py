@@ -234,7 +234,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
 
 
 def mend_programs(submission: Submission, texts: dict[Path, str]) -> Program:
-    """Put something else in the place of what Python refuses in the files that its programs load.
+    """Replace what Python refuses in the files that the programs load.
 
     Changes `texts` and the copy, and notes whose code was replaced.
     """

@@ -1,6 +1,7 @@
-"""Word reports: states, reasons, points, numbers, and a submission's own words made safe.
+"""Word reports: reasons, points, and the commands to type, alike in every form of a report.
 
-The terminal, pages, tables, exports and replays all take it from here, so that they say the same.
+What they have in common is here: the sentences of a check are in its TODO's folder, and those about
+a submission's files in `meaning.py`, `loop.py` and `submission.py`.
 """
 
 import os
@@ -21,9 +22,6 @@ MEANINGS: dict[State, str] = {
     "error": "the code raised an error, or gave no answer",
 }
 NAMES = 10  # columns up to the words of *Got* and the like
-
-
-# ---------------------------------------------------------------- a submission's own words
 
 
 # ---------------------------------------------------------------- why a check failed

@@ -14,7 +14,7 @@ from grader.player.runs import Replay
 from grader.text import printable
 
 TEMPLATES = Path(__file__).with_name("templates")
-MAX_WORDS = 1000  # characters of a submission in one line: a page has more room than a terminal
+MAX_WORDS_ON_A_PAGE = 1000  # characters of a submission in one line: more than in a terminal
 
 
 def make_page(title: str, words: Sequence[tuple[str, str]], replay: Replay, script: str) -> str:
@@ -86,4 +86,4 @@ def encode_data(value: object) -> Markup:
 
 def clean_line(text: str) -> str:
     """Return a submission's words without line breaks, control and direction characters."""
-    return printable(text)[:MAX_WORDS]
+    return printable(text)[:MAX_WORDS_ON_A_PAGE]

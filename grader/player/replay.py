@@ -26,7 +26,7 @@ from grader.player.runs import Run
 from grader.player.script import find_parting_step, renumber, write_script
 
 MAX_CHARACTERS, MAX_TOGETHER = 3_000_000, 20_000_000  # of a page, and of all; usual are 30,000
-MAX_DEATHS = 3  # of children, after which no more replays are made of a submission
+MAX_DEATHS = 3  # of children, after which no more runs of a submission are recorded
 RECORDED = CHECKS / "expected_runs.json"
 
 ExpectedRuns = dict[str, list[list[Run]]]  # by TODO and check: the runs of each scene

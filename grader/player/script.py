@@ -355,7 +355,7 @@ def write_comment(text: str) -> str:
 
 
 def shorten(steps: Sequence[Step], parting: Step | None) -> Iterator[str]:
-    """Yield the lines, with only one round of a long loop, and print what to look at."""
+    """Yield the script's lines: one round of a long loop, and `print` for each value to look at."""
     start, period = find_rounds(steps)
     chosen = list(steps)
     if period:

@@ -31,7 +31,7 @@ from grader.source.operators import make_changes, names_in
 from grader.source.regions import RegionError, parsed, regions_in
 from grader.text import digits
 
-MOST_CODE = 4000  # characters of a function; each change of it costs a look at all of it
+MOST_CODE_TO_CHANGE = 4000  # characters of a function; each change of it costs a look at all of it
 TRIES = 12  # changes of one function
 FAR = 3 * VISIBLE  # px, by which rounding may have led two films apart
 LEAST = 0.02  # of a number, by which it must change
@@ -60,7 +60,7 @@ def ask_line(todo: str, program: Program, seed: str, points: int) -> Question:
     """Ask about one TODO; raises CannotAsk where no change of it shows."""
     rng = random.Random(f"{seed}/line/{todo}")
     text = program.own.find_function(FUNCTIONS[todo])
-    if text is None or len(text.source) > MOST_CODE:
+    if text is None or len(text.source) > MOST_CODE_TO_CHANGE:
         raise CannotAsk("the function is not found in its text, or is too long to be read")
     scene = random.Random(f"{seed}/line").choice(SEEDS)  # one for all TODOs: its films are kept
     if todo in FILMS and measure_gap(program, scene) > FAR:

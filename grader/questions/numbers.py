@@ -49,7 +49,7 @@ class Maker:
     slot: int  # questions of one slot are of like difficulty, and a sheet has one of each
 
     def ask(self, program: Program, seed: str, points: int) -> Question:
-        """Ask one student; raises CannotAsk where it must not be asked."""
+        """Make the question for one student; raise CannotAsk if no draw suits."""
         for draw in draw_numbers(self, seed):
             try:
                 return make_question(self, self.find(program, draw), points)

@@ -19,11 +19,11 @@ from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.judge.sandbox import Sandbox
 from grader.judge.submission import Submission
+from grader.player.replay import MAX_DEATHS
 from grader.source.definitions import Program as Modules
 from grader.source.regions import python_files, read_source
 
-CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
-MOST_DEATHS = 3  # after which nothing more is asked of a program
+QUESTION_CPU_SECONDS = 3  # budget of a child, of which usual ones need a twentieth
 FUNCTIONS = {todo.id: todo.function for todo in load_rubric().todos if todo.function}
 
 
@@ -95,10 +95,10 @@ class Tree:
     @contextmanager
     def lab(self, module: str, changes: Mapping[str, str] | None = None) -> Iterator[Lab]:
         """Open a lab of this tree, its files changed or not."""
-        if self.deaths >= MOST_DEATHS:
+        if self.deaths >= MAX_DEATHS:
             raise CannotAsk("its process ended too often")
         sandbox = self.sandbox.changed(changes) if changes else self.sandbox
-        lab = Lab(module, lambda: sandbox.open_child(CPU_SECONDS), [])
+        lab = Lab(module, lambda: sandbox.open_child(QUESTION_CPU_SECONDS), [])
         lab.ran("a question")
         with lab.opened():
             try:

@@ -17,7 +17,7 @@ from grader.questions.question import Question
 from grader.source.regions import parsed
 from grader.text import printable
 
-MOST_CODE = 8000  # characters of a function that is looked through
+MOST_CODE_TO_SEARCH = 8000  # characters of a function that is looked through
 MOST_QUOTED = 160  # characters of a line
 
 
@@ -88,7 +88,7 @@ def ask_reason(each: Reason, program: Program, points: int) -> Question:
 def quote_line(program: Program, each: Reason) -> str:
     """Return the first line of the student's function that has the form, as they wrote it."""
     text = program.own.find_function(FUNCTIONS[each.todo])
-    module = parsed(text.source, MOST_CODE) if text else None
+    module = parsed(text.source, MOST_CODE_TO_SEARCH) if text else None
     if text is None or module is None or not module.body:
         return ""
     function = module.body[0]

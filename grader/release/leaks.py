@@ -147,7 +147,7 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
 
 
 def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
-    """Return what students get anyway, by file: all around the regions asked, and the stubs."""
+    """Return what students get anyway: files without the asked regions, notebooks, stubs."""
     found = []
     for path in python_files(solution):
         text = read_source(path)

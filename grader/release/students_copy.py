@@ -200,7 +200,7 @@ def drop_properties(rubric: Rubric) -> Rubric:
 
 
 def observe(path: Path, todos: frozenset[str], rubric: Rubric, worker: Worker) -> list[Observation]:
-    """Return what these checks see of a submission, each asked to its end."""
+    """Return all observations of these checks, run to the end even after a failure."""
     with grading(path, Options(reference=None, only=todos, trusted=True), worker, rubric) as run:
         run.surveys_all = True
         run.run()

@@ -29,7 +29,7 @@ class Counter:
         self.bar.stop()
 
     def reached(self, count: int, more: str = "") -> None:
-        """Show that so many are done; `more` says what became of them."""
+        """Show how many are done; `more` says what became of them."""
         self.bar.update(self.task, completed=count, more=more)
         if not self.console.is_terminal and time.monotonic() - self.printed >= NOW_AND_THEN:
             self.printed = time.monotonic()

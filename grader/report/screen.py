@@ -11,6 +11,7 @@ from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.wording import NAMES, command, named_reasons, task_of, total
 from grader.report.terminal import (
     MARGIN,
+    MAX_COLUMNS,
     STATES,
     STYLES,
     describe_obstacle,
@@ -26,7 +27,6 @@ from grader.text import clean
 
 LINES = 16  # before the prompt
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
-COLUMNS = 80  # at most
 STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
 CAUSES = ("Meaning", "Got", "Expected", "Look at", "We ran")  # in the order of getting lines
 
@@ -69,7 +69,7 @@ class Screen:
 
     @property
     def width(self) -> int:
-        return min(self.console.width, COLUMNS)
+        return min(self.console.width, MAX_COLUMNS)
 
     def shorten(self, line: str) -> str:
         """Return a TODO's own line, without its columns where it is too long."""

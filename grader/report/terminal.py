@@ -34,7 +34,7 @@ STYLES: dict[State, str] = {
 ENDLESS = ("it used up its", "not run: the checks before it used up")  # of processor time
 STATES = 12  # columns of the states
 MARGIN = 4  # columns left of why a check failed
-WIDTH = 80  # at most
+MAX_COLUMNS = 80
 
 
 def show_isolation(result: Result, console: Console) -> None:
@@ -185,7 +185,7 @@ def wrap(words: str, console: Console, indent: int = 0, whole: bool = False) -> 
     """Return the lines; a word longer than one is broken, unless it must stay `whole`."""
     return textwrap.wrap(
         words,
-        min(console.width, WIDTH),
+        min(console.width, MAX_COLUMNS),
         subsequent_indent=" " * indent,
         break_on_hyphens=False,
         break_long_words=not whole,

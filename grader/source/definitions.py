@@ -24,7 +24,7 @@ MAX_HOPS = 50  # from module to module, or from a name to what it stands for; re
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function as it stands in a file."""
+    """A function in a file."""
 
     name: str
     lineno: int
@@ -76,7 +76,7 @@ class Module:
     imports: dict[str, None] = field(default_factory=dict)
 
     def bindings(self, path: str, first: str) -> list[Binding]:
-        """Return what may say something about a path, the last statement first."""
+        """Return the bindings that may define this dotted name, latest first."""
         found = [*self.names.get(first, ()), *self.stars]
         if path != first:
             found += self.names.get(path, ())
@@ -294,7 +294,7 @@ def class_at(node: ast.ClassDef) -> Class:
 
 
 def dotted_name(node: ast.expr) -> str:
-    """Return `a.b.c` as it stands there; empty for what is no name."""
+    """Return a name with its dots, as `a.b.c`; empty for what is no name."""
     parts = []
     while isinstance(node, ast.Attribute):
         parts.append(node.attr)

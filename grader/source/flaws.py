@@ -80,7 +80,7 @@ def find_flaw(text: str) -> Flaw | None:
     """Return the first thing in a text that Python refuses; None where it accepts all.
 
     A text too long to be parsed has none. Nothing is compiled: a compiler can be made to work
-    for hours. So of what only a compiler refuses, the usual is looked for.
+    for hours. So of the errors that only a compiler finds, the usual ones are looked for.
     """
     if len(text) > MAX_SOURCE or CHAIN.search(text):
         return None
@@ -105,7 +105,7 @@ def flaw_at(text: str, line: int, message: str) -> Flaw:
 
 
 def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """Yield the lines of statements that stand outside of what they belong to, and why."""
+    """Yield the lines of statements outside the block that they need, and why."""
     waiting: list[tuple[ast.AST, bool, bool]] = [(tree, False, False)]
     while waiting:
         node, in_function, in_loop = waiting.pop()

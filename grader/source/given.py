@@ -13,6 +13,7 @@ from difflib import SequenceMatcher
 from functools import cache
 
 from grader.source.definitions import dotted_name, statements
+from grader.source.flaws import MAX_LINE
 from grader.source.regions import (
     MAX_SHAPE,
     Region,
@@ -23,7 +24,6 @@ from grader.source.regions import (
     shape_of,
 )
 
-MAX_LINE = 80  # characters of a line that are told
 Definition = ast.FunctionDef | ast.ClassDef
 
 

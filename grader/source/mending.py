@@ -14,11 +14,11 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations, islice, pairwise
 
 from grader.source.definitions import statements
-from grader.source.flaws import UNDECODED, Flaw, find_flaw
+from grader.source.flaws import MAX_LINE, UNDECODED, Flaw, find_flaw
 from grader.source.given import given_pieces, pieces, with_regions
 from grader.source.regions import parsed, read_regions, regions_in, replaced
 
-MAX_READ = 4 * 1024 * 1024  # characters that are parsed to mend one submission
+MAX_MENDING = 4 * 1024 * 1024  # characters that are parsed to mend one submission
 MAX_FUNCTIONS = 200  # of a file that are looked at
 NEAREST = 8  # parts of a file that are replaced in pairs
 REFUSED = "\0"  # no file of Python may have one
@@ -55,7 +55,7 @@ class Patch:
     invented: bool = False  # it was never handed out
 
     def distance(self, line: int) -> tuple[bool, int]:
-        """Return how far its end is from a line; what begins behind that line is far."""
+        """Return how far this piece ends from a line; one that begins after the line is far."""
         index = line - 1
         return self.start > index, 0 if self.start <= index < self.stop else abs(index - self.stop)
 
@@ -70,7 +70,7 @@ class Mended:
 
 @dataclass
 class Mender:
-    """Mends the files of one submission; it parses no more than MAX_READ characters for that."""
+    """Mends the files of one submission; it parses no more than MAX_MENDING characters for that."""
 
     given: HandedOut
     read: int = field(default=0, init=False)
@@ -112,7 +112,7 @@ class Mender:
         self, text: str, flaw: Flaw, patches: list[Patch], original: str | None
     ) -> Mended | None:
         for chosen in choices(text, flaw, patches):
-            if self.read > MAX_READ:
+            if self.read > MAX_MENDING:
                 break
             mended = patched(text, chosen)
             if self._flaw(mended) is not None or lacks_given(mended, chosen, original):
@@ -217,18 +217,18 @@ def lacks_given(text: str, chosen: Sequence[Patch], original: str | None) -> boo
 
 
 def within(patch: Patch, text: str, flaw: Flaw) -> Flaw:
-    """Return the flaw at a line of what was replaced: Python may notice it further down."""
+    """Return the flaw at a line of the replaced code: Python may notice it further down."""
     if patch.start < flaw.line <= patch.stop or not patch.todo:
         return flaw
     lines = text.splitlines()
     said = (n for n in range(patch.start, patch.stop) if lines[n].strip().strip("#"))
     line = next(said, patch.start) + 1
     message = f"{flaw.message}, which Python notices in line {flaw.line}"
-    return Flaw(line, message, lines[line - 1].strip()[:80])
+    return Flaw(line, message, lines[line - 1].strip()[:MAX_LINE])
 
 
 def flaw_in(text: str, todo: str) -> Flaw | None:
-    """Return what is wrong in a region by itself, at its line in the file."""
+    """Return what is wrong inside a region, at its line in the file."""
     for region in read_regions(text)[0]:
         if region.id == todo:
             own = textwrap.indent(textwrap.dedent("\n".join(region.lines)), "    ")

@@ -109,7 +109,7 @@ def read_regions(text: str) -> tuple[list[Region], list[tuple[int, str]]]:
 
 
 def replaced(text: str, contents: dict[str, tuple[str, ...]]) -> str:
-    """Put lines in the place of those of each region that is named in `contents`."""
+    """Return the text with new lines in the regions named in `contents`."""
     lines = text.splitlines(keepends=True)
     for region in reversed(regions_in(text)):
         if region.id in contents:

@@ -48,7 +48,7 @@ Numbers = tuple[Any, ...]
 
 
 class Frame:
-    """The state of what is around a call; made before it."""
+    """The state around a call, noted before it."""
 
     def __init__(self, subject: Subject, refs: Iterable[int], arguments: list[Any]) -> None:
         self.subject = subject
@@ -106,7 +106,7 @@ def size_of(shape: Any) -> Numbers:
 
 
 def numbers_in(value: Any) -> Numbers:
-    """Return a field as numbers, and objects by who they are."""
+    """Return a field as numbers, and objects by their identity."""
     if type(value) in PLAIN:
         return (value,)
     if type(value) in PAIRS:

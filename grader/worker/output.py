@@ -6,7 +6,7 @@ An endless loop of print() must fill neither the memory nor the report.
 import io
 import sys
 
-KEEP = 64 * 1024  # bytes between two answers
+from grader.protocol import MAX_OUTPUT
 
 
 class Output(io.RawIOBase):
@@ -36,11 +36,11 @@ class Output(io.RawIOBase):
         return True
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
-        """Keep the last KEEP bytes of all that has come since the last answer."""
-        self.kept += bytes(data[-KEEP:])
-        excess = max(0, len(self.kept) - KEEP)
+        """Keep the last MAX_OUTPUT bytes of all that has come since the last answer."""
+        self.kept += bytes(data[-MAX_OUTPUT:])
+        excess = max(0, len(self.kept) - MAX_OUTPUT)
         del self.kept[:excess]
-        self.dropped += excess + max(0, len(data) - KEEP)
+        self.dropped += excess + max(0, len(data) - MAX_OUTPUT)
         return len(data)
 
     def so_far(self) -> str:

@@ -21,6 +21,7 @@ from pymunk.constraints import PinJoint
 from grader.protocol import (
     MAX_LINES,
     MAX_PHOTO,
+    MAX_STEP_SIZES,
     MAX_TEXT,
     RUNAWAY,
     ContactRow,
@@ -42,8 +43,6 @@ from grader.worker.scripted import PlayOver, ScriptedClock
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.start import start
 from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
-
-MAX_STEP_SIZES = 16
 
 
 class Runaway(BaseException):
@@ -292,7 +291,7 @@ def rod_lengths(world: Any) -> list[tuple[float, float]]:
 
 
 def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
-    """Step a world, and record the watched bodies (and contacts) after every so many steps.
+    """Step a world; record the watched bodies (and contacts) at regular numbers of steps.
 
     The watched bodies are read one by one, not through the world, whose own list may be wrong.
     """

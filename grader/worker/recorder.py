@@ -124,7 +124,7 @@ class Recorder:
     # ------------------------------------------------------------ a moment
 
     def _add_moment(self, time: float, steps: int) -> None:
-        """Add a moment with all that can be described; with an error, with what came before it."""
+        """Add a moment; if describing a thing fails, keep what was described before it."""
         moment = Moment(float(time), steps, [], [], [])
         with suppress(Exception):
             for thing in self._visible():

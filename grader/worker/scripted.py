@@ -33,7 +33,7 @@ MODIFIERS = {
 
 
 class PlayOver(BaseException):
-    """Ends a program that does not end by itself."""
+    """Raised to end a program that runs on."""
 
 
 class ScriptedClock:
@@ -157,12 +157,12 @@ class ScriptedClock:
         self.end_frame()
 
     def _wait(self, milliseconds: float) -> int:
-        """pygame.time.wait and delay."""
+        """Stand in for pygame.time.wait and delay."""
         self.sleep(milliseconds)
         return int(milliseconds)
 
     def _wait_for_event(self, timeout: float = 0) -> pygame.event.Event:
-        """pygame.event.wait, in which frames go by until there is an event."""
+        """Stand in for pygame.event.wait: let frames go by until there is an event."""
         began = self.now
         while not pygame.event.peek():
             if timeout and self.now - began >= timeout:

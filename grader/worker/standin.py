@@ -53,7 +53,7 @@ def plain_function(thing: Any) -> FunctionType | None:
 
 
 def fitted(wanted: Function, parameters: Sequence[str], original: FunctionType) -> Function | None:
-    """`wanted`, called as `original` is; None where a caller could not call both alike.
+    """Return `wanted` wrapped to take `original`'s arguments; None if they do not match.
 
     `parameters` are those of `wanted`, in order. The same ones may be named otherwise, stand in
     another order, or have further ones with defaults behind them.

@@ -16,10 +16,10 @@ from grader.worker.subject import ContractError, Subject
 
 
 def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
-    """Start a program, of which `shown` counts the frames; one that has none yet by its main().
+    """Start a program; if `shown` has counted no frame then, call its main().
 
-    There may be no window in what asks for the name, as in a test, or nobody to press Enter. Who
-    waits for that once all is over has ended.
+    The block that runs as `__main__` may be a test, without a window. Nobody presses Enter: a
+    program that waits for it after all frames has ended.
     """
     failed: Exception | None = None
     try:

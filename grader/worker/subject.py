@@ -263,9 +263,7 @@ class Subject:
         return Ref(self.ref(thing), type_name(thing))
 
     def state(self, ref: int) -> Value:
-        """Return an object as a plain value; None where it cannot be told, which whoever asks will
-        see.
-        """
+        """Return an object as a plain value; None if it has none: the caller must check."""
         try:
             return self.encode(self.objects[ref])
         except Exception:

@@ -55,7 +55,7 @@ def main(control_fd: int, without: list[str]) -> None:
 
 
 def warm_up() -> None:
-    """Use once what every child uses, so that none has to load it by itself.
+    """Use once what every child uses, so that no child has to load it.
 
     SDL looks for joysticks in each frame. Where it may not ask the kernel, as in a child, it loads
     libudev for that each time anew, a tenth of a millisecond, unless it is there already.
@@ -73,7 +73,7 @@ def warm_up() -> None:
 
 
 def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
-    """Fork the child that `setup` describes; its end of the channel comes as a file descriptor.
+    """Fork the child that `setup` describes; the file descriptor of its channel comes along.
 
     The child never returns from here: whatever happens to it, it must not run the server's loop.
     """
@@ -123,7 +123,7 @@ def end(pid: int, gone: bool) -> Ended:
     """End a child and all that it started; tells how it ended.
 
     Its process group is killed first, with what it started there; end_strays finds the others.
-    With `gone` the child is ending by itself, and gets a moment to do so, because the report tells
+    With `gone` the child is ending already, and gets a moment to do so, because the report tells
     students the exit status or the signal.
     """
     if gone:

@@ -18,7 +18,7 @@ SUBSTEPS = (1, 2, 3, 4)  # of the stable engine
 
 
 def settle_pile(count):
-    """Return a pile of so many balls at rest, as a scene; the stable engine brings it to rest.
+    """Return a pile of `count` balls at rest, as a scene; the stable engine brings it to rest.
 
     The bin grows with the root of the number, so that piles of all sizes have one shape.
     """

@@ -232,7 +232,7 @@ def wild_box(seed=1):
 def rammer(mass=1000.0, speed=600.0, degrees=0.0, start=50.0, restitution=0.3, thick=20.0):
     """Make 1 kg that flies at a wall start px away, and behind it mass kg on a rod of 30 px.
 
-    The rod is turned by so many degrees from the flight. There is no gravity.
+    The rod is turned by `degrees` from the flight. There is no gravity.
     """
     back = math.radians(degrees)
     wall = Block((thick / 2, 0), (thick / 2, 300), restitution)

@@ -15,23 +15,23 @@ def at_random(shortest=1 / 1000, longest=1 / 50, seed=1):
 
 
 def hiccups(step=1 / 60, count=60, pause=0.1):
-    """Yield equal steps, but the last of so many is a pause."""
+    """Yield equal steps, and a pause as the last of every `count`."""
     return cycle(chain(repeat(step, count - 1), [pause]))
 
 
 def in_turns(long=1 / 30, short=1 / 240, count=1):
-    """Yield so many long steps, then as many short ones in their time, and again."""
+    """Yield `count` long steps, then short steps for the same total time, and repeat."""
     return cycle(chain(repeat(long, count), repeat(short, round(count * long / short))))
 
 
 def ramps(long=1 / 30, short=1 / 1000, count=60):
-    """Yield steps that shrink bit by bit within so many, and grow again."""
+    """Yield steps that shrink bit by bit over `count` steps, then grow again, and repeat."""
     down = [long * (short / long) ** (i / count) for i in range(count)]
     return cycle([*down, *reversed(down)])
 
 
 def lasting(seconds, steps):
-    """Yield the first of these steps, until they last so many seconds."""
+    """Yield the first of these steps, until they last `seconds`."""
     passed = 0.0
     for dt in steps:
         if passed >= seconds:

@@ -220,7 +220,7 @@ class Body:
             self.island.wake()
 
     def moved(self) -> None:
-        """Wake, and whatever rests on it or is where it is now, if it is static."""
+        """Wake this body; if it is static, also wake what rested on it or touches it now."""
         self.wake()
         if self.is_static and self.world:
             for static_moved in self.world.static_moved_hooks:

@@ -162,7 +162,7 @@ class Contacts(Effect):
             c.reach = (b.x - a.x) * nx + (b.y - a.y) * ny - c.gap
 
     def keep_forces(self, h: float) -> None:
-        """Begin substeps of another length with the same forces, so with other impulses."""
+        """Scale the kept impulses to a substep of h seconds, so that the forces stay the same."""
         if self.h > 0:
             for c in self.touching:
                 c.jn *= h / self.h
@@ -340,7 +340,7 @@ class Contacts(Effect):
                 c.jt *= left
 
     def static_moved(self, body: Body) -> None:
-        """Wake who sleeps on it, and where it is now."""
+        """Wake the bodies that sleep on it or touch it now."""
         world = self.world
         if len(world.awake) + len(world.statics) < len(world.bodies):
             for c in self.of_body(body):

@@ -111,7 +111,7 @@ class Effect:
         """Take over a new mass, friction or restitution of a body."""
 
     def lighter(self, body: Body, share: float) -> None:
-        """Prepare for a body whose mass falls to this share of what it was: 0 where it leaves."""
+        """Prepare for a body whose mass falls to this share of its old mass: 0 if it leaves."""
 
     def static_moved(self, body: Body) -> None:
         """Wake the bodies that a new position, velocity or spin of a static body concerns."""

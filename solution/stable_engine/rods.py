@@ -40,8 +40,8 @@ class Rods(Joints[Rod]):
     turns a swinging rod is needed before the move and half after it, so relax has a warm start of
     its own: with all of it before the move, a swinging chain would gain energy.
 
-    The speed along the axis counts where the ends would be past each other by then. They come
-    together; taken for ends that part, they would be driven on, faster in every step.
+    If the ends would pass each other in this step, use the speed along the present axis; the
+    direction after the move would drive them on.
     """
 
     rank = 2

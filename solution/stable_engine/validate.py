@@ -1,4 +1,4 @@
-"""Checks of what a caller passes in: bad input is an error that names the value."""
+"""Check what a caller passes in: bad input raises an error that names the value."""
 
 import math
 from collections.abc import Iterable
@@ -6,7 +6,7 @@ from typing import NoReturn
 
 
 class WrongType(TypeError, ValueError):
-    """Something of the wrong type. It is a bad value too, for whoever catches those."""
+    """Raised for a value of the wrong type. `except ValueError` catches it as well."""
 
 
 def refuse(field: str, value: object, rule: str) -> NoReturn:

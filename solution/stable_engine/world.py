@@ -167,7 +167,7 @@ class World(WorldState):
         return complaints(self)
 
     def warn(self, h: float) -> None:
-        """Warn of what the scene calls for and does not declare, this once."""
+        """Warn once of effects that the scene needs and does not declare."""
         self.detect_hooks = self.hooks("detect")
         for sentence in missing(self):
             warnings.warn(sentence, stacklevel=3)

@@ -188,10 +188,10 @@ def test_every_todo_has_mutants_and_none_of_them_is_the_solution():
     assert all(each.was != each.now for each in all_mutants())
 
 
-def test_there_are_many_slips_and_some_for_every_todo():
+def test_there_are_many_slips_and_some_for_every_todo_with_a_scope():
     found = Counter(each.todo for each in all_mutants() if each.operator in SLIPPED)
-    assert set(found) == {t.id for t in load_rubric().todos if t.function} == set(SCOPES)
-    assert sum(found.values()) > 1000 and min(found.values()) > 10
+    assert set(SCOPES) <= {t.id for t in load_rubric().todos if t.function}
+    assert sum(found.values()) > 1000 and min(found[todo] for todo in SCOPES) > 10
 
 
 def test_mutants_are_chosen_by_todo_and_by_operator():

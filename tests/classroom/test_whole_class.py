@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import classes
-import gradebooks
 import msgspec
 import packed
 import pytest
@@ -24,6 +23,7 @@ from grader.classroom import grading
 from grader.classroom.batch import Run
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
+from grader.intake.systems import BY_NAME
 from grader.judge.children import start_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.submission import plain_files
@@ -63,9 +63,7 @@ class Class:
 
 def name_in(system: str, student: Student) -> str:
     """What the class list calls a student."""
-    if system in ("moodle", "gradescope"):
-        return student.email
-    return student.login
+    return student.email if system in classes.BY_EMAIL else student.login
 
 
 @pytest.fixture
@@ -89,6 +87,10 @@ def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
     decisions = classes.decisions(students, lambda each: name_in(system, each))
     (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
     return folder, roster, students
+
+
+def test_there_is_a_class_of_every_system():
+    assert set(SYSTEMS) == set(BY_NAME)
 
 
 @pytest.fixture(params=SYSTEMS)
@@ -142,17 +144,6 @@ def every_table_and_page_says_so(graded: Class) -> None:
             assert "taken as pymunk_scene.py" in row["notes"] and "taken as" in page
 
 
-READERS = {
-    "canvas": lambda content: gradebooks.canvas(content, TITLE),
-    "moodle": gradebooks.moodle_worksheet,
-    "blackboard": lambda content: gradebooks.blackboard(content, TITLE),
-    "brightspace": lambda content: gradebooks.brightspace(content, TITLE),
-    "gradescope": lambda content: {
-        row["Email address"]: (row["Grade"], row["Feedback"]) for row in gradebooks.rows_of(content)
-    },
-}
-
-
 def the_gradebook_takes_it(graded: Class) -> None:
     settings = graded.folder.parent / "marks.toml"
     settings.write_text(
@@ -162,7 +153,7 @@ def the_gradebook_takes_it(graded: Class) -> None:
     words = [str(graded.roster), "--results", str(graded.results), "--settings", str(settings)]
     done = run_grader("marks", *words, "--out", out)
     assert done.exit_code == 1, done.output
-    told = list(READERS[graded.system](out.read_bytes()).values())
+    told = list(classes.read_marks(graded.system, out.read_bytes()).values())
     for student, (mark, _) in zip(graded.students, told, strict=True):
         wanted = graded.mark(student)
         assert mark == ("" if wanted is None else str(wanted)), student.login
@@ -173,7 +164,7 @@ def the_gradebook_takes_it(graded: Class) -> None:
 def feedback_goes_back(graded: Class) -> None:
     words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
     here = [student for student in graded.students if student.files]
-    if graded.system in ("canvas", "moodle", "brightspace"):
+    if BY_NAME[graded.system].takes_feedback:
         out = graded.folder.parent / "back.zip"
         words += ["--for", graded.system, "--submissions", str(graded.folder), "--out", str(out)]
         done = run_grader(*words)
@@ -194,7 +185,7 @@ def feedback_goes_back(graded: Class) -> None:
             without = not (student.files or text) and has_page(graded, student)
             named = f"{graded.name(student)}: left out, " in done.output
             assert named == (without and graded.system != "moodle"), student.login
-    elif graded.system == "gradescope":
+    elif graded.system in classes.BY_EMAIL:
         out = graded.folder.parent / "mail"
         words += ["--for", "email", "--out", str(out)]
         run_grader(*words)
@@ -344,7 +335,7 @@ def grouped(roster: Path, system: str, group: list[Student], students: list[Stud
 
 @pytest.mark.parametrize(
     "system",
-    ["canvas", "moodle", *(pytest.param(each, marks=pytest.mark.soak) for each in SYSTEMS[2:])],
+    [*SYSTEMS[:2], *(pytest.param(each, marks=pytest.mark.soak) for each in SYSTEMS[2:])],
 )
 def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_process, system):
     """Kim was late and Hana handed in nothing; Ian has a decision of his own, and no files."""
@@ -373,7 +364,7 @@ def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_pro
 def everybody_gets_a_page(graded: Class, names: list[str]) -> None:
     out = graded.folder.parent / "back"
     words = ["feedback", str(graded.results), "--roster", str(graded.roster)]
-    if graded.system in ("canvas", "moodle", "brightspace"):
+    if BY_NAME[graded.system].takes_feedback:
         words += ["--submissions", str(graded.folder), "--for", graded.system]
     else:
         words += ["--for", "nbgrader"]

@@ -52,10 +52,11 @@ def test_each_is_the_same_bit_for_bit_when_it_is_made_again(tmp_path: Path) -> N
     assert made == {path.name: path.read_bytes() for path in FILMS.iterdir()}
 
 
-def test_before_each_todo_something_is_to_be_predicted() -> None:
+def test_a_prediction_stands_before_the_task_and_says_what_its_films_show() -> None:
     todos = [todo.id for todo in load_rubric().counted if todo.function]
-    assert list(PREDICTIONS) == todos
-    for todo in todos:
+    assert list(PREDICTIONS) == [todo for todo in todos if todo in PREDICTIONS]
+    assert SHEET.count("**Predict.**") == len(PREDICTIONS)
+    for todo in PREDICTIONS:
         section = SHEET.partition(f"## TODO {todo}:")[2].partition("\n## ")[0]
         question, _, task = section.partition("**What.**")
         assert "**Predict.**" in question and "**Predict.**" not in task

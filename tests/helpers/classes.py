@@ -8,7 +8,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import gradebooks
 import packed
+from gradebooks import Marks
 
 Files = packed.Files
 TITLE = "Physics engine"
@@ -230,3 +232,14 @@ SYSTEMS: dict[str, Callable[[Path, list[Student]], str]] = {
     "blackboard": blackboard,
     "brightspace": brightspace,
 }
+BY_EMAIL = {"moodle", "gradescope"}  # their class lists identify students by addresses
+READERS: dict[str, Callable[[bytes], Marks]] = {  # of the marks; any other takes plain columns
+    "canvas": lambda content: gradebooks.canvas(content, TITLE),
+    "moodle": gradebooks.moodle_worksheet,
+    "blackboard": lambda content: gradebooks.blackboard(content, TITLE),
+    "brightspace": lambda content: gradebooks.brightspace(content, TITLE),
+}
+
+
+def read_marks(system: str, content: bytes) -> Marks:
+    return READERS.get(system, gradebooks.plain)(content)

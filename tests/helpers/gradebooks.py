@@ -50,3 +50,9 @@ def brightspace(content: bytes, title: str) -> Marks:
     assert all(row["End-of-Line Indicator"] == "#" for row in rows)
     assert {"OrgDefinedId", "Username"} & set(rows[0])
     return {row["Username"]: (row[f"{title} Points Grade"], "") for row in rows}
+
+
+def plain(content: bytes) -> Marks:
+    """In the order of the class list, with a Grade and Feedback."""
+    rows = rows_of(content)
+    return {str(number): (row["Grade"], row["Feedback"]) for number, row in enumerate(rows)}

@@ -14,7 +14,7 @@ from grader.intake.listing import open_class
 from grader.intake.packing import open_submission, pack
 from grader.intake.pieces import strip_additions
 from grader.judge.grade import KIT
-from grader.judge.submission import plain_files
+from grader.judge.submission import MAX_BYTES, plain_files
 
 PROGRAM: packed.Files = {
     "mini_engine/__init__.py": "from mini_engine.solver import *\n",
@@ -115,16 +115,20 @@ def test_links_in_a_tar_are_left_out(tmp_path):
     assert names(pack(one(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links)))) == ALL
 
 
+def test_a_file_may_be_as_large_as_a_submission():
+    assert repack.MAX_CONTENT == MAX_BYTES  # a script of its own, repack can import nothing
+
+
 @pytest.mark.parametrize("kind", ["tar.xz", "7z"])
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
-    bomb = bytes(repack.MAX_FILE + 1)
+    bomb = bytes(repack.MAX_CONTENT + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
     package = pack(found)
     assert names(package) == ALL and package.notes == ["left out big.bin: size limit reached"]
 
 
 def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
-    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(repack.MAX_FILE + 1)}
+    large = {"ann.zip": packed.as_zip(PROGRAM), "ben.zip": bytes(repack.MAX_CONTENT + 1)}
     (tmp_path / "class.tgz").write_bytes(packed.as_tar(large))
     with pytest.raises(Stop, match=r"ben\.zip is too large: unpack it"):
         open_class(tmp_path / "class.tgz").__enter__()
@@ -135,9 +139,9 @@ def test_a_bomb_of_many_files_is_refused(tmp_path, kind, monkeypatch, capsys):
     path = tmp_path / "ann"
     path.write_bytes(KINDS[kind]({f"{number}.bin": bytes(300) for number in range(4)}))
     monkeypatch.setattr(repack, "set_limits", lambda: None)
-    for bound in ("MAX_BYTES", "MAX_FILES"):
+    for bound in ("MAX_UNPACKED", "MAX_MEMBERS"):
         with monkeypatch.context() as patch:
-            patch.setattr(repack, bound, 1000 if bound == "MAX_BYTES" else 3)
+            patch.setattr(repack, bound, 1000 if bound == "MAX_UNPACKED" else 3)
             assert repack.main(str(path), str(tmp_path / "out")) == repack.REFUSED
         assert "too much" in capsys.readouterr().out
 

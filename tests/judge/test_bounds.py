@@ -84,7 +84,7 @@ def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path):
     result = grade_with_replays(tree, options, replays, Counting())
     assert result.points < result.max_points and any(replays.iterdir())
     assert (most, now) == (1, 0)
-    assert Limits().memory_mb + Limits().scratch_mb <= 1100
+    assert Limits(cpu_seconds=10).memory_mb + Limits(cpu_seconds=10).scratch_mb <= 1100
 
 
 # ---------------------------------------------------------------- sources

@@ -16,7 +16,6 @@ from grader.judge.budget import (
     END_REST,
     LITTLE_CPU,
     LITTLE_REST,
-    REST,
     SUBMISSION_CPU,
     SUBMISSION_REST,
     TODO_CPU,
@@ -25,7 +24,7 @@ from grader.judge.budget import (
     WORDS_REST,
     Budget,
 )
-from grader.judge.children import busy_seconds
+from grader.judge.children import REST_SECONDS, busy_seconds
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.rubric import load_rubric
 from grader.player.replay import grade_with_replays
@@ -45,7 +44,7 @@ class Used:
 def test_who_has_used_nothing_has_what_is_usual():
     budget = Budget()
     budget.charge("1", Used(0.3, 0.1))
-    assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST)
+    assert (budget.cpu_for("1", 20), budget.rest_for("1")) == (20, REST_SECONDS)
     assert not budget.cut and not budget.why_little("1")
 
 
@@ -54,7 +53,7 @@ def test_a_todo_that_used_much_has_little_left_and_the_others_all():
     budget.charge("1", Used(cpu=TODO_CPU))
     assert budget.cpu_for("1", 20) == LITTLE_CPU and budget.cpu_for("2", 20) == 20
     budget.charge("2", Used(rested=TODO_REST))
-    assert budget.rest_for("2") == LITTLE_REST and budget.rest_for("3") == REST
+    assert budget.rest_for("2") == LITTLE_REST and budget.rest_for("3") == REST_SECONDS
     assert "this TODO" in budget.why_little("1") and not budget.why_little("3")
 
 
@@ -77,7 +76,10 @@ def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
     last = max(check.cpu_seconds for todo in rubric.todos for check in todo.checks)
     assert END_CPU + last + 10 <= 120  # s; ten for the judge, which needs two
     checks = sum(len(todo.checks) for todo in rubric.todos)
-    assert min(END_REST + REST, SUBMISSION_REST + REST + checks * LITTLE_REST) + 10 <= 60
+    assert (
+        min(END_REST + REST_SECONDS, SUBMISSION_REST + REST_SECONDS + checks * LITTLE_REST) + 10
+        <= 60
+    )
 
 
 @LINUX
@@ -163,7 +165,7 @@ def test_words_and_pictures_have_a_time_of_their_own():
     assert not budget.has_more and not budget.cut and budget.cpu_for("1", 20) == 20
     budget = Budget()
     budget.charge_for_words(Used(rested=WORDS_REST))
-    assert not budget.has_more and budget.rest_for("1") == REST
+    assert not budget.has_more and budget.rest_for("1") == REST_SECONDS
 
 
 SLOW = """

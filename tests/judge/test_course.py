@@ -139,14 +139,14 @@ def test_bonus_tasks_are_left_out_or_added():
 WRONG = {
     "todos = []": "todos = [] must name TODOs",
     'todos = "1"': "must name TODOs",
-    'todos = ["9"]': "there is no TODO '9'",
+    'todos = ["99"]': "there is no TODO '99'",
     "todos = [4]": "there is no TODO 4; write in quotes",
     'todos = [["1"]]': "there is no TODO",
     'todos = ["1", "1"]': "1 is listed 2 times",
     'todos = ["B1", "whole"]': "add one of TODO 1 to 8c",
     'todos = ["8a", "whole"]': 'leave "whole" out',
     "points = [1]": "must be a table",
-    "points = { 9 = 3 }": "9 is no TODO",
+    "points = { 99 = 3 }": "99 is no TODO",
     'todos = ["1"]\npoints = { 4 = 3 }': "4 is not among the todos",
     "points = { 4 = 0 }": "4 = 0 must be a whole number",
     "points = { 4 = 2.5 }": "4 = 2.5 must be a whole number",
@@ -194,11 +194,11 @@ def test_a_course_that_is_not_there_or_no_text_is_refused(tmp_path: Path):
 
 @pytest.mark.parametrize("command", ["grade solution", "check starter", "hint --todo 1"])
 def test_a_wrong_course_stops_a_command_before_it_does_anything(command: str, tmp_path: Path):
-    (tmp_path / "mine.toml").write_text('todos = ["9"]', encoding="utf-8")
+    (tmp_path / "mine.toml").write_text('todos = ["99"]', encoding="utf-8")
     words = command.replace("solution", str(KIT / "solution")).split()
     done = run_grader(*words, "--course", tmp_path / "mine.toml")
     assert (done.exit_code, done.stdout) == (2, "")
-    assert "there is no TODO '9'" in " ".join(done.stderr.split())
+    assert "there is no TODO '99'" in " ".join(done.stderr.split())
 
 
 def test_the_course_comes_from_the_environment_as_make_gives_it(tmp_path: Path):

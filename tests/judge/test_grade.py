@@ -13,6 +13,7 @@ from mixed_trees import mixed
 
 from grader.bank.members import Entry, Member
 from grader.bank.members import members as bank
+from grader.bank.mutants import regions_of
 from grader.bank.verify import shared_worker
 from grader.judge import loop
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -66,10 +67,11 @@ def test_points_add_up_and_are_whole_numbers(solution: Result):
     assert solution.max_points == sum(todo.max_points for todo in solution.counted)
 
 
-def test_every_todo_of_the_design_is_in_the_rubric():
-    ids = [todo.id for todo in load_rubric().todos]
-    bonus = [f"B{number}" for number in range(1, 7)]
-    assert ids == [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c", "whole", *bonus]
+def test_every_region_is_in_the_rubric_once_and_bonus_tasks_come_last():
+    todos = load_rubric().todos
+    assert sorted(todo.id for todo in todos if todo.function) == sorted(regions_of("solution"))
+    assert [todo.bonus for todo in todos] == sorted(todo.bonus for todo in todos)
+    assert [todo.id for todo in todos if not todo.function] == ["whole"]
 
 
 def test_every_check_has_a_title_a_student_can_read(solution: Result):

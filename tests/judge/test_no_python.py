@@ -12,7 +12,7 @@ from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_referenc
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
 from grader.source.flaws import find_flaw
-from grader.source.mending import MAX_READ, HandedOut, Mender
+from grader.source.mending import MAX_MENDING, HandedOut, Mender
 from grader.source.regions import read_source, regions_in
 
 SOLVER, CONTACTS = "mini_engine/solver.py", "mini_engine/contacts.py"
@@ -180,7 +180,7 @@ def test_a_file_made_to_be_read_for_long_is_given_up():
     text = "".join(f"def f{n}(:\n    x\n" for n in range(6000))
     mender = Mender(HandedOut({}, {}, {}))
     assert mender.mend(find_flaw(text).in_file("mini_engine.py"), text) is None
-    assert mender.read < MAX_READ + len(text)
+    assert mender.read < MAX_MENDING + len(text)
 
 
 # ---------------------------------------------------------------- the marks

@@ -29,7 +29,7 @@ from handed_in import (
 
 from grader.bank.sync import list_students_files
 from grader.classroom.marks import ENGINE
-from grader.classroom.nbgrader.submissions import ASSIGNMENT
+from grader.classroom.nbgrader.submissions import ASSIGNMENT, collect_submissions
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.release import nbgrader_course as courses
 
@@ -141,7 +141,7 @@ def course(tmp_path_factory):
     edit(top / "course" / "nbgrader_config.py", "SECONDS = 60", f"SECONDS = {SECONDS}")
     generated = run(top / "course", "generate_assignment", ASSIGNMENT)
     assert generated.returncode == 0, generated.stderr[-2000:]
-    taken = list(courses.collect(make_class(top / "class"), top / "course"))
+    taken = list(collect_submissions(make_class(top / "class"), top / "course"))
     assert all(each.taken for each in taken) and len(taken) == 8
     graded = run(top / "course", "autograde", ASSIGNMENT)
     assert "'physics-engine' for student 'hana'" in graded.stderr
@@ -376,7 +376,7 @@ def test_a_changed_submission_is_taken_in_and_graded_anew(course, tmp_path):
     notebooks = {name: read(RELEASED / f"{name}.ipynb") for name in NAMES}
     folder = hand_in(again / "ben", "starter", notebooks)
     write(folder / "notebooks" / "quiz.ipynb", answered("quiz"))
-    taken = list(courses.collect(again, copy))
+    taken = list(collect_submissions(again, copy))
     assert [each.words for each in taken] == ["5 notebooks"]
     again = run(copy, "autograde", ASSIGNMENT, "--student", "ben")  # no --force
     assert again.returncode == 0, again.stderr[-2000:]

@@ -8,12 +8,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from grader.judge.rubric import load_rubric
 from grader.source.regions import python_files, regions_in, replaced
 
 HERE = Path(__file__).parent
 SOLUTION, STARTER = (HERE.parents[1] / name for name in ("solution", "starter"))
-TODOS = [*"123456", "7a", "7b", "7c", "7d", "8a", "8b", "8c"]
-BONUS = ["B1", "B2", "B3", "B4", "B5", "B6"]
+TODOS = [todo.id for todo in load_rubric().counted if todo.function]
+BONUS = [todo.id for todo in load_rubric().todos if todo.bonus]
 MINI, PYMUNK, INTEGRATORS = ["-m", "mini_engine"], ["pymunk_scene.py"], ["integrators.py"]
 
 

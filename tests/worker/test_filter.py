@@ -315,7 +315,7 @@ def child(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Child]:
     others = ("user-namespace", "landlock-files", "network-namespace", "pid-namespace", "own-user")
     worker = start_worker(without=others)
     hidden = [str(KIT / "grader"), str(KIT / "solution")]
-    setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, False, ["numpy"])
+    setup = ChildSetup(submission, scratch, Limits(10), True, hidden, bytecode, False, ["numpy"])
     child = worker.open(setup)
     if "system-calls" not in child.ready.layers:
         worker.close()

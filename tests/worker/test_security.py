@@ -115,7 +115,7 @@ class Prober:
         (folders[0] / "probes.py").write_text(PROBES, encoding="utf-8")
         submission, scratch, bytecode = map(str, folders)
         hidden = [str(KIT / "grader"), str(KIT / "solution")]
-        self.setup = ChildSetup(submission, scratch, Limits(), True, hidden, bytecode, False)
+        self.setup = ChildSetup(submission, scratch, Limits(10), True, hidden, bytecode, False)
         self.children: list[Child] = []
 
     def __call__(self, name: str, *args: int | str) -> object:
@@ -209,7 +209,7 @@ def needs(name: str) -> pytest.MarkDecorator:
 
 
 def test_limits_hold_and_cannot_be_lifted(probe: Prober):
-    limits = Limits()
+    limits = Limits(cpu_seconds=10)
     assert probe("limit", "RLIMIT_CPU") == limits.cpu_seconds + 1
     assert probe("limit", "RLIMIT_AS") == limits.memory_mb * 1024**2
     assert probe("limit", "RLIMIT_FSIZE") == limits.file_mb * 1024**2
@@ -282,7 +282,7 @@ def test_no_key_is_kept_for_another_child(probe: Prober):
 
 @needs("mount-namespace")
 def test_the_scratch_folder_is_small_and_ends_with_the_child(probe: Prober):
-    limits = Limits()
+    limits = Limits(cpu_seconds=10)
     assert refused(probe("fill", limits.scratch_mb + 1), "OSError")
     assert refused(probe("many", limits.scratch_files + 1), "OSError")
     assert probe("fill", limits.scratch_mb // 2) is True

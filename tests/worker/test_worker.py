@@ -312,7 +312,7 @@ def test_the_warm_process_is_replaced_when_it_is_killed(tmp_path: Path):
     worker.process.kill()
     worker.process.wait()
     child = worker.open(
-        ChildSetup(str(tmp_path), str(tmp_path), Limits(), True, [], str(tmp_path), False)
+        ChildSetup(str(tmp_path), str(tmp_path), Limits(10), True, [], str(tmp_path), False)
     )
     child.end()
     worker.close()
@@ -329,7 +329,7 @@ def test_to_compile_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Pat
     for number in range(8):
         (tree / f"big{number}.py").write_text(f"x = {'x' * 300_000!r}\n", encoding="utf-8")
     (tree / "deep" / "late.py").write_text("x = 1\n", encoding="utf-8")
-    compile_all(tree, bytecode, Limits(scratch_mb=1))
+    compile_all(tree, bytecode, Limits(cpu_seconds=10, scratch_mb=1))
     made = sorted(path.name.partition(".")[0] for path in bytecode.rglob("*.pyc"))
     assert made == ["a_first", "big0", "big1", "big2", "big3"]
     assert not (tmp_path / "ran").exists()

@@ -2,9 +2,9 @@
 
 import re
 
+from grader.checks.exact import MAX_STEPS
 from grader.checks.pacing import (
     LONGEST_UNCUT,
-    MAX_STEPS,
     STEP_MS,
     STEP_TAKES,
     Pace,
@@ -133,9 +133,9 @@ def the_program_says_how_many_steps_ran(lab: Lab) -> None:
 
 
 def places_of_the_steps(lab: Lab, frames: list[int]) -> set[tuple[int, int]]:
-    """Return where it says so: in which line, from the last one, and as which number of it.
+    """Return where the count is printed: its line, from the last one, and its place in the line.
 
-    Who prints all numbers says nothing by that.
+    A program that prints all numbers names none.
     """
     lab.ran(f"the lab scene with frames of {', '.join(map(str, frames))} ms")
     played = lab.play(frames, physics=False)

@@ -9,10 +9,9 @@ from functools import partial
 
 from grader.judge.lab import STEP as STEP_SECONDS
 from grader.judge.misconceptions import Undecided, mistake, truth
-from grader.protocol import RUNAWAY
+from grader.protocol import MAX_STEP_SIZES, RUNAWAY
 
 STEP, CAP, SECOND = 25, 200, 3000
-MAX_SIZES = 16  # that a play reports
 
 Frames = tuple[int, ...]  # ms
 Answer = tuple[list[int], list[float]]  # steps after each frame but the last, step sizes in s
@@ -215,7 +214,7 @@ known(
 
 def different(sizes: list[int]) -> list[float]:
     """Return each size once, in seconds."""
-    return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_SIZES]
+    return [size / SECOND for size in dict.fromkeys(sizes)][:MAX_STEP_SIZES]
 
 
 def emptied(frames: Frames) -> Answer:

@@ -50,7 +50,7 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
 
 
 def want_a_flight(lab: Lab, each: Moment, after: Sequence[Moment], number: int) -> None:
-    """Insist that there is a ball that flew to where it is; who sorts bodies may have moved it."""
+    """Demand that some ball flew to this position; the program may have sorted the bodies."""
     if not any(flew(each, other) for other in near(each, after)):
         lab.want(
             False,

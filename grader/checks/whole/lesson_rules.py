@@ -197,11 +197,10 @@ def want_fresh_contacts(lab: Lab) -> None:
 
 
 def want_some_passes(lab: Lab) -> None:
-    """A disc that may move neither into a surface nor along its rod.
+    """Check how many solver passes a step makes.
 
-    Solving the one spoils the other. Each time the speed shrinks by the cosine between the two, so
-    that it tells how many passes there were, and what was solved last is right. Contacts and joints
-    may be solved in either order.
+    A disc touches a surface and hangs on a rod; each solve shrinks its speed by the same cosine, so
+    the speed left gives the count. Either order is accepted.
     """
     push = lab.about(100.0)
     lab.ran(f"a disc on a static one and on a slanting rod, pushed at {push:g} px/s, one step")

@@ -188,7 +188,7 @@ class Picture:
         pygame.display.flip()
 
     def look_at(self, shows, below):
-        """Give each engine its part of the view, with room below it, and a new one a camera."""
+        """Divide the view among the engines; give a new or resized one a camera."""
         wide = VIEW.width // len(shows)
         sides = []
         for number, show in enumerate(shows):

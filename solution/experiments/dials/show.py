@@ -210,7 +210,7 @@ class Show:
         self.choose_engine(names[(names.index(self.engine_name) + 1) % len(names)])
 
     def choose_scene(self, way):
-        """Choose the scene so many places further in the list, with its own effects."""
+        """Choose the scene `way` places further in the list, with its own effects."""
         names = list(NAMED)
         self.scene_name = names[(names.index(self.scene_name) + way) % len(names)]
         self.scene = NAMED[self.scene_name]()

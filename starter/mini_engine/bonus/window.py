@@ -72,7 +72,7 @@ class BonusWindow(Window):
         return ball
 
     def place(self, body):
-        """Where to draw a body: what is left in the accumulator is part of the next step."""
+        """Return where to draw a body: between its last two steps, by the accumulator's time."""
         return between(body, self.accumulator / STEP)
 
     def draw_scene(self):

@@ -44,13 +44,13 @@ class BonusWorld(World):
         super().apply_forces(dt)
 
     def pairs(self):
-        """The pairs of bodies to look at: those that are near, if the grid may tell."""
+        """Return the pairs to check: all, or with the grid on only near ones."""
         if not self.moving_bodies():
             return []
         return near_pairs(self.bodies) if self.grid else super().pairs()
 
     def solve(self, dt):
-        """See who sleeps, then solve: a sleeper is as hard to move as a static body."""
+        """Let bodies sleep or wake, then solve: a sleeper is as hard to move as a static body."""
         if self.sleeping and update_sleep(self, dt):
             self.contacts = self.find_contacts()
         with sleepers_held(self.contacts + self.joints):
@@ -80,7 +80,7 @@ def sleepers_held(links):
 
 
 def stand_in(body):
-    """A static body in the place of a sleeper and with its surface; whoever is awake, as it is."""
+    """Return a static body with a sleeper's place and surface; a body that is awake as it is."""
     if not getattr(body, "asleep", False):  # an end need not be in the world
         return body
     return Body(body.shape, body.pos, 0, body.restitution, body.friction)
