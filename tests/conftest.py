@@ -12,10 +12,12 @@ import pytest
 
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
+from grader.judge.course import FULL
 from grader.judge.grade import Options, grade, opened, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player import replay
+from grader.release.pages import write_pages
 from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -110,6 +112,12 @@ def wait_for(path: Path) -> None:
             return
         time.sleep(0.1)
     pytest.fail(f"{path} does not come")
+
+
+@pytest.fixture(scope="session")
+def handout_pages(once: Once) -> Path:
+    """The pages of the handouts as the student's folder has them."""
+    return once("pages", lambda folder: write_pages(KIT / "handouts", folder, FULL))
 
 
 @pytest.fixture(scope="session")

@@ -373,7 +373,7 @@ def the_one(todo: str, now: str) -> Mutant:
     [
         pytest.param("1", "if distance > radius:", "touching-counts-as-overlap", marks=SOAK),
         pytest.param("1", "if distance >= 0:", "inside-normalises-zero", marks=SOAK),
-        ("3", "if self.k == 1:", None),
+        pytest.param("3", "if self.k == 1:", None, marks=SOAK),
         pytest.param(
             "4", "total = max(limit, min(limit, total))", "clamp-is-turned-round", marks=SOAK
         ),

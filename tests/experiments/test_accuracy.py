@@ -71,14 +71,10 @@ def rk4_with_equal_weights(x, v, dt, accel):
     return x + dt / 4 * (v1 + v2 + v3 + v4), v + dt / 4 * (a1 + a2 + a3 + a4)
 
 
-@pytest.mark.parametrize(
-    ("place", "wrong"), [(2, verlet_with_one_force), (3, rk4_with_equal_weights)]
-)
-def test_a_wrong_method_misses_its_order(place, wrong):
-    methods = list(smooth.METHODS)
-    methods[place] = wrong
-    row = smooth.study_system(smooth.make_spring(), methods)["methods"][place]
-    assert row["order"] is None or abs(row["order"] - row["expected"]) > 0.2
+def test_a_wrong_method_misses_its_order():
+    methods = [*smooth.METHODS[:2], verlet_with_one_force, rk4_with_equal_weights]
+    for row in smooth.study_system(smooth.make_spring(), methods)["methods"][2:]:
+        assert row["order"] is None or abs(row["order"] - row["expected"]) > 0.2
 
 
 def test_calls_of_the_force_are_counted():
@@ -181,12 +177,6 @@ def test_a_quick_run_judges_each_dial_by_the_same_runs_as_a_full_one():
         assert set(few) <= set(many)
 
 
-def test_no_digit_costs_less_than_no_work():
-    judged = [{"error": 1.0, "opcodes": 0, "ratio": [1.0, 1.0, 1.1]},
-              {"error": 0.1, "opcodes": 0, "ratio": [0.9, 0.9, 1.2]}]  # fmt: skip
-    assert runs.judge(judged) == {"says": "helps", "digit": [1.0, 1.2]}
-
-
 @pytest.mark.parametrize("quick", [True, False])
 def test_every_dial_goes_through_its_engine_as_it_is(quick):
     defaults = {"lesson": LESSON, "stable": STABLE, "pymunk": PYMUNK, "box2d": BOX2D}
@@ -253,11 +243,6 @@ def test_a_verdict_tells_what_one_digit_costs(judged, says, digit):
     found = runs.judge(judged)
     assert found["says"] == says
     assert found["digit"] == (None if digit is None else pytest.approx([digit, digit]))
-
-
-def test_work_is_counted_in_opcodes_where_there_are_any():
-    assert runs.get_work({"opcodes": 5e6, "ratio": [1.0] * 3}) == [5e6, 5e6]
-    assert runs.get_work({"opcodes": None, "ratio": [1.0, 2.0, 4.0]}) == [1.0, 4.0]
 
 
 def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
@@ -379,6 +364,7 @@ def test_the_results_are_complete(results):
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
 
 
+@pytest.mark.soak
 def test_progress_counts_each_run_once(monkeypatch, tmp_path):
     ticks = []
     monkeypatch.setattr(accuracy.Progress, "step", lambda self, weight, what: ticks.append(self))
@@ -404,16 +390,6 @@ def test_figures_of_every_result_are_drawn(results, tmp_path):
     for name in names:
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert "<svg" in (tmp_path / f"{name}.svg").read_text(encoding="utf-8")
-
-
-def test_a_shorter_picture_says_the_same_in_fewer_bytes():
-    mark = '<path d="M 0.123456 2.5" style="stroke: red"/>'
-    line = '<g id="text_1"><text style="fill: blue">0.0001</text></g>'
-    svg = f'<svg><style>* {{}}</style><path id="m1"/>{3 * mark}{line}</svg>'
-    slim = figures.shorten(svg)
-    assert '<text style="fill: blue">0.0001</text>' in slim  # what is read stays as it is
-    assert slim.count('<path d="M 0.12 2.5" class="s0"/>') == 3
-    assert "* {}.s0{stroke: red}</style>" in slim and 'id="m1"' in slim and "text_1" not in slim
 
 
 @pytest.mark.soak

@@ -1,5 +1,6 @@
 """The window with dials, without a window: frames, keys, figures and pictures."""
 
+import itertools
 import math
 import os
 import subprocess
@@ -51,8 +52,16 @@ def screenshot(folder, name, *options):
 # ---------------------------------------------------------------- running
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("scene", NAMED)
+IN_TURNS = set(zip(NAMED, itertools.cycle(ENGINES), strict=False))  # `make soak` has every pair
+
+
+@pytest.mark.parametrize(
+    ("scene", "engine"),
+    [
+        pytest.param(*pair, marks=() if pair in IN_TURNS else pytest.mark.soak)
+        for pair in itertools.product(NAMED, ENGINES)
+    ],
+)
 def test_every_scene_runs_and_draws_in_every_engine(scene, engine, picture):
     show = Show(scene, engine)
     picture.draw(show)
@@ -392,11 +401,14 @@ def run_in(tree, picture, engine, **environment):
     return picture.read_bytes()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    "engine", ["lesson", *(pytest.param(each, marks=pytest.mark.soak) for each in [*ENGINES][1:])]
+)
 def test_it_runs_in_a_students_folder_with_nothing_done(engine, handed_out, tmp_path):
     assert len(run_in(handed_out, tmp_path / "shot.png", engine)) > 1000
 
 
+@pytest.mark.soak
 def test_make_dials_shows_the_starters_engine_though_the_window_is_the_solutions(
     handed_out, tmp_path
 ):

@@ -20,8 +20,9 @@ from conftest import KIT, HandIn
 from markupsafe import escape
 from msgspec import structs
 from page_readers import barriers, chromium
+from whole_bank import bank
 
-from grader.bank.members import Member, members
+from grader.bank.members import Member
 from grader.bank.verify import shared_worker
 from grader.judge.children import Worker
 from grader.judge.course import FULL, Asked, WrongCourse, read_course
@@ -55,7 +56,7 @@ from grader.source.regions import python_files, read_source, regions_in
 
 ALL = frozenset(("1", "2", "3", "4", "5", "6", "7a", "7b", "7c", "7d", "8a", "8b", "8c"))
 OPTIONS = Options(shipped_reference(), trusted=True)
-RIGHT = [each for each in members(KIT) if each.kind == "right" and not each.bonus]
+RIGHT = [each for each in bank() if each.kind == "right" and not each.bonus]
 
 
 @contextmanager
@@ -685,7 +686,7 @@ def solution_lines() -> set[str]:
 
 
 def test_no_line_of_the_solution_is_shown_to_who_wrote_another(tmp_path: Path, solution: Result):
-    (member,) = (each for each in members(KIT) if each.name == "8-in-other-words")
+    (member,) = (each for each in bank() if each.name == "8-in-other-words")
     folder = tmp_path / "other"
     member.build(KIT, folder)
     todos = [t for t in solution.todos if t.id in ("8a", "8b", "8c")]

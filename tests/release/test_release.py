@@ -17,8 +17,9 @@ import msgspec
 import pytest
 from page_readers import barriers, chromium
 from rich.console import Console
+from whole_bank import bank
 
-from grader.bank.members import Member, members
+from grader.bank.members import Member
 from grader.bank.sync import list_students_files
 from grader.bank.verify import Report, shared_worker
 from grader.checks import exact
@@ -42,7 +43,7 @@ from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, r
 from grader.source.cut import pruned, with_bodies
 from grader.source.regions import replaced
 
-WRONG = [m for m in members(KIT) if m.kind == "wrong" and m.form == "package" and m.is_patch]
+WRONG = [m for m in bank() if m.kind == "wrong" and m.form == "package" and m.is_patch]
 REGIONS = {todo.id: todo.folder for todo in load_rubric().todos if todo.function}
 for todo in REGIONS:
     misconceptions.load_known(todo)
