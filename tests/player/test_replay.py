@@ -13,6 +13,7 @@ from typing import Any
 import msgspec
 import pytest
 from conftest import Once, only_some
+from one_worker import opened
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 from whole_bank import bank
 
@@ -25,7 +26,7 @@ from grader.checks.todo_8 import checks as todo_8
 from grader.checks.whole import checks as whole
 from grader.judge.children import ChildEnded, start_worker
 from grader.judge.failures import Failing
-from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
+from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player.page import make_page

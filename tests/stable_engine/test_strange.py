@@ -260,7 +260,7 @@ def test_a_ceiling_gives_back_no_more_than_the_ball_had(fast):
 # ---------------------------------------------------------------- more of it than usual
 
 
-@pytest.mark.parametrize("count", [30, 100])
+@pytest.mark.parametrize("count", [30, pytest.param(100, marks=pytest.mark.soak)])
 def test_many_balls_in_one_place_part_without_an_explosion(count):
     engine = Stable(coincident(count))
     fastest = max(watch(engine, 3, lambda: top_speed(engine)))
