@@ -232,18 +232,6 @@ def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complain
 
 # ---------------------------------------------------------------- traces
 
-BUSY = """
-import itertools, pathlib, sys
-folders = [pathlib.Path(name) for name in sys.argv[1:]]
-for number in itertools.count():
-    for folder in folders:
-        (folder / f"of-another-program-{number % 100}").write_text("x")
-        (folder / f"of-another-program-{(number + 50) % 100}").unlink(missing_ok=True)
-    if not number:
-        print("begun", flush=True)
-"""
-
-
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder in the place of those where every account may write."""
@@ -257,30 +245,6 @@ def left_by(tmp_path: Path, leak, name: str = "") -> str:
     with traces.watch_traces(tmp_path / "own", name) as seen:
         leak()
     return seen.complaint
-
-
-@pytest.mark.soak
-def test_a_program_beside_the_grade_is_not_blamed(tmp_path: Path, monkeypatch):
-    """It writes into the home folder and into shared memory all the while."""
-    home = tmp_path / "home"
-    home.mkdir()
-    monkeypatch.setenv("HOME", str(home))
-    monkeypatch.setenv("USERPROFILE", str(home))
-    member = next(each for each in bank() if each.name == "8a-position-first")
-    memory = Path("/dev/shm") if os.access("/dev/shm", os.W_OK) else tmp_path
-    with tempfile.TemporaryDirectory(prefix="beside-", dir=memory) as beside:
-        command = [sys.executable, "-c", BUSY, str(home), str(beside), str(memory)]
-        other = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
-        try:
-            assert other.stdout is not None and other.stdout.readline() == b"begun\n"
-            before = {path.name for path in home.iterdir()}
-            assert grade_member(member, member.todos).complaint == ""
-            assert {path.name for path in home.iterdir()} != before or len(before) > 40
-        finally:
-            other.kill()
-            other.communicate()
-            for path in memory.glob("of-another-program-*"):
-                path.unlink()
 
 
 def test_what_the_judge_leaves_is_seen_wherever_it_is(tmp_path: Path, shared: Path):

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy
 import pytest
@@ -14,13 +13,12 @@ from scipy.integrate import solve_ivp
 
 import accuracy
 import integrators
-from experiments import costs, figures, questions, runs, smooth
+from experiments import costs, figures, runs, smooth
 from experiments.charts import make_charts
 from experiments.engines import State
-from experiments.measures import swing_energy
 from experiments.questions import BOX2D, DIALS, LADDERS, LESSON, PYMUNK, STABLE, dials, families
 from experiments.runs import Effort
-from experiments.scenes import G, chain, drop, pendulum
+from experiments.scenes import G, drop, pendulum
 from experiments.table import BEGIN, END, Table, number, write_markdown
 
 ROOT = Path(__file__).parents[2]
@@ -163,12 +161,6 @@ def test_an_exact_pendulum_has_no_error():
     assert LADDERS["pendulum"].ask(Exact(pendulum(), at), 2.4, 1 / 480) < 1e-7
 
 
-def test_what_falls_through_the_floor_is_no_answer():
-    engine = Exact(drop(), lambda t: (rest(), rest(y=50.0)))
-    assert questions.measure_overlap(engine, 1, 1 / 120) == "falls through"
-    assert "launched" in LADDERS["tower"].ask(Exact(drop(), lambda t: (rest(), rest(y=-t))), 2, 0.1)
-
-
 def test_a_quick_run_judges_each_dial_by_the_same_runs_as_a_full_one():
     for few, many in zip(dials(quick=True), dials(quick=False), strict=True):
         assert few[:2] == many[:2]
@@ -187,27 +179,6 @@ def test_every_dial_goes_through_its_engine_as_it_is(quick):
 
 
 # ---------------------------------------------------------------- costs and verdicts
-
-
-def test_wall_times_are_the_least_of_interleaved_rounds(monkeypatch):
-    order, clock = [], SimpleNamespace(now=0.0)
-    monkeypatch.setattr(costs, "now", lambda: clock.now)
-
-    class Slow:
-        def __init__(self, name, taken):
-            self.name, self.taken = name, iter(taken)
-
-        def step(self, dt):
-            order.append(self.name)
-            clock.now += next(self.taken)
-
-    class Broken:
-        def step(self, dt):
-            raise ValueError
-
-    runs = [(Slow("a", [3, 1, 2]), 1.0), (Slow("b", [5, 7, 6]), 1.0), (Broken(), 1.0)]
-    assert costs.wall_times(runs, 3, 1.0) == [1, 5, None]
-    assert "".join(order) == "ababab"
 
 
 @pytest.mark.parametrize("setting", [LESSON, STABLE])
@@ -245,17 +216,6 @@ def test_a_verdict_tells_what_one_digit_costs(judged, says, digit):
     assert found["digit"] == (None if digit is None else pytest.approx([digit, digit]))
 
 
-def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
-    question = replace(DIALS["pendulum"], seconds=5)
-
-    def ask(**dial):
-        run = runs.run_setting(question, replace(LESSON, **dial), Effort(quick=True))
-        return {**run, "ratio": [1.0] * 3, "opcodes": None}
-
-    assert runs.judge([ask(passes=n) for n in (4, 8, 64)])["says"] == "cannot help"
-    assert runs.judge([ask(rate=rate) for rate in (60, 120, 240)])["says"] == "helps"
-
-
 @pytest.mark.parametrize(
     ("problem", "word"), [(ValueError("NaN"), "NaN"), (TypeError("student"), "TypeError")]
 )
@@ -265,21 +225,6 @@ def test_an_engine_that_meets_nan_or_raises_gives_up(problem, word):
 
     question = replace(DIALS["stack"], ask=ask)
     assert runs.run_setting(question, LESSON, Effort(quick=True))["error"] == word
-
-
-def test_a_number_of_an_engine_that_lost_its_bodies_is_none():
-    def ask(engine, seconds, dt):
-        engine.bodies[-1].position = (math.nan, 0)
-        return 0.0
-
-    question = replace(DIALS["stack"], ask=ask)
-    assert runs.run_setting(question, PYMUNK, Effort(quick=True))["error"] == "NaN"
-
-
-def test_shares_are_taken_repeat_by_repeat():
-    slow = [2.0, 20.0, 2.2]  # the machine was busy in the second repeat
-    assert costs.shares(slow, [1.0, 10.0, 1.0]) == [2.0, 2.0, 2.2]
-    assert costs.shares(None, [1.0]) is None
 
 
 # ---------------------------------------------------------------- budgets
@@ -300,28 +245,6 @@ def test_within_a_budget_the_best_setting_counts_that_fits_and_repeats_make_a_ra
     assert runs.find_least(ran, "lesson", 0.1)["error"] == "too slow"
     lost = ladder("lesson", ("falls through", [0.5, 0.5, 0.5]))
     assert runs.find_least(lost, "lesson", 1.0)["error"] == "falls through"
-
-
-def test_half_a_swing_is_measured_far_finer_than_any_engine_swings():
-    """Of a body on the exact path: x = sin t passes 0 every pi seconds."""
-    step, period = 1 / 120, 2 * math.pi
-    clock = SimpleNamespace(now=1.0)
-
-    class Exact:
-        scene = SimpleNamespace(exact={"period": period})
-
-        def step(self, dt):
-            clock.now += dt
-
-        def read(self, i):
-            return State(math.sin(clock.now), 0, 0, 0, 0, 0)
-
-    assert questions.measure_half_swing(Exact(), 6.0, step) < 1e-9
-
-
-def test_the_energy_of_a_chain_that_hangs_at_rest_is_none():
-    engine = STABLE.build(chain(5))
-    assert abs(swing_energy(engine, 0.0)) < 1e-9
 
 
 # ---------------------------------------------------------------- the program
@@ -362,16 +285,6 @@ def test_the_results_are_complete(results):
     same = {(run["engine"], run["substeps"]): run for run in pile["runs"]}
     depths = [same[who]["error"] for who in (("stable", 4), ("stable", 1), ("lesson", 1))]
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
-
-
-@pytest.mark.soak
-def test_progress_counts_each_run_once(monkeypatch, tmp_path):
-    ticks = []
-    monkeypatch.setattr(accuracy.Progress, "step", lambda self, weight, what: ticks.append(self))
-    monkeypatch.setattr(runs, "QUICK_BUDGETS", (0.02,))
-    monkeypatch.setattr(accuracy, "QUICK_BALLS", (8,))
-    accuracy.main([*TINY, "--out", str(tmp_path), "--no-figures"])
-    assert len(ticks) == ticks[0].total
 
 
 def test_the_handout_gets_its_tables(tiny):
