@@ -375,7 +375,7 @@ def snapshot(results: Path) -> dict[str, bytes]:
 
 
 def until(true: Callable[[], bool]) -> None:
-    for _ in range(600):
+    for _ in range(6000):
         if true():
             return
         time.sleep(0.1)

@@ -331,7 +331,7 @@ def test_from_the_first_line_to_control_c(hand_in, replaces: bool):
         assert any(line.startswith("TODO 5: 0 → 8 of 8") for line in lines)
         time.sleep(0.2)
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
+        _, err = process.communicate(timeout=600)
     finally:
         process.kill()
     assert process.returncode == 0 and err == ""

@@ -327,7 +327,7 @@ def run_in(tree, picture, engine, **environment):
     program = [sys.executable, "-m", "experiments.dials", "--scene", "lab", "--engine", engine]
     program += ["--screenshot", str(picture), "--frames", "60"]
     env = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment}
-    subprocess.run(program, cwd=tree, env=env, check=True, timeout=60)
+    subprocess.run(program, cwd=tree, env=env, check=True, timeout=600)
     return picture.read_bytes()
 
 
