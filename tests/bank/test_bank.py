@@ -24,6 +24,8 @@ WHOLE = "lesson-as-printed"  # graded in full
 # Each of these takes as long as ten others.
 TOO_LONG = (
     "in-every-todo",
+    "B3-only-the-nearest",
+    "B3-a-pair-once-per-cell",
     "2-no-spin-terms",
     "2-divides-by-the-inverse",
     "sends-a-million-lists",

@@ -268,6 +268,7 @@ def results(tiny):
     return json.loads((tiny / "results.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.soak
 def test_the_results_are_complete(results):
     assert set(results) == {"about", "budgets", "smooth", "dials", "piles", "lines"}
     assert list(results["budgets"]) == list(LADDERS)
@@ -287,6 +288,7 @@ def test_the_results_are_complete(results):
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
 
 
+@pytest.mark.soak
 def test_the_handout_gets_its_tables(tiny):
     text = (tiny / "handout" / "t.md").read_text(encoding="utf-8")
     assert text.startswith(BEGIN) and text.endswith(f"{END}\n")
@@ -295,6 +297,7 @@ def test_the_handout_gets_its_tables(tiny):
     assert lines["tower of 20 balls: sink, lesson as it is"] > 0
 
 
+@pytest.mark.soak
 def test_figures_of_every_result_are_drawn(results, tmp_path):
     results = {**results, "budgets": {"tower": results["budgets"]["tower"]}}
     results["dials"] = {"tower": results["dials"]["tower"]}
