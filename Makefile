@@ -140,8 +140,8 @@ mutants: $(CORE) ## Change the solution in small ways, and see whether the check
 sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
 
-test: $(DEV) ## Run the test suite, with a third of the bank; verify and soak have the rest
-	@$(PY) -m pytest tests -n 2 --dist loadfile --durations 20
+test: $(DEV) ## Run the test suite, with some of the bank; verify and soak have the rest
+	@$(PY) -m pytest tests -n 2 --dist loadfile
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak

@@ -5,6 +5,7 @@ import os
 import shutil
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -12,10 +13,14 @@ import pytest
 
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
+from grader.judge.course import FULL
 from grader.judge.grade import Options, grade, opened, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player import replay
+from grader.questions.program import open_program
+from grader.release import practice
+from grader.release.pages import write_pages
 from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -29,8 +34,9 @@ os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
 
 HandIn = Callable[..., Path]
 Once = Callable[[str, Callable[[Path], object]], Path]
-RECORDED = {"1", "3", "7c", "8b"}  # TODOs whose right runs are recorded
-LONGEST = 300  # s that a process waits for what another one makes
+RECORDED = {"1", "8b"}  # TODOs whose right runs are recorded
+FEW_CASES = 3  # of each question for practice
+LONGEST = 1800  # s that a process waits for what another one makes
 
 
 def pytest_configure() -> None:
@@ -113,6 +119,12 @@ def wait_for(path: Path) -> None:
 
 
 @pytest.fixture(scope="session")
+def handout_pages(once: Once) -> Path:
+    """The pages of the handouts as the student's folder has them."""
+    return once("pages", lambda folder: write_pages(KIT / "handouts", folder, FULL))
+
+
+@pytest.fixture(scope="session")
 def solution(once: Once) -> Result:
     """What the solution gets, graded with the reference."""
     return result_of("solution", once)
@@ -127,7 +139,7 @@ def starter(once: Once) -> Result:
 def expected_runs(once: Once) -> bytes:
     """The solution's runs of some TODOs, which students' copies of the grader carry with them.
 
-    One TODO of each kind: a contact, a joint, a pymunk scene, an integrator. `make soak` has all.
+    Those of a contact and of an integrator. `make soak` has all.
     """
 
     def fill(folder: Path) -> None:
@@ -136,6 +148,20 @@ def expected_runs(once: Once) -> bytes:
         (folder / "expected_runs.json").write_bytes(runs)
 
     return (once("expected-runs", fill) / "expected_runs.json").read_bytes()
+
+
+@pytest.fixture(scope="session")
+def practice_file(once: Once, solution: Result) -> bytes:
+    """What a release has for practice, with fewer cases, and the solution graded once in all."""
+
+    def fill(folder: Path) -> None:
+        with pytest.MonkeyPatch.context() as patch:
+            opened_with = partial(open_program, worker=shared_worker(), result=solution)
+            patch.setattr(practice, "open_program", opened_with)
+            patch.setattr(practice, "EACH", FEW_CASES)
+            (folder / "practice.json").write_bytes(practice.make_practice(FULL))
+
+    return (once("practice", fill) / "practice.json").read_bytes()
 
 
 def only_some(rubric: Rubric) -> Rubric:

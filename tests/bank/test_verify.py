@@ -12,12 +12,13 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from whole_bank import bank
 from msgspec.structs import replace as replace_in
 from rich.console import Console
 
 from grader.bank import kept, traces, verify
 from grader.bank.kept import StoredResults, make_key
-from grader.bank.members import Entry, Member, members
+from grader.bank.members import Entry, Member
 from grader.bank.verify import Report, Verdict, find_complaint, grade_member, summarize, judge_members
 from grader.judge.grade import KIT
 from grader.judge.result import Result, TodoResult
@@ -123,7 +124,7 @@ def test_a_result_is_written_whole_and_alone(tmp_path: Path):
 
 
 def test_each_form_of_a_member_has_a_file_of_its_own():
-    files = [StoredResults(Path()).file(member) for member in members(KIT)]
+    files = [StoredResults(Path()).file(member) for member in bank()]
     assert len(files) == len(set(files))
 
 
@@ -191,7 +192,7 @@ def test_every_kind_is_counted_by_itself():
 
 
 def test_a_wrong_name_for_a_mistake_is_a_complaint():
-    member = next(each for each in members(KIT) if each.name == "5-spin-is-not-damped")
+    member = next(each for each in bank() if each.name == "5-spin-is-not-damped")
     lost = [TodoResult("5", "Damping", "not yet", 0, 8, "spin-is-not-damped", [])]
     result = replace_in(RIGHT, todos=lost)
     assert find_complaint(member, result, 1.0) == ""
@@ -231,18 +232,6 @@ def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complain
 
 # ---------------------------------------------------------------- traces
 
-BUSY = """
-import itertools, pathlib, sys
-folders = [pathlib.Path(name) for name in sys.argv[1:]]
-for number in itertools.count():
-    for folder in folders:
-        (folder / f"of-another-program-{number % 100}").write_text("x")
-        (folder / f"of-another-program-{(number + 50) % 100}").unlink(missing_ok=True)
-    if not number:
-        print("begun", flush=True)
-"""
-
-
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder in the place of those where every account may write."""
@@ -256,29 +245,6 @@ def left_by(tmp_path: Path, leak, name: str = "") -> str:
     with traces.watch_traces(tmp_path / "own", name) as seen:
         leak()
     return seen.complaint
-
-
-def test_a_program_beside_the_grade_is_not_blamed(tmp_path: Path, monkeypatch):
-    """It writes into the home folder and into shared memory all the while."""
-    home = tmp_path / "home"
-    home.mkdir()
-    monkeypatch.setenv("HOME", str(home))
-    monkeypatch.setenv("USERPROFILE", str(home))
-    member = next(each for each in members(KIT) if each.name == "8a-position-first")
-    memory = Path("/dev/shm") if os.access("/dev/shm", os.W_OK) else tmp_path
-    with tempfile.TemporaryDirectory(prefix="beside-", dir=memory) as beside:
-        command = [sys.executable, "-c", BUSY, str(home), str(beside), str(memory)]
-        other = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
-        try:
-            assert other.stdout is not None and other.stdout.readline() == b"begun\n"
-            before = {path.name for path in home.iterdir()}
-            assert grade_member(member, member.todos).complaint == ""
-            assert {path.name for path in home.iterdir()} != before or len(before) > 40
-        finally:
-            other.kill()
-            other.communicate()
-            for path in memory.glob("of-another-program-*"):
-                path.unlink()
 
 
 def test_what_the_judge_leaves_is_seen_wherever_it_is(tmp_path: Path, shared: Path):
@@ -348,7 +314,7 @@ def test_members_that_leave_files_name_them_after_themselves():
     open_to_all = re.compile(
         "|".join(map(re.escape, (*traces.OPEN_TO_ALL, "expanduser", "home()")))
     )
-    for member in members(KIT):
+    for member in bank():
         texts = [msgspec.json.encode(member.entry).decode()]
         if member.source is not None and member.source.suffix != ".toml":
             files = [member.source] if member.source.is_file() else member.source.rglob("*.py")

@@ -5,10 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from one_worker import opened
 
 from grader.bank.members import lay_over
 from grader.checks.whole import checks
-from grader.judge.grade import KIT, opened
+from grader.judge.grade import KIT
 from grader.judge.lab import Lab
 
 LESSON = KIT / "tests" / "bank" / "right" / "lesson-as-printed"

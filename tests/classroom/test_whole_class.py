@@ -17,8 +17,8 @@ from classes import TITLE, Student
 from command_line import run_grader
 from points_pool import Inline, PointsPool
 from rich.console import Console
+from whole_bank import bank
 
-from grader.bank.members import members
 from grader.classroom import grading
 from grader.classroom.batch import Run
 from grader.classroom.grading import ClassOptions, run_class
@@ -262,12 +262,12 @@ TODOS = ("4", "8a")
 
 
 @pytest.fixture(scope="module")
-def bank(tmp_path_factory) -> list[Student]:
+def archived(tmp_path_factory) -> list[Student]:
     """Submissions of the bank, each in another archive, among all that goes wrong; as graded."""
     place = tmp_path_factory.mktemp("bank")
     options = Options(shipped_reference(), only=frozenset(TODOS))
     found, worker = [], start_worker()
-    chosen = [each for each in members(KIT) if each.name in CHOSEN and each.form == "package"]
+    chosen = [each for each in bank() if each.name in CHOSEN and each.form == "package"]
     for number, member in enumerate(chosen):
         member.build(KIT, place / member.name)
         points = grade(place / member.name, options, worker).points
@@ -286,14 +286,14 @@ def bank(tmp_path_factory) -> list[Student]:
 
 @pytest.mark.soak
 @pytest.mark.parametrize("system", SYSTEMS)
-def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, bank, system):
+def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, archived, system):
     kept = []
     for name, jobs, kills in (("once", 1, 0), ("again", 2, 2)):
         folder = tmp_path / name / "class"
         folder.mkdir(parents=True)
         roster = tmp_path / name / "list.csv"
-        roster.write_text(classes.SYSTEMS[system](folder, bank), encoding="utf-8")
-        decisions = classes.decisions(bank, lambda each: name_in(system, each))
+        roster.write_text(classes.SYSTEMS[system](folder, archived), encoding="utf-8")
+        decisions = classes.decisions(archived, lambda each: name_in(system, each))
         (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
         todos = [word for todo in TODOS for word in ("--todo", todo)]
         words = ["grade", "--class", str(folder), "--roster", str(roster), "--jobs", str(jobs)]
@@ -312,7 +312,7 @@ def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, bank, s
     assert kept[0] == kept[1]
     told = kept[0]["class-results.class.csv"].decode("utf-8-sig").splitlines()
     rows = {row["name"]: row for row in csv.DictReader(told)}
-    for student in bank:
+    for student in archived:
         if student.files or student.by_hand is not None:
             mark = rows[name_in(system, student)]["points"]
             assert mark == ("" if student.mark is None else str(student.mark)), student.login

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy
 import pytest
@@ -14,13 +13,12 @@ from scipy.integrate import solve_ivp
 
 import accuracy
 import integrators
-from experiments import costs, figures, questions, runs, smooth
+from experiments import costs, figures, runs, smooth
 from experiments.charts import make_charts
 from experiments.engines import State
-from experiments.measures import swing_energy
 from experiments.questions import BOX2D, DIALS, LADDERS, LESSON, PYMUNK, STABLE, dials, families
 from experiments.runs import Effort
-from experiments.scenes import G, chain, drop, pendulum
+from experiments.scenes import G, drop, pendulum
 from experiments.table import BEGIN, END, Table, number, write_markdown
 
 ROOT = Path(__file__).parents[2]
@@ -71,14 +69,10 @@ def rk4_with_equal_weights(x, v, dt, accel):
     return x + dt / 4 * (v1 + v2 + v3 + v4), v + dt / 4 * (a1 + a2 + a3 + a4)
 
 
-@pytest.mark.parametrize(
-    ("place", "wrong"), [(2, verlet_with_one_force), (3, rk4_with_equal_weights)]
-)
-def test_a_wrong_method_misses_its_order(place, wrong):
-    methods = list(smooth.METHODS)
-    methods[place] = wrong
-    row = smooth.study_system(smooth.make_spring(), methods)["methods"][place]
-    assert row["order"] is None or abs(row["order"] - row["expected"]) > 0.2
+def test_a_wrong_method_misses_its_order():
+    methods = [*smooth.METHODS[:2], verlet_with_one_force, rk4_with_equal_weights]
+    for row in smooth.study_system(smooth.make_spring(), methods)["methods"][2:]:
+        assert row["order"] is None or abs(row["order"] - row["expected"]) > 0.2
 
 
 def test_calls_of_the_force_are_counted():
@@ -167,24 +161,12 @@ def test_an_exact_pendulum_has_no_error():
     assert LADDERS["pendulum"].ask(Exact(pendulum(), at), 2.4, 1 / 480) < 1e-7
 
 
-def test_what_falls_through_the_floor_is_no_answer():
-    engine = Exact(drop(), lambda t: (rest(), rest(y=50.0)))
-    assert questions.measure_overlap(engine, 1, 1 / 120) == "falls through"
-    assert "launched" in LADDERS["tower"].ask(Exact(drop(), lambda t: (rest(), rest(y=-t))), 2, 0.1)
-
-
 def test_a_quick_run_judges_each_dial_by_the_same_runs_as_a_full_one():
     for few, many in zip(dials(quick=True), dials(quick=False), strict=True):
         assert few[:2] == many[:2]
         few, many = list(few[2].items()), list(many[2].items())
         assert (few[0], few[-1]) == (many[0], many[-1])
         assert set(few) <= set(many)
-
-
-def test_no_digit_costs_less_than_no_work():
-    judged = [{"error": 1.0, "opcodes": 0, "ratio": [1.0, 1.0, 1.1]},
-              {"error": 0.1, "opcodes": 0, "ratio": [0.9, 0.9, 1.2]}]  # fmt: skip
-    assert runs.judge(judged) == {"says": "helps", "digit": [1.0, 1.2]}
 
 
 @pytest.mark.parametrize("quick", [True, False])
@@ -197,27 +179,6 @@ def test_every_dial_goes_through_its_engine_as_it_is(quick):
 
 
 # ---------------------------------------------------------------- costs and verdicts
-
-
-def test_wall_times_are_the_least_of_interleaved_rounds(monkeypatch):
-    order, clock = [], SimpleNamespace(now=0.0)
-    monkeypatch.setattr(costs, "now", lambda: clock.now)
-
-    class Slow:
-        def __init__(self, name, taken):
-            self.name, self.taken = name, iter(taken)
-
-        def step(self, dt):
-            order.append(self.name)
-            clock.now += next(self.taken)
-
-    class Broken:
-        def step(self, dt):
-            raise ValueError
-
-    runs = [(Slow("a", [3, 1, 2]), 1.0), (Slow("b", [5, 7, 6]), 1.0), (Broken(), 1.0)]
-    assert costs.wall_times(runs, 3, 1.0) == [1, 5, None]
-    assert "".join(order) == "ababab"
 
 
 @pytest.mark.parametrize("setting", [LESSON, STABLE])
@@ -255,22 +216,6 @@ def test_a_verdict_tells_what_one_digit_costs(judged, says, digit):
     assert found["digit"] == (None if digit is None else pytest.approx([digit, digit]))
 
 
-def test_work_is_counted_in_opcodes_where_there_are_any():
-    assert runs.get_work({"opcodes": 5e6, "ratio": [1.0] * 3}) == [5e6, 5e6]
-    assert runs.get_work({"opcodes": None, "ratio": [1.0, 2.0, 4.0]}) == [1.0, 4.0]
-
-
-def test_passes_cannot_help_a_pendulum_and_smaller_steps_do():
-    question = replace(DIALS["pendulum"], seconds=5)
-
-    def ask(**dial):
-        run = runs.run_setting(question, replace(LESSON, **dial), Effort(quick=True))
-        return {**run, "ratio": [1.0] * 3, "opcodes": None}
-
-    assert runs.judge([ask(passes=n) for n in (4, 8, 64)])["says"] == "cannot help"
-    assert runs.judge([ask(rate=rate) for rate in (60, 120, 240)])["says"] == "helps"
-
-
 @pytest.mark.parametrize(
     ("problem", "word"), [(ValueError("NaN"), "NaN"), (TypeError("student"), "TypeError")]
 )
@@ -280,21 +225,6 @@ def test_an_engine_that_meets_nan_or_raises_gives_up(problem, word):
 
     question = replace(DIALS["stack"], ask=ask)
     assert runs.run_setting(question, LESSON, Effort(quick=True))["error"] == word
-
-
-def test_a_number_of_an_engine_that_lost_its_bodies_is_none():
-    def ask(engine, seconds, dt):
-        engine.bodies[-1].position = (math.nan, 0)
-        return 0.0
-
-    question = replace(DIALS["stack"], ask=ask)
-    assert runs.run_setting(question, PYMUNK, Effort(quick=True))["error"] == "NaN"
-
-
-def test_shares_are_taken_repeat_by_repeat():
-    slow = [2.0, 20.0, 2.2]  # the machine was busy in the second repeat
-    assert costs.shares(slow, [1.0, 10.0, 1.0]) == [2.0, 2.0, 2.2]
-    assert costs.shares(None, [1.0]) is None
 
 
 # ---------------------------------------------------------------- budgets
@@ -315,28 +245,6 @@ def test_within_a_budget_the_best_setting_counts_that_fits_and_repeats_make_a_ra
     assert runs.find_least(ran, "lesson", 0.1)["error"] == "too slow"
     lost = ladder("lesson", ("falls through", [0.5, 0.5, 0.5]))
     assert runs.find_least(lost, "lesson", 1.0)["error"] == "falls through"
-
-
-def test_half_a_swing_is_measured_far_finer_than_any_engine_swings():
-    """Of a body on the exact path: x = sin t passes 0 every pi seconds."""
-    step, period = 1 / 120, 2 * math.pi
-    clock = SimpleNamespace(now=1.0)
-
-    class Exact:
-        scene = SimpleNamespace(exact={"period": period})
-
-        def step(self, dt):
-            clock.now += dt
-
-        def read(self, i):
-            return State(math.sin(clock.now), 0, 0, 0, 0, 0)
-
-    assert questions.measure_half_swing(Exact(), 6.0, step) < 1e-9
-
-
-def test_the_energy_of_a_chain_that_hangs_at_rest_is_none():
-    engine = STABLE.build(chain(5))
-    assert abs(swing_energy(engine, 0.0)) < 1e-9
 
 
 # ---------------------------------------------------------------- the program
@@ -360,6 +268,7 @@ def results(tiny):
     return json.loads((tiny / "results.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.soak
 def test_the_results_are_complete(results):
     assert set(results) == {"about", "budgets", "smooth", "dials", "piles", "lines"}
     assert list(results["budgets"]) == list(LADDERS)
@@ -379,15 +288,7 @@ def test_the_results_are_complete(results):
     assert same["pymunk", 1]["ratio"] == [1, 1, 1] and depths == sorted(depths)
 
 
-def test_progress_counts_each_run_once(monkeypatch, tmp_path):
-    ticks = []
-    monkeypatch.setattr(accuracy.Progress, "step", lambda self, weight, what: ticks.append(self))
-    monkeypatch.setattr(runs, "QUICK_BUDGETS", (0.02,))
-    monkeypatch.setattr(accuracy, "QUICK_BALLS", (8,))
-    accuracy.main([*TINY, "--out", str(tmp_path), "--no-figures"])
-    assert len(ticks) == ticks[0].total
-
-
+@pytest.mark.soak
 def test_the_handout_gets_its_tables(tiny):
     text = (tiny / "handout" / "t.md").read_text(encoding="utf-8")
     assert text.startswith(BEGIN) and text.endswith(f"{END}\n")
@@ -396,6 +297,7 @@ def test_the_handout_gets_its_tables(tiny):
     assert lines["tower of 20 balls: sink, lesson as it is"] > 0
 
 
+@pytest.mark.soak
 def test_figures_of_every_result_are_drawn(results, tmp_path):
     results = {**results, "budgets": {"tower": results["budgets"]["tower"]}}
     results["dials"] = {"tower": results["dials"]["tower"]}
@@ -406,21 +308,11 @@ def test_figures_of_every_result_are_drawn(results, tmp_path):
         assert "<svg" in (tmp_path / f"{name}.svg").read_text(encoding="utf-8")
 
 
-def test_a_shorter_picture_says_the_same_in_fewer_bytes():
-    mark = '<path d="M 0.123456 2.5" style="stroke: red"/>'
-    line = '<g id="text_1"><text style="fill: blue">0.0001</text></g>'
-    svg = f'<svg><style>* {{}}</style><path id="m1"/>{3 * mark}{line}</svg>'
-    slim = figures.shorten(svg)
-    assert '<text style="fill: blue">0.0001</text>' in slim  # what is read stays as it is
-    assert slim.count('<path d="M 0.12 2.5" class="s0"/>') == 3
-    assert "* {}.s0{stroke: red}</style>" in slim and 'id="m1"' in slim and "text_1" not in slim
-
-
 @pytest.mark.soak
 def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     command = [sys.executable, "accuracy.py", *TINY, "--no-figures", "--out", str(tmp_path)]
     done = subprocess.run(
-        command, cwd=handed_out, capture_output=True, text=True, timeout=120, check=False
+        command, cwd=handed_out, capture_output=True, text=True, timeout=600, check=False
     )
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""

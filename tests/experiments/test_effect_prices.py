@@ -1,8 +1,6 @@
 """The price list of effects: what is counted is what runs, and what is not declared is free."""
 
-import gc
 import json
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -16,7 +14,7 @@ from experiments.effects import EFFECTS, LESSON_WORK, ROWS, STABLE_WORK, Repeate
 from experiments.engines import Lesson, Stable
 from experiments.measures import deepest_overlap, top_speed
 from experiments.opcodes import count_calls, count_opcodes, files_run
-from experiments.scenes import DT, TOUCH, Ball
+from experiments.scenes import DT, Ball
 from mini_engine import SLOP
 
 KIT = Path(__file__).parents[2]
@@ -80,13 +78,6 @@ def test_counting_leaves_no_trace_behind():
         assert (sys.gettrace(), sys.getprofile()) == before
 
 
-def test_counting_does_not_change_the_run(heap):
-    plain, counted = (Stable(replace(heap, effects=TOUCH)) for _ in range(2))
-    plain.step(DT)
-    count_opcodes(lambda: count_calls(lambda: counted.step(DT), STABLE_WORK))
-    assert [plain.read(i) for i in heap.moving()] == [counted.read(i) for i in heap.moving()]
-
-
 # ---------------------------------------------------------------- the pile
 
 
@@ -96,14 +87,6 @@ def test_the_pile_is_at_rest(heap):
     for _ in range(120):
         engine.step(DT)
     assert top_speed(engine) < 3.0
-
-
-def test_rods_and_springs_tie_ten_pairs_that_do_not_touch(heap):
-    assert len(heap.rods) == len(heap.springs) == 10
-    for a, b in heap.rods:
-        there = [heap.bodies[i] for i in (a, b)]
-        apart = sum((p - q) ** 2 for p, q in zip(there[0].pos, there[1].pos, strict=True)) ** 0.5
-        assert apart > there[0].radius + there[1].radius
 
 
 # ---------------------------------------------------------------- the price list
@@ -191,13 +174,6 @@ def test_a_packed_pile_touches_no_deeper_than_a_solver_leaves_alone():
     assert 0 < deepest_overlap(Stable(effects.packed(HEAP))) < SLOP
 
 
-def test_before_the_bonus_tasks_every_pair_is_looked_at(results):
-    """n balls and three blocks: n(n - 1)/2 pairs of balls, and n with each block."""
-    before, _, awake, _ = results["bonus"][str(HEAP)]
-    for line in (before, awake):
-        assert line["done"]["pairs"] == HEAP * (HEAP - 1) / 2 + 3 * HEAP
-
-
 def test_a_grid_looks_at_fewer_pairs_and_finds_the_same_contacts(results):
     before, grid = (line["done"] for line in results["bonus"][str(HEAP)][:2])
     assert 0 < grid["contacts"] <= grid["pairs"] < before["pairs"]
@@ -209,13 +185,6 @@ def test_no_pair_of_sleepers_is_looked_at_or_solved(results):
     assert [line["asleep"] for line in awake] == [0, 0, 0]
     assert asleep["asleep"] == HEAP
     assert not any(asleep["done"].values())
-
-
-def test_the_handout_has_the_bonus_tasks_at_every_size():
-    text = (KIT / "handouts" / "effects.md").read_text("utf-8")
-    for balls in effects.HEAPS:
-        for scene in ("before", "B3: a grid", "B1: sleep, all awake", "B1: asleep"):
-            assert f"| {balls} | {scene} |" in text
 
 
 # ---------------------------------------------------------------- what comes out
@@ -246,31 +215,17 @@ def test_bars_show_every_effect(results, tmp_path):
     assert (tmp_path / "effects-stacked.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_without_matplotlib_a_sentence_says_how_to_get_it(results, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
-    bars = [("effects-stacked", effects_report.make_bars(results))]
-    assert "pip install matplotlib" in figures.draw_figures(bars, tmp_path)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_too_small_a_pile_gets_a_sentence(capsys):
     with pytest.raises(SystemExit):
         effects.main(["--balls", "3"])
     assert "--balls is 3, but it must be 10 or more." in capsys.readouterr().err
 
 
-def test_it_measures_in_a_students_folder_with_nothing_done(handed_out):
-    code = "from experiments import effects; effects.measure((10,), heaps=(10,))"
-    program = [sys.executable, "-c", code]
-    environment = {**os.environ, "PYTHONPATH": ""}
-    subprocess.run(program, cwd=handed_out, env=environment, check=True, capture_output=True)
-
-
 @pytest.mark.soak
 def test_it_runs_in_a_students_folder_with_nothing_done(handed_out, tmp_path):
     program = [sys.executable, "-m", "experiments.effects", "--quick", "--balls", "10"]
     program += ["--out", str(tmp_path)]
-    subprocess.run(program, cwd=handed_out, check=True, capture_output=True, timeout=60)
+    subprocess.run(program, cwd=handed_out, check=True, capture_output=True, timeout=600)
     assert (tmp_path / "results.json").exists()
 
 
@@ -278,21 +233,3 @@ def test_the_handout_has_a_line_for_every_row():
     text = (KIT / "handouts" / "effects.md").read_text("utf-8")
     for row in ROWS:
         assert f"| {row.title} |" in text, f"{row.title}: run experiments.effects --markdown anew"
-
-
-def test_what_others_do_when_garbage_is_collected_is_not_counted():
-    def busy(phase, info):
-        sum(range(len(phase)))
-
-    def call():
-        cycles = [[] for _ in range(50_000)]
-        for cycle in cycles:
-            cycle.append(cycle)
-
-    quiet = count_opcodes(call)
-    gc.callbacks.append(busy)
-    try:
-        assert count_opcodes(call) == quiet
-    finally:
-        gc.callbacks.remove(busy)
-    assert gc.isenabled()

@@ -9,9 +9,7 @@ from typing import Any
 import pytest
 from page_readers import Screen, chromium
 
-from grader.judge.course import FULL
 from grader.release.measured import make_script
-from grader.release.pages import write_pages
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text("utf-8"))
@@ -20,11 +18,9 @@ PAGE = (HANDOUTS / "accuracy.md").read_text("utf-8")
 
 
 @pytest.fixture(scope="module")
-def screen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Screen]:
-    folder = tmp_path_factory.mktemp("pages")
-    write_pages(HANDOUTS, folder, FULL)
+def screen(handout_pages: Path) -> Iterator[Screen]:
     with chromium() as browser:
-        screen = Screen(browser, folder / "accuracy.html")
+        screen = Screen(browser, handout_pages / "accuracy.html")
         yield screen
         assert screen.complaints == []
 
@@ -166,7 +162,13 @@ ENGINES_BY_TOWER = sorted(
 )
 
 
-@pytest.mark.parametrize("name", ["effects-stacked", "hard-cases-limits", *CHARTS])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("effects-stacked", "hard-cases-limits", next(iter(CHARTS))),
+        *(pytest.param(name, marks=pytest.mark.soak) for name in list(CHARTS)[1:]),
+    ],
+)
 def test_it_fits_a_phone_and_paper_has_the_still(screen: Screen, name: str) -> None:
     figure = opened(screen, name)
     screen.page.set_viewport_size({"width": 390, "height": 800})

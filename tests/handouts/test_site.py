@@ -145,7 +145,7 @@ def opened(page: Path, folder: Path, script: str = "") -> tuple[str, str]:
         ],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=600,
     )
     watched.unlink()
     complaints = re.search('data-complaints="([^"]*)"', done.stdout)

@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+PATIENCE = 600_000  # ms, however busy the machine is
+
 # What a submission may put into its names and messages: HTML, Markdown, controls, directions.
 HOSTILE = (
     "</script ><script>alert(1)</script>\"'><img src=x onerror=alert(2)>&lt;b&gt; *a* \u202e\x07\n#"
@@ -51,7 +53,9 @@ def chromium() -> Iterator[Any]:
     if path is None:
         pytest.skip("needs Chromium on the PATH, to open a page as a person would")
     with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        browser = playwright.chromium.launch(
+            executable_path=path, args=["--no-sandbox"], timeout=PATIENCE
+        )
         yield browser
         browser.close()
 
@@ -83,6 +87,7 @@ class Screen:
 
     def __init__(self, browser: Any, path: Path, **options: Any) -> None:
         self.page = browser.new_page(viewport={"width": 900, "height": 1000}, **options)
+        self.page.set_default_timeout(PATIENCE)
         self.complaints: list[str] = []
         self.page.on("console", lambda message: self.complaints.append(message.text))
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import packed
 import pytest
+from whole_bank import bank
 
-from grader.bank.members import members
 from grader.errors import Stop
 from grader.intake import repack
 from grader.intake.found import CannotTake, Found, Package
@@ -272,7 +272,7 @@ def test_a_second_of_an_lms_is_known_again(tmp_path):
 
 def test_what_deserves_points_is_taken_in_whole(tmp_path):
     """No right submission of the bank loses a file or meets a doubt on its way in."""
-    for member in members(KIT):
+    for member in bank():
         if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
             member.build(KIT, tmp_path / member.name)
             package = pack(Found("ann", (tmp_path / member.name,)))

@@ -10,8 +10,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from whole_bank import bank
 
-from grader.bank.members import Member, members
+from grader.bank.members import Member
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.report.files import as_json
 
@@ -53,7 +54,7 @@ def submission(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def built(name: str, folder: Path) -> Path:
-    member: Member = next(each for each in members(KIT) if each.name == name)
+    member: Member = next(each for each in bank() if each.name == name)
     member.build(KIT, folder)
     return folder
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from whole_bank import bank
 
-from grader.bank.members import members
 from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.names import MOST, Names
@@ -56,7 +56,7 @@ def test_a_text_that_is_cut_says_so():
 
 def test_no_more_than_one_process_of_a_submission_is_open(tmp_path: Path):
     """So its memory is at most that of one: RLIMIT_AS, and the scratch folder in memory."""
-    member = next(each for each in members(KIT) if each.todos == {"8a"} and each.kind == "wrong")
+    member = next(each for each in bank() if each.todos == {"8a"} and each.kind == "wrong")
     tree = tmp_path / "tree"
     member.build(KIT, tree)
     worker = shared_worker()
@@ -247,7 +247,7 @@ def test_answers_cost_the_judge_little(tmp_path: Path):
     }
     trees = [tmp_path / "0-solution"]
     tree_with(trees[0], {"integrators.py": (KIT / "solution" / "integrators.py").read_text()})
-    for member in members(KIT):
+    for member in bank():
         if member.name in names:
             names.remove(member.name)
             member.build(KIT, tmp_path / member.name)

@@ -2,8 +2,9 @@
 
 import os
 import shutil
-import signal
+import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
@@ -85,24 +86,31 @@ def test_all_together_ends_within_two_minutes_of_work_and_one_of_rest():
 @LINUX
 def test_a_process_that_waits_for_a_processor_is_busy():
     """Two loops on one processor: each has worked or queued all the time, a sleeper has not."""
-    one = min(os.sched_getaffinity(0))
-    loops = [spawned(one, "while True: pass") for _ in range(2)]
-    sleeper = spawned(one, "import time; time.sleep(60)")
+    loop, sleep = "while True: pass", "time.sleep(600)"
+    started = [begun(code) for code in (loop, loop, sleep)]
     try:
-        before = [busy_seconds(pid) for pid in (*loops, sleeper)]
-        signal.sigtimedwait([], 1.5)
-        after = [busy_seconds(pid) for pid in (*loops, sleeper)]
-        worked = [b - a for a, b in zip(before, after, strict=True)]
-        assert min(worked[:2]) > 1.2 and worked[2] < 0.75
+        before = [busy_seconds(each.pid) for each in started]
+        time.sleep(0.5)
+        after = [busy_seconds(each.pid) for each in started]
+        *looped, slept = (b - a for a, b in zip(before, after, strict=True))
+        assert min(looped) > 0.4 > 0.1 > slept
     finally:
-        for pid in (*loops, sleeper):
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
+        for each in started:
+            each.kill()
+            each.communicate()
 
 
-def spawned(processor: int, code: str) -> int:
-    pin = f"import os; os.sched_setaffinity(0, [{processor}])\n"
-    return os.posix_spawn(sys.executable, [sys.executable, "-c", pin + code], os.environ)
+def begun(code: str) -> "subprocess.Popen[str]":
+    """Run this code on the first processor, and return once it has begun."""
+    first = min(os.sched_getaffinity(0))
+    begin = f"import os, time; os.sched_setaffinity(0, [{first}]); print(flush=True); {code}"
+    process = subprocess.Popen(
+        [sys.executable, "-c", begin.replace("; while", "\nwhile")],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None and process.stdout.readline() == "\n"
+    return process
 
 
 @pytest.mark.soak  # ten seconds of it

@@ -48,6 +48,7 @@ def examples_of_all(folder: Path, *modules: str) -> tuple[list[str], list[str]]:
     return [each for each in lines if each not in large], large
 
 
+@pytest.mark.soak
 def test_what_else_is_loaded_changes_no_example(tmp_path: Path):
     """Large integers show that hypothesis does take numbers from this module."""
     numbers = ", ".join(f"{n}, {n / 8}" for n in range(100, 600))

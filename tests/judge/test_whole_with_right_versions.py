@@ -29,10 +29,13 @@ def whole(result: Result) -> TodoResult:
     return next(todo for todo in result.todos if todo.id == "whole")
 
 
-@pytest.mark.parametrize(("file", "regions"), [(WORLD, NO_DAMPING), (SOLVER, NO_SPIN)])
+@pytest.mark.parametrize(
+    ("file", "regions"),
+    [pytest.param(WORLD, NO_DAMPING, marks=pytest.mark.soak), (SOLVER, NO_SPIN)],
+)
 def test_a_mistake_in_a_todo_costs_nothing_in_the_whole(hand_in, file, regions):
     tree = with_regions(hand_in("solution"), file, regions)
-    result = graded(tree, "2", "5", "whole", reference=shipped_reference())
+    result = graded(tree, *regions, "whole", reference=shipped_reference())
     assert {todo.id for todo in result.todos if todo.state != "passed"} == set(regions)
 
 
@@ -43,6 +46,7 @@ def test_where_all_that_was_begun_is_wrong_nothing_stands_in(hand_in):
     assert result.points == 0
 
 
+@pytest.mark.soak
 def test_without_the_reference_the_whole_names_the_todo(hand_in):
     tree = with_regions(hand_in("solution"), WORLD, NO_DAMPING)
     failed = whole(graded(tree, "5", "whole")).failed
@@ -51,6 +55,7 @@ def test_without_the_reference_the_whole_names_the_todo(hand_in):
     assert all(check.meaning and check.where for check in failed)
 
 
+@pytest.mark.soak
 def test_what_is_wrong_outside_of_all_todos_is_said_to_be_there(hand_in):
     """A program of one's own, with no given code in it that could be put back."""
     source = Path(__file__).parents[1] / "bank" / "single_file" / "mini_engine.py"

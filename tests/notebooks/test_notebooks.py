@@ -158,7 +158,7 @@ def test_checksums_tell_nothing_about_what_was_hidden(name):
 def run(folder, name, *options):
     """What fails in a notebook of a handed-in folder, and some of its data."""
     command = [sys.executable, str(RUNNER), str(folder / "notebooks" / f"{name}.ipynb")]
-    done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 
@@ -213,7 +213,7 @@ def test_run_all_in_jupyters_own_way_goes_to_the_end(name, tmp_path):
     folder = hand_in(tmp_path / "tree", "starter", {name: read(RELEASED / f"{name}.ipynb")})
     notebook = nbformat.read(folder / "notebooks" / f"{name}.ipynb", as_version=4)
     place = {"metadata": {"path": str(folder / "notebooks")}}
-    nbclient.NotebookClient(notebook, timeout=60, resources=place).execute()
+    nbclient.NotebookClient(notebook, timeout=600, resources=place).execute()
     (last,) = [cell for cell in notebook.cells if cell.id == "given-standing"]
     assert " yet: " in last.outputs[0].text
 

@@ -13,20 +13,20 @@ from typing import Any
 import msgspec
 import pytest
 from conftest import Once, only_some
+from one_worker import opened
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+from whole_bank import bank
 
 import grader.player.replay as replays
-from grader.bank.members import Member, members, put_regions
+from grader.bank.members import Member, put_regions
 from grader.bank.verify import shared_worker
 from grader.checks.todo_2 import checks as todo_2
-from grader.checks.todo_3 import checks as todo_3
 from grader.checks.todo_4 import checks as todo_4
-from grader.checks.todo_7 import checks as todo_7
 from grader.checks.todo_8 import checks as todo_8
 from grader.checks.whole import checks as whole
 from grader.judge.children import ChildEnded, start_worker
 from grader.judge.failures import Failing
-from grader.judge.grade import KIT, Options, grade, opened, shipped_reference
+from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import Result
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player.page import make_page
@@ -53,7 +53,6 @@ MISTAKES = (
     "4-clamps-the-increment",
     "6-no-cap",
     "7b-moment-of-a-ring",
-    "7c-rod-is-too-long",
     "8b-old-acceleration-twice",
 )
 DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
@@ -71,11 +70,11 @@ def mistaken(once: Once) -> Path:
 
     def fill(top: Path) -> None:
         folder = top / "mistaken"
-        chosen = [m for m in members(KIT) if m.name in MISTAKES and m.form == "package"]
+        chosen = [m for m in bank() if m.name in MISTAKES and m.form == "package"]
         chosen[0].build(KIT, folder)
         for member in chosen[1:]:
             put_regions(member.regions, folder)
-        todos = frozenset({"1", "4", "6", "7b", "7c", "8b"})
+        todos = frozenset({"1", "4", "6", "7b", "8b"})
         options = Options(shipped_reference(), only=todos)
         result = grade_with_replays(folder, options, top / "pages", shared_worker())
         write_json(result, top / "result.json")
@@ -109,7 +108,7 @@ def line_of_parting(data: dict[str, Any]) -> tuple[int, dict[str, Any]]:
 
 def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pages: Path):
     failed = [(t, c) for t in graded.todos for c in t.checks if c.state == "not yet"]
-    assert len(failed) > 15
+    assert len(failed) > 12
     for todo, check in failed:
         assert check.replay == f"pages/{todo.id}-{check.id}.html"
         assert (pages.parent / check.replay).is_file()
@@ -119,16 +118,16 @@ def test_every_failed_check_that_gave_an_answer_has_a_replay(graded: Result, pag
     assert len(list(pages.iterdir())) == 2 * len(failed)
 
 
-def test_marks_and_reasons_are_the_same_with_and_without_replays(mistaken: Path, tmp_path: Path):
+def test_marks_and_reasons_are_the_same_with_and_without_replays(
+    mistaken: Path, pages: Path, tmp_path: Path
+):
     options = Options(shipped_reference(), only=frozenset({"7b"}))
     plain = grade(mistaken, options, shared_worker())
-    for name in "12":
-        seen = grade_with_replays(mistaken, options, tmp_path / name, shared_worker())
-        blank = re.sub(rb'"replay": "[^"]*"', b'"replay": null', as_json(seen))
-        assert blank == as_json(plain) != as_json(seen)
-    first, second = (sorted((tmp_path / name).iterdir()) for name in "12")
-    assert [each.name for each in first] == [each.name for each in second]
-    assert [each.read_bytes() for each in first] == [each.read_bytes() for each in second]
+    seen = grade_with_replays(mistaken, options, tmp_path / "again", shared_worker())
+    blank = re.sub(rb'"replay": "[^"]*"', b'"replay": null', as_json(seen))
+    assert blank == as_json(plain) != as_json(seen)
+    again = {path.name: path.read_bytes() for path in (tmp_path / "again").iterdir()}
+    assert again == {path.name: path.read_bytes() for path in pages.glob("7b-*")}
 
 
 def test_pages_need_nothing_else_and_are_not_large(pages: Path):
@@ -193,9 +192,7 @@ def test_an_integrator_is_a_curve_over_the_time(pages: Path):
 def test_the_right_run_parts_nowhere_from_itself():
     rubric = {todo.id: todo for todo in load_rubric().todos}
     chosen = (
-        ("3", todo_3.a_pendulum_that_starts_above_keeps_its_length),
         ("4", todo_4.every_contact_of_a_pile_keeps_within_its_friction),
-        ("7c", todo_7.the_bob_swings_through_to_the_other_side),
         ("whole", whole.the_rod_swings_alike_at_any_frame_rate),
     )
     with opened(KIT / "solution") as children:
@@ -292,7 +289,7 @@ def run_script(script: Path, tree: Path) -> subprocess.CompletedProcess[str]:
         capture_output=True,
         text=True,
         encoding="utf-8",
-        timeout=60,
+        timeout=600,
         env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
     )
 
@@ -307,12 +304,17 @@ SCRIPTS = (  # check, what the mistaken tree prints, what the solution prints
     ("4-every_contact_of_a_pile_keeps_within_its_friction", r"\[", r"\["),
     ("6-a_slow_frame_runs_eight_steps", r"^2001 ms: 240 steps", r"^2001 ms: [78] steps"),
     ("7b-a_ball_resists_turning_as_a_full_disc", r"\(1\.0, 100\.", r"\(1\.0, 50\."),
-    ("7c-the_rod_pushes_and_pulls", r"^Vec2d", r"^Vec2d"),
     ("8b-velocity_verlet_keeps_the_spring_swinging", r"^2507\.", r"^99\.3"),
 )
 
 
-@pytest.mark.parametrize(("name", "wrong", "right"), SCRIPTS)
+@pytest.mark.parametrize(
+    ("name", "wrong", "right"),
+    [
+        pytest.param(*each, marks=() if each[0][:2] in ("1-", "8b") else pytest.mark.soak)
+        for each in SCRIPTS
+    ],
+)
 def test_the_script_shows_the_mistake_in_the_tree_as_it_is(
     name: str, wrong: str, right: str, mistaken: Path, pages: Path
 ):
@@ -564,6 +566,7 @@ def test_old_replays_go_and_links_are_not_followed(graded: Result, tmp_path: Pat
     assert stale.exists()
 
 
+@pytest.mark.soak
 def test_replays_are_the_same_where_nothing_can_be_forked(
     mistaken: Path, pages: Path, tmp_path: Path
 ):
@@ -597,12 +600,19 @@ def browser() -> Iterator[Any]:
         yield browser
 
 
-@pytest.fixture
-def screen(browser: Any, pages: Path) -> Iterator[Screen]:
+@pytest.fixture(scope="module")
+def opened_page(browser: Any, pages: Path) -> Iterator[Screen]:
     shown = Screen(browser, pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
     yield shown
-    shown.page.close()
     assert shown.complaints == []
+
+
+@pytest.fixture
+def screen(opened_page: Screen) -> Screen:
+    """The page where it opens, with nothing in focus."""
+    opened_page.page.evaluate("document.activeElement.blur()")
+    opened_page.page.keyboard.press("p")
+    return opened_page
 
 
 def gaps(scene: dict[str, Any]) -> list[float]:
@@ -618,8 +628,9 @@ def gaps(scene: dict[str, Any]) -> list[float]:
 
 
 def test_the_player_finds_where_one_sees_the_parting_and_where_it_is_largest(
-    screen: Screen, pages: Path
+    opened_page: Screen, pages: Path
 ):
+    screen = opened_page
     data = read_replay(pages / "4-every_contact_of_a_pile_keeps_within_its_friction.html")
     apart, first = gaps(data["scenes"][0]), data["parting"]["moment"]
     largest = apart.index(max(apart))
@@ -669,19 +680,20 @@ def test_the_player_steps_and_scrubs(screen: Screen, pages: Path):
 
 
 def test_the_player_plays_and_stops_by_a_key(screen: Screen):
-    keys = screen.page.keyboard
+    """The page's clock is ours: no moment can be missed, however busy the machine is."""
+    keys, clock = screen.page.keyboard, screen.page.clock
+    clock.install()
+    clock.pause_at("2030-01-01")
     keys.press("Home")
     keys.press(" ")
     assert screen.page.locator("#play").inner_text() == "Stop"
-    for _ in range(100):
-        if screen.position > 5:
-            break
-        screen.page.wait_for_timeout(100)
+    clock.run_for(500)
     assert screen.position > 5
     keys.press(" ")
     stopped = screen.position
-    screen.page.wait_for_timeout(200)
+    clock.run_for(200)
     assert screen.position == stopped and screen.page.locator("#play").inner_text() == "Play"
+    clock.resume()
 
 
 def test_the_picture_changes_and_tells_the_numbers_under_the_mouse(screen: Screen):
@@ -717,13 +729,12 @@ def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Pat
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_pages_of_all_todos_open_without_a_complaint(browser: Any, pages: Path, scheme: str):
+def test_pages_open_without_a_complaint(browser: Any, pages: Path, scheme: str):
     shown = Screen(browser, next(pages.glob("*.html")), color_scheme=scheme)
     dark = "22, 25, 34" in shown.page.evaluate("getComputedStyle(document.body).backgroundColor")
     assert dark == (scheme == "dark")
-    firsts = {path.name.partition("-")[0]: path for path in sorted(pages.glob("*.html"))}
-    for path in firsts.values():
-        shown.page.goto(path.resolve().as_uri())
+    for name in ("6-*", "8b-*") if scheme == "light" else ():
+        shown.page.goto(next(pages.glob(f"{name}.html")).resolve().as_uri())
         shown.page.keyboard.press("End")
         assert shown.position == int(shown.page.locator("#moment").get_attribute("max"))
     assert shown.complaints == []
@@ -772,7 +783,7 @@ UNSEEN = {
 @pytest.mark.soak
 @pytest.mark.parametrize(
     "member",
-    [member for member in members(KIT) if member.kind == "wrong"][::5],
+    [member for member in bank() if member.kind == "wrong"][::5],
     ids=lambda member: f"{member.name}-{member.form}",
 )
 def test_wrong_answers_of_the_bank_part_and_their_scripts_run(member: Member, tmp_path: Path):

@@ -165,18 +165,16 @@ BODY = "mini_engine/body.py"
 def test_changed_given_code_costs_the_whole_alone(hand_in):
     tree = hand_in("solution")
     change(tree, BODY, "1 / (0.5 * mass * shape", "1 / (mass * shape")  # a ring
-    only = frozenset({"2", "4", "whole"})
+    only = frozenset({"4", "whole"})
     result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
-    assert {todo.id: todo.points < todo.max_points for todo in result.todos} == {
-        "2": False,
-        "4": False,
-        "whole": True,
-    }
+    lost = {todo.id: todo.points < todo.max_points for todo in result.todos}
+    assert lost == {"4": False, "whole": True}
     whole = next(todo for todo in result.todos if todo.id == "whole")
     assert all("check --restore" in check.meaning for check in whole.failed)
     assert all(check.where.file == BODY for check in whole.failed)
 
 
+@pytest.mark.soak
 def test_an_import_that_is_not_allowed_costs_the_whole_alone(hand_in):
     tree = hand_in("solution")
     change(tree, SOLVER, "import math\n", "import math\nimport scipy\n")

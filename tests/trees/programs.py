@@ -33,7 +33,7 @@ def run_in(tree: Path, *arguments: str, **environment: str) -> str:
         },
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout

@@ -12,6 +12,7 @@ from programs import INTEGRATORS, MINI, PYMUNK, SOLUTION, STARTER, TODOS, mixed,
 from test_integrators import TABLE
 
 FLOOR, LEDGE = 0, 3  # places in the list of bodies
+SOAK = pytest.mark.soak
 LOOPS = {"mini": "mini_engine", "pymunk": "pymunk_scene"}
 CLICKS = [[8 * i, "MOUSEBUTTONDOWN", {"pos": [30 * i + 15, 50], "button": 1}] for i in range(25)]
 
@@ -43,10 +44,7 @@ def test_it_runs_on_with_many_balls(loop):
 
 @pytest.mark.parametrize(
     "todo",
-    [
-        todo if todo in ("1", "4", "6", "7b", "8a") else pytest.param(todo, marks=pytest.mark.soak)
-        for todo in TODOS
-    ],
+    [todo if todo in ("4", "7b") else pytest.param(todo, marks=SOAK) for todo in TODOS],
 )
 def test_it_runs_with_one_todo_finished(todo, tmp_path):
     tree = mixed(STARTER, SOLUTION, todo, tmp_path)
@@ -70,7 +68,7 @@ def test_before_todo_1_balls_fall_through_floor_and_ledge():
     assert all(y < 560 for _, y in moving)
 
 
-@pytest.mark.parametrize("radius", [10, 16, 22])
+@pytest.mark.parametrize("radius", [10, *(pytest.param(r, marks=SOAK) for r in (16, 22))])
 def test_before_todo_2_balls_slip_where_they_should_roll(radius, without):
     slip = probes.slip(probe(without("2"), "slide", radius), radius)
     assert slip > 5 * probes.slip(probes.slide(radius), radius)
@@ -90,14 +88,17 @@ def test_before_todo_4_friction_is_unlimited(without):
     assert probes.slide(16, 0.05, 0.1)[-1][0] > 290
 
 
-@pytest.mark.parametrize(("rate", "left"), [(60, 0.55), (120, 0.30), (600, 0.002)])
+@pytest.mark.parametrize(
+    ("rate", "left"),
+    [(60, 0.55), pytest.param(120, 0.30, marks=SOAK), pytest.param(600, 0.002, marks=SOAK)],
+)
 def test_before_todo_5_damping_depends_on_the_step(rate, left):
     assert probe(STARTER, "coast", 0.05, 1 / rate) == pytest.approx([left, left], rel=0.25)
     assert probes.coast(0.05, 1 / rate)[0] == pytest.approx(0.951, abs=0.001)
 
 
 @pytest.mark.parametrize("loop", LOOPS.values(), ids=["todo 6", "todo 7d"])
-@pytest.mark.parametrize(("frames", "ms"), [(30, 33), (144, 7)])
+@pytest.mark.parametrize(("frames", "ms"), [(30, 33), pytest.param(144, 7, marks=SOAK)])
 def test_before_todo_6_and_7d_speed_depends_on_the_frame_rate(loop, frames, ms):
     """About a second, at 30 or 144 frames."""
     assert probe(STARTER, "play", loop, [ms] * frames)["printed"][0] == f"Fixed steps: {frames}"

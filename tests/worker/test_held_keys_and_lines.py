@@ -4,9 +4,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from one_worker import opened
 
 from grader.judge.failures import NotYet
-from grader.judge.grade import opened
 from grader.judge.lab import Lab
 from grader.protocol import Event
 

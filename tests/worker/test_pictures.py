@@ -5,8 +5,8 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from one_worker import opened
 
-from grader.judge.grade import opened
 from grader.judge.lab import Lab
 
 SHOWN = (1, 1, 2, 3, 3, 3)  # the picture of each frame

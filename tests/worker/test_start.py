@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
+from one_worker import opened
 
-from grader.judge.grade import opened
 from grader.judge.lab import Lab
 
 PROGRAM = """

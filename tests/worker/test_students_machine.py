@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from conftest import HandIn
 
+from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult, Result
 from grader.source.regions import read_source
@@ -15,40 +16,51 @@ from grader.worker.imports import LIBRARIES, RULE
 
 INTEGRATORS = read_source(KIT / "solution" / "integrators.py")
 PROGRAM = read_source(KIT / "solution" / "pymunk_scene.py")
-OPTIONS = Options(shipped_reference(), only=frozenset({"8a"}))
 
 
 def graded(folder: Path, todo: str = "8a") -> Result:
-    return grade(folder, Options(shipped_reference(), only=frozenset({todo})))
+    options = Options(shipped_reference(), only=frozenset({todo}))
+    return grade(folder, options, shared_worker())
 
 
 def checks(result: Result) -> list[CheckResult]:
     return [check for todo in result.todos for check in todo.checks]
 
 
-@pytest.mark.parametrize(
-    "habit",
-    [
-        "import json\nassert json.load(open('settings.json')) == {'dt': 1}",
-        "from pathlib import Path\nPath(__file__).with_name('settings.json').read_text()",
-        "import logging\nlogging.basicConfig(filename='run.log')\nlogging.error('here')",
-        "import pathlib\npathlib.Path(__file__).with_name('run.log').write_text('here')",
-        "import os\nassert os.path.samefile(os.getcwd(), os.path.dirname(__file__))",
-        "import argparse\nargparse.ArgumentParser().parse_args()",
-        "import sys\nassert sys.argv[0].endswith('integrators.py') and not sys.argv[1:]",
-        "import numpy\nassert numpy.hypot(3, 4) == 5",
-        "import sys\nsys.path.append('lib')\nimport own",
-        "try:\n    import scipy\nexcept ImportError:\n    scipy = None",
-        "import threading, multiprocessing, sqlite3, decimal",
-    ],
-)
-def test_a_habit_costs_nothing(habit: str, hand_in: HandIn):
+HABITS = """
+import json
+assert json.load(open('settings.json')) == {'dt': 1}
+from pathlib import Path
+Path(__file__).with_name('settings.json').read_text()
+import logging
+logging.basicConfig(filename='run.log')
+logging.error('here')
+Path(__file__).with_name('other.log').write_text('here')
+import os
+assert os.path.samefile(os.getcwd(), os.path.dirname(__file__))
+import argparse
+argparse.ArgumentParser().parse_args()
+import sys
+assert sys.argv[0].endswith('integrators.py') and not sys.argv[1:]
+import numpy
+assert numpy.hypot(3, 4) == 5
+sys.path.append('lib')
+import own
+try:
+    import scipy
+except ImportError:
+    scipy = None
+import threading, multiprocessing, sqlite3, decimal
+"""
+
+
+def test_habits_of_students_cost_nothing(hand_in: HandIn):
     files = {"settings.json": '{"dt": 1}', "lib__own_py": "x = 1\n"}
-    result = graded(hand_in(integrators_py=f"{habit}\n{INTEGRATORS}", **files))
+    result = graded(hand_in(integrators_py=f"{HABITS}\n{INTEGRATORS}", **files))
     assert result.points == result.max_points, checks(result)[0].got
 
 
-@pytest.mark.parametrize("library", ["scipy", "msgspec", "rich", "grader.checks.exact", "psutil"])
+@pytest.mark.parametrize("library", ["scipy", "grader.checks.exact"])
 def test_any_other_import_in_a_todo_meets_the_rule(library: str, hand_in: HandIn):
     program = re.sub("(# TODO 8a.*\n)", rf"\1    import {library}\n", INTEGRATORS)
     result = graded(hand_in(integrators_py=program))

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import pytest
+from one_worker import opened
 
 from grader.bank.members import lay_over
 from grader.checks.pacing import STEP_TAKES, frames_at, pace
-from grader.judge.grade import KIT, opened
+from grader.judge.grade import KIT
 from grader.judge.lab import STEP, Lab
 from grader.protocol import Event, Played
 
