@@ -359,17 +359,18 @@ class Grading:
         """Return the results of a TODO; a scene that another TODO spoils counts as the rest does.
 
         That is where no right version could stand in, as in a program that has another function for
-        it or none.
+        it or none. Of the whole, checks of a program without such TODOs are the rest.
         """
         results = [loop.results[todo.id, each.id] for each in todo.checks]
-        alone = [r for r, c in zip(results, todo.checks, strict=True) if not c.runs]
-        if any(each.state != "passed" for each in alone):
-            return results
         wrong = {id for (id, _) in loop.failed if not self.was_replaced(id)}
-        return [
-            pass_for_others(sorted(wrong & set(check.runs)), result)
-            for check, result in zip(todo.checks, results, strict=True)
+        spoilt = [
+            sorted(wrong & {*check.runs, *(() if todo.function else check.needs)})
+            for check in todo.checks
         ]
+        rest = [r for r, ids in zip(results, spoilt, strict=True) if not ids]
+        if not rest or any(each.state != "passed" for each in rest):
+            return results
+        return [pass_for_others(*pair) for pair in zip(spoilt, results, strict=True)]
 
     def todo_result(
         self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]

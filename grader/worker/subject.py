@@ -15,6 +15,7 @@ import sys
 import traceback
 import types
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -202,6 +203,7 @@ class Subject:
         body = self.find(f"{module}:Body")(
             shape, self.decode(request.pos), request.mass, **request.kwargs
         )
+        set_inverses(body, request)
         for name, value in request.fields.items():
             setattr(body, name, self.decode(value))
         return body
@@ -378,6 +380,21 @@ class Subject:
         except Exception:
             message = ""
         return Raised(type_name(error), message, frames[-MAX_FRAMES:])
+
+
+def set_inverses(body: Any, request: MakeBody) -> None:
+    """Give a body the inverse mass and inertia of a full disc, or of a static one with mass 0.
+
+    Checks are not about the constructor. What is right by rounding stays as the submission has it.
+    """
+    right = {"inv_mass": 0.0, "inv_inertia": 0.0}
+    if request.mass and not isinstance(request.size, Vec):
+        right = {"inv_mass": 1 / request.mass, "inv_inertia": 2 / (request.mass * request.size**2)}
+    for name, value in right.items():
+        own = getattr(body, name, value)
+        if isinstance(own, numbers.Real) and not math.isclose(own, value, rel_tol=1e-9):
+            with suppress(AttributeError):  # it is worked out each time
+                setattr(body, name, value)
 
 
 def type_name(thing: Any) -> str:

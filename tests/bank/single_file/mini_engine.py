@@ -152,6 +152,10 @@ class DistanceJoint:
         # END TODO 3
 
 
+def friction_limit(c):
+    return math.sqrt(c.a.friction * c.b.friction) * c.jn
+
+
 class World:
     def __init__(self, gravity=(0, 980), linear_damping=0.05, angular_damping=0.3):
         self.gravity = Vector2(gravity)
@@ -190,7 +194,7 @@ class World:
         gap = b.vel + spin_velocity(b.omega, rb) - a.vel - spin_velocity(a.omega, ra)
         total = c.jt - gap.dot(tangent) / effective_mass(a, b, ra, rb, tangent)
         # TODO 4: clamp the friction total
-        limit = math.sqrt(a.friction * b.friction) * jn
+        limit = friction_limit(c)
         if abs(total) > limit:
             total = math.copysign(limit, total)
         # END TODO 4
