@@ -24,11 +24,11 @@ from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
-from grader.judge.children import WarmWorker, Worker, start_worker
+from grader.judge.children import WarmWorker, Worker, count_cores, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.passed import PASSED, PassedPrograms
-from grader.judge.processes import begin_process, count_cores
+from grader.judge.processes import begin_process
 from grader.judge.result import Result
 from grader.judge.rubric import load_rubric
 from grader.report.progress import Counter

@@ -13,9 +13,9 @@ from typing import Protocol, Self
 
 from grader.errors import Stop
 from grader.intake.found import Package
-from grader.judge.children import Worker, start_worker
+from grader.judge.children import Worker, count_cores, start_worker
 from grader.judge.grade import Options, grade
-from grader.judge.processes import begin_process, count_cores, end_all
+from grader.judge.processes import begin_process, end_all
 from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 

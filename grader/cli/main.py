@@ -27,9 +27,9 @@ from grader.cli.shared import (
     require_checkout,
 )
 from grader.errors import Stop
+from grader.judge.children import count_cores
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.processes import count_cores
 from grader.judge.result import Result
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation

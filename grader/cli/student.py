@@ -10,9 +10,9 @@ from grader.cli.hand_in import find_missing, pack_tree
 from grader.cli.restore import list_notes, restore
 from grader.cli.shared import CourseFile, check_todos, console, grade_one
 from grader.errors import Stop
+from grader.judge.children import count_cores
 from grader.judge.course import Course, read_course
 from grader.judge.grade import Options
-from grader.judge.processes import count_cores
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.wording import command, hidden_points_note

@@ -41,9 +41,16 @@ from grader.protocol import (
     Value,
 )
 
+
+def count_cores() -> int:
+    """Return how many processors this process may use."""
+    usable = getattr(os, "sched_getaffinity", None)  # not on Windows and macOS
+    return len(usable(0)) if usable else os.cpu_count() or 1
+
+
 START_SECONDS = 60.0  # to start a child on the slowest machine
 WALL_FACTOR, WALL_EXTRA = 4, 20.0  # the last resort, s: CPU budget x factor + extra
-AHEAD = min(4, os.cpu_count() or 1)  # processes that load while others work, without fork
+AHEAD = min(4, count_cores())  # processes that load while others work, without fork
 STOPPED_SECONDS = 2  # a warm process that is stopped for so long was stopped by a child
 REST_SECONDS = 8.0  # for so long a child may rest in all; longer, and it waits for nothing
 # What a child may send in all: answers are kept by checks, and take up to thirty times their length

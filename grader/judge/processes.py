@@ -11,12 +11,6 @@ from typing import NoReturn
 SECONDS_TO_END = 5  # s that a process has to put away what it grades
 
 
-def count_cores() -> int:
-    """Return how many processors this process may use."""
-    usable = getattr(os, "sched_getaffinity", None)  # not on Windows and macOS
-    return len(usable(0)) if usable else os.cpu_count() or 1
-
-
 def end_all(processes: list[BaseProcess]) -> None:
     """End them when they have put away what they grade; those that do not are killed."""
     for process in processes:
