@@ -13,14 +13,14 @@ import pytest
 from grader.bank.members import members
 from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.names import MOST, Names
+from grader.judge.names import LONGEST, MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
 from grader.player.replay import grade_with_replays
 from grader.protocol import MAX_MESSAGE, Answered, Limits, Ready, cut
 from grader.source import definitions
-from grader.source.definitions import MAX_READ, Program
+from grader.source.definitions import MAX_READ, MAX_TRIED, Program
 from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parsed, shape_of
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the most memory")
@@ -108,6 +108,16 @@ CIRCLES = {
     "modules": {f"m{n}": f"from m{n + 1} import f" for n in range(400)},
     "classes": {"m0": "".join(f"class C{n}(C{n + 1}): pass\n" for n in range(3000)) + "f = C0.f"},
     "elif": {"m0": "if a: pass\n" + "elif a: pass\n" * 1200},
+    "own bases": {"m0": "class A: pass\nif 0:\n    class A(A.a, A.b): pass"},
+    "own bases elsewhere": {
+        "m0": "from m1 import A",
+        "m1": "from m0 import A as B\nclass A(B.a, B.b): pass",
+    },
+    "long names": {
+        "m0": f"from m1 import A\nf = {'f' * 60_000}",
+        "m1": f"class A(A.{'a' * 60_000})",
+    },
+    "bindings": {"m0": "import m1 as A\n" + "def A(): pass\n" * 5000 + "class A(A.a, A.b): pass"},
     "dots": {"m0": f"import {'.'.join('a' * 60_000)}"},
     "number": {"m0": f"a[0x{'f' * 50_000}] = f"},
     "operators": {"m0": f"{'-' * 900}a.b = f\na{'.b' * 900} = f\nclass A(a{'.b' * 900}): pass"},
@@ -122,6 +132,7 @@ def test_a_name_that_leads_far_is_not_followed_for_ever(name: str):
         found = program.definition("m0", path)
         assert found is None or found.function is None
         assert len(program.found) <= 10_000
+        assert program.tried <= 2 * MAX_TRIED
 
 
 def test_files_are_read_up_to_a_sum(monkeypatch: pytest.MonkeyPatch):
@@ -156,6 +167,12 @@ def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
     assert "renamed?" in names.hint(todo, "mini_engine", check)
     assert len(names.of("mini_engine")) <= MOST
     assert names.changed("mini_engine") is names.changed("mini_engine")
+
+
+def test_a_name_too_long_to_be_another_one_is_not_compared(tmp_path: Path):
+    long = "effective_mass" * (LONGEST // 10)
+    (tmp_path / "mini_engine.py").write_text(f"def {long}(): pass\n", encoding="utf-8")
+    assert Names(tmp_path).changed("mini_engine") == {}
 
 
 # ---------------------------------------------------------------- results
