@@ -18,7 +18,7 @@ NAME = re.compile(
     r"(?P<attempt>(?P<assignment>.+)_(?P<user>[^_]+)_attempt_"
     r"(?P<when>\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d))(?:_(?P<file>.+)|\.txt)"
 )
-WHO = re.compile(r"Name:\s*(?P<name>.*?)\s*\((?P<user>[^()\n]+)\)\s*$", re.M)
+WHO = re.compile(r"Name:\s*+(?P<name>.*)\((?P<user>[^()\n]+)\)\s*$", re.M)
 HEAD = 600  # characters of a receipt that Blackboard writes itself, before the student's words
 COLUMNS = ("Last Name", "First Name", "Username", "Student ID")
 
@@ -80,5 +80,5 @@ def read_receipt(path: Path) -> tuple[str, str]:
     with suppress(OSError), open(path, "rb") as file:
         match = WHO.search(file.read(HEAD).decode("utf-8-sig", "replace").partition("\n\n")[0])
         if match:
-            return match["user"], match["name"]
+            return match["user"], match["name"].strip()
     return "", ""

@@ -25,8 +25,9 @@ PACKAGE = "mini_engine"
 INIT = "__init__.py"
 NUMBER = r"\(\d{1,3}\)"
 WORD = r"(copy|copie|copia|kopie)"  # as desktops of several languages say it
+# Each sign has one place in it: what fits in two makes a name take twice as long with every sign.
 ADDED = re.compile(
-    rf"(\s*{NUMBER}|\s*-?\s+{WORD}(\s+\d+|\s*{NUMBER})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
+    rf"(\s*{NUMBER}|(\s+|\s*-\s+){WORD}(\s+\d{{4,}})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
