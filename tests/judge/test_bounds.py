@@ -2,8 +2,10 @@
 sources and results. Thresholds are far above what honest work takes and far below what hurts.
 """
 
+import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,13 +14,33 @@ import pytest
 
 from grader.bank.members import members
 from grader.bank.verify import shared_worker
+from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.names import LONGEST, MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
 from grader.player.replay import grade_with_replays
-from grader.protocol import MAX_MESSAGE, Answered, Limits, Ready, cut
+from grader.protocol import (
+    MAX_ITEMS,
+    MAX_MESSAGE,
+    MAX_PRESENT,
+    MAX_STATES,
+    Answered,
+    BodyValue,
+    Channel,
+    CodeLine,
+    Items,
+    Limits,
+    Played,
+    Raised,
+    Ready,
+    Remembered,
+    Returned,
+    Simulated,
+    Vec,
+    cut,
+)
 from grader.source import definitions
 from grader.source.definitions import MAX_READ, MAX_TRIED, Program
 from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parsed, shape_of
@@ -28,12 +50,11 @@ LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the
 # ---------------------------------------------------------------- answers
 
 
-def texts_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.StrType]:
-    """All types of text in a type of message."""
-    if isinstance(kind, msgspec.inspect.StrType):
-        yield kind
+def types_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.Type]:
+    """Yield all types that a type of message is made of."""
     if not isinstance(kind, msgspec.inspect.Type) or getattr(kind, "cls", None) in seen:
         return
+    yield kind
     if isinstance(kind, msgspec.inspect.StructType):
         seen.add(kind.cls)
     inner = [getattr(kind, name, None) for name in ("item_type", "key_type", "value_type")]
@@ -41,13 +62,73 @@ def texts_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.StrTyp
     inner += getattr(kind, "item_types", ()) or ()
     inner += [field.type for field in getattr(kind, "fields", ())]
     for each in inner:
-        yield from texts_in(each, seen)
+        yield from types_in(each, seen)
+
+
+MANY = (
+    msgspec.inspect.StrType,
+    msgspec.inspect.BytesType,
+    msgspec.inspect.ListType,
+    msgspec.inspect.DictType,
+)
 
 
 @pytest.mark.parametrize("message", [Answered, Ready])
-def test_every_text_that_a_child_sends_has_a_greatest_length(message: type):
-    found = list(texts_in(msgspec.inspect.type_info(message), set()))
-    assert found and all(each.max_length for each in found)
+@pytest.mark.parametrize("kind", MANY)
+def test_every_text_and_list_that_a_child_sends_has_a_greatest_length(message: type, kind: type):
+    found = list(types_in(msgspec.inspect.type_info(message), set()))
+    unbounded = (msgspec.inspect.AnyType, msgspec.inspect.SetType, msgspec.inspect.VarTupleType)
+    assert found and not any(isinstance(each, unbounded) for each in found)
+    assert all(each.max_length for each in found if isinstance(each, kind))
+
+
+class NoWorker:
+    """Ends children that are no processes."""
+
+    def end(self, child: Child, gone: bool) -> int:
+        child.channel.close()
+        return 0
+
+    def pid_of(self, child: Child) -> int:
+        return 0
+
+
+def played(**fields: object) -> Played:
+    return msgspec.structs.replace(Played([1], [0.0], [], "returned", [], [], []), **fields)
+
+
+BODY = BodyValue(1, Vec(0, 0), Vec(0, 0), 0.0, 0.0, 1.0, 1.0, 10.0)
+OVERLONG = [
+    Returned(Items([0] * (MAX_ITEMS + 1))),
+    Returned(Items([Items([None] * (MAX_ITEMS + 1))])),
+    Simulated([[]] * (MAX_STATES + 1)),
+    Simulated([[0] * (6 * MAX_PRESENT + 1)]),
+    played(trail=[[0] * 6 * 40_000]),
+    played(trail=[[]] * (MAX_STATES + 1)),
+    played(bodies=[BODY] * (MAX_PRESENT + 1)),
+    played(steps=[0] * (MAX_STATES + 1)),
+    Raised("ValueError", "", [CodeLine("a.py", 10**17, "f", "")]),
+    Raised("ValueError", "", [CodeLine("a.py", -1, "f", "")]),
+]
+
+
+@pytest.mark.parametrize("reply", OVERLONG)
+def test_a_list_too_long_is_no_answer(reply: object):
+    ours, theirs = socket.socketpair()
+    channel = Channel(theirs)
+
+    def lie() -> None:
+        channel.send(Ready(1, []))
+        channel.receive()
+        channel.send(Answered(1, reply))
+
+    liar = threading.Thread(target=lie)
+    liar.start()
+    child = Child(Channel(ours), NoWorker(), 1)
+    with pytest.raises(ChildEnded, match="what it sent is not an answer"):
+        child.ask(Remembered())
+    liar.join()
+    theirs.close()
 
 
 def test_a_text_that_is_cut_says_so():
@@ -280,4 +361,7 @@ def test_answers_cost_the_judge_little(tmp_path: Path):
 def test_the_bounds_are_what_the_page_says():
     page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
     assert f"a message of {MAX_MESSAGE >> 20} MB and" in page
+    assert f"at one moment at most {MAX_PRESENT} bodies" in page
+    assert f"at most {MAX_STATES:,} steps or frames, and at most {MAX_ITEMS:,} entries" in page
+    assert f"at most {MAX_TRIED:,} of its bindings" in page
     assert f"{MAX_SOURCE >> 10} KB" in page and f"{MAX_READ >> 20} MB of sources" in page
