@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from filecmp import cmp
 from pathlib import Path, PurePosixPath
 
-from grader.intake.archives import Bounds, check_size, unzip
+from grader.intake.archives import Bounds, unzip
 from grader.intake.found import CannotTake, Found, Package
 from grader.intake.names import MENTIONED, make_portable, shorten_list
 from grader.intake.pieces import (
@@ -208,7 +208,7 @@ def copy_file(path: Path, target: Path, bounds: Bounds) -> None:
     if not path.is_file():
         raise CannotTake(f"{path.name} is no file to read, but a pipe, a device or nothing")
     if is_archive(path):
-        check_size(path)
+        bounds.take_archive(path.stat().st_size)
     elif not bounds.take(path.name, path.stat().st_size):
         return
     target.parent.mkdir(parents=True, exist_ok=True)
