@@ -13,6 +13,7 @@ from grader.intake.found import Upload
 from grader.intake.lms import Lms, MarkColumn, find_title, pick
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
+from grader.judge.plain import open_plain
 
 NAME = re.compile(
     r"(?P<attempt>(?P<assignment>.+)_(?P<user>[^_]+)_attempt_"
@@ -77,7 +78,7 @@ def find_listed_user(match: re.Match[str], people: ClassList) -> str:
 
 def read_receipt(path: Path) -> tuple[str, str]:
     """Return the user's and the full name on a receipt; empty where there is none."""
-    with suppress(OSError), open(path, "rb") as file:
+    with suppress(OSError), open_plain(path.parent, path.name) as file:
         match = WHO.search(file.read(HEAD).decode("utf-8-sig", "replace").partition("\n\n")[0])
         if match:
             return match["user"], match["name"].strip()

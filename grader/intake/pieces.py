@@ -18,7 +18,8 @@ from urllib.parse import unquote
 from grader.intake.found import CannotTake
 from grader.intake.names import fold
 from grader.intake.places import ARCHIVES, list_modules
-from grader.judge.submission import load_given, plain_files
+from grader.judge.plain import read_plain
+from grader.judge.submission import MAX_BYTES, load_given, plain_files
 from grader.source.regions import regions_in
 
 PACKAGE = "mini_engine"
@@ -31,6 +32,7 @@ ADDED = re.compile(
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
+MOST_READ = MAX_BYTES + 1  # of a file, to compare it with another one
 SIGNS = {  # how a file begins that somebody saved under a program's name
     b"pk\x03\x04": "a zip or an Office document",
     b"%pdf": "a PDF",
@@ -100,7 +102,9 @@ class Piece:
     exact: bool
 
     def is_same(self, other: "Piece", folder: Path) -> bool:
-        mine, others = ({n: (folder / p).read_bytes() for n, p in x.files} for x in (self, other))
+        mine, others = (
+            {n: read_plain(folder, p, MOST_READ) for n, p in x.files} for x in (self, other)
+        )
         return mine == others
 
 
@@ -284,7 +288,9 @@ def list_files(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, 
         if other != path and is_backup(path.name):
             notes.append(f"{path} was left out as a backup")
             continue
-        if other != path and (folder / other).read_bytes() != (folder / path).read_bytes():
+        if other != path and read_plain(folder, other, MOST_READ) != read_plain(
+            folder, path, MOST_READ
+        ):
             refuse_two(target, [other, path])
         if target != name:
             notes.append(f"{path} is taken as {target}")
