@@ -6,6 +6,7 @@ import shutil
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from io import BufferedReader
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
 from grader.intake.archives import Bounds, unzip
@@ -186,7 +187,8 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
     if refused and not is_complete(laid, asked):
         names = {each.name for each in found.sources}
         why = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())
-        raise CannotTake("; ".join(why))
+        more = [f"and {len(refused) - MENTIONED} more"] * (len(refused) > MENTIONED)
+        raise CannotTake("; ".join([*islice(why, MENTIONED), *more]))
     laid.notes += [f"left out {name}: {words}" for name, words in refused.items()]
     return laid
 
@@ -199,15 +201,23 @@ def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
             paths = (path.relative_to(source).as_posix() for path in plain_files(source))
             for inside in sorted(map(PurePosixPath, paths), key=rank_file):
                 with open_inside(source, source / inside) as file:
-                    copy_file(file, folder / inside, bounds)
+                    copy_file(file, inside.name, folder / inside, bounds)
             continue
         name = read_first_name(source)
         with open_inside(source, source) as file:
-            known = name, hashlib.file_digest(file, "sha256").hexdigest()
+            known = name, hash_file(file, bounds.packed)
             if known not in copied:
                 copied.add(known)
-                file.seek(0)
-                copy_file(file, find_free_name(folder / name), bounds)
+                copy_file(file, source.name, find_free_name(folder / name), bounds)
+
+
+def hash_file(file: BufferedReader, most: int) -> str:
+    """Return a hash of an open file of at most so many bytes; empty for a longer one."""
+    if size_of(file) > most:
+        return ""
+    digest = hashlib.file_digest(file, "sha256").hexdigest()
+    file.seek(0)
+    return digest
 
 
 def open_inside(source: Path, path: Path) -> BufferedReader:
@@ -215,14 +225,14 @@ def open_inside(source: Path, path: Path) -> BufferedReader:
     return open_plain(source.parent, path.relative_to(source.parent))
 
 
-def copy_file(file: BufferedReader, target: Path, bounds: Bounds) -> None:
+def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> None:
     """Copy one file; an archive may be larger than a submission, its files may not."""
     length = size_of(file)
     head = file.read(8)
     file.seek(0)
     if is_packed(target, head):
         bounds.take_archive(length)
-    elif not bounds.take(target.name, length):
+    elif not bounds.take(name, length):
         return
     target.parent.mkdir(parents=True, exist_ok=True)
     copy_plain(file, target, length)
