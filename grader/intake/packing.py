@@ -221,8 +221,14 @@ def hash_file(file: BufferedReader, most: int) -> str:
 
 
 def open_inside(source: Path, path: Path) -> BufferedReader:
-    """Open a file of what was handed in; nothing of it may be a link, from its own name on."""
-    return open_plain(source.parent, path.relative_to(source.parent))
+    """Open a file of what was handed in; nothing of it may be a link, from its own name on.
+
+    Raises CannotTake where it cannot be read.
+    """
+    try:
+        return open_plain(source.parent, path.relative_to(source.parent))
+    except OSError as error:
+        raise CannotTake(unreadable(error, source)) from error
 
 
 def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from grader.intake import packing
 from grader.intake.found import CannotTake, Found
-from grader.intake.packing import pack
+from grader.intake.packing import lay_out, pack
 from grader.judge import plain, submission
 from grader.judge.plain import open_plain, read_plain
 from grader.judge.rubric import load_rubric
@@ -98,6 +98,18 @@ def test_a_link_put_in_after_the_look_is_not_packed(
     except CannotTake:
         return
     assert SECRET.encode() not in dict(package.files).values()
+
+
+@LINKS
+@pytest.mark.parametrize("kind", ["pipe", "link"])
+def test_an_upload_that_is_no_file_has_a_sentence(tree: Path, kind: str):
+    upload = tree.parent / "ann_integrators.py"
+    if kind == "pipe":
+        os.mkfifo(upload)
+    else:
+        upload.symlink_to(tree / "integrators.py")
+    with pytest.raises(CannotTake, match=r"^it cannot be read: "), lay_out(Found("ann", (upload,))):
+        pass
 
 
 @LINKS
