@@ -85,15 +85,18 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     bounds.open_one()
     with open_archive(path, bounds) as (archive, too_large):
         bounds.left_out += too_large
-        members = sorted(name_members(archive), key=lambda each: rank_file(each[0]))
+        members = name_members(archive)
         if not members:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
-        for name, member in members:
-            ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
-            if ignored or environments & set(name.parents):
-                continue
+        wanted = (
+            (name, member)
+            for name, member in members
+            if not any(part in IGNORED or is_system_file(part) for part in name.parts)
+            and environments.isdisjoint(name.parents)
+        )
+        for name, member in sorted(wanted, key=lambda each: rank_file(each[0])):
             spared = SPARED if rank_file(name)[0] else 0
             if bounds.take(name.as_posix(), member.file_size, spared):
                 write_member(archive, member, folder / name)

@@ -8,7 +8,7 @@ it was, with a note. Where two files could be the same one, a person must choose
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path, PurePosixPath
@@ -303,10 +303,17 @@ def find_top(pieces: list[Piece]) -> PurePosixPath:
     return min(parents, key=lambda each: (-parents.count(each), len(each.parts), each))
 
 
+@lru_cache(maxsize=1024)  # most files of an archive lie in the same folders
+def is_program(name: str) -> bool:
+    """Tell whether a file or folder may be a program of the lab, by its name."""
+    return (
+        match_name(name, [*list_modules(), *(f"{each}.py" for each in list_modules())]) is not None
+    )
+
+
 def rank_file(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
     """Return a file's rank while there is room: what may be the lab's comes first."""
-    programs = [*list_modules(), *(f"{name}.py" for name in list_modules())]
-    of_lab = any(match_name(part, programs) for part in path.parts)
+    of_lab = any(map(is_program, path.parts))
     packed = path.suffix.lower() in ARCHIVES
     return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
 
