@@ -43,10 +43,21 @@ MAX_OUTPUT = 64 * 1024  # bytes kept of what is printed before an answer, and ch
 MAX_STEP_SIZES = 16  # different ones that a play reports
 MAX_PHOTOS, MAX_PHOTO = 5, 150 * 1024  # bytes of each; usual are 15 KB
 MAX_FRAMES = 12  # functions that an error went through
+MAX_LINE = 16 * 1024 * 1024  # a line's number: a file has no more bytes
 
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
 Printed = Annotated[str, Meta(max_length=MAX_PRINTED)]
+
+# And each list has a greatest length: what is done with it may take the square of that. Of what the
+# solution sends and the scenes hold, each is four times the most, or more.
+MAX_PRESENT = 400  # bodies, shapes, rods or contacts at one moment; 49 in the scene
+MAX_STATES = 4000  # steps or frames of one request, in order; 600 of a program, and RUNAWAY more
+MAX_ITEMS = 4000  # entries of a list that a function returns; 1000 states of an integrator
+
+PRESENT, STATES = Meta(max_length=MAX_PRESENT), Meta(max_length=MAX_STATES)
+ITEMS, NUMBERS = Meta(max_length=MAX_ITEMS), Meta(max_length=6 * MAX_PRESENT)
+Row = Annotated[list[float], NUMBERS]  # six numbers for each body
 
 
 def cut(text: str, most: int) -> str:
@@ -79,7 +90,7 @@ class Ref(Struct, frozen=True, tag="ref"):
 
 
 class Items(Struct, frozen=True, tag="items"):
-    items: "list[Value]"
+    items: "Annotated[list[Value], ITEMS]"
 
 
 class BodyValue(Struct, frozen=True, tag="body"):
@@ -126,7 +137,7 @@ class SpaceBody(Struct, frozen=True, tag="space_body"):
     omega: float
     mass: float
     moment: float | None  # None where pymunk says infinity
-    shapes: list[ShapeValue]
+    shapes: Annotated[list[ShapeValue], PRESENT]
 
 
 class SpaceJoint(Struct, frozen=True):
@@ -143,8 +154,8 @@ class SpaceValue(Struct, frozen=True, tag="space"):
     ref: int
     gravity: Vec
     damping: float
-    bodies: list[SpaceBody]
-    joints: list[SpaceJoint]
+    bodies: Annotated[list[SpaceBody], PRESENT]
+    joints: Annotated[list[SpaceJoint], PRESENT]
 
 
 Value = (
@@ -327,16 +338,17 @@ class Change(Struct, frozen=True, array_like=True):
 class Returned(Struct, frozen=True, tag="returned"):
     value: Value
     lines: int = 0  # that ran, where they were to be counted; one that ran twice counts twice
-    changed: list[Change] = []
+    changed: Annotated[list[Change], ITEMS] = []
     again: Value = None  # the second answer, where two were asked for
     steps: int = 0  # of worlds, where they were to be counted
-    dts: list[float] = []  # their different sizes
-    states: list[Value] = []  # of the objects that were asked about; None where one cannot be told
+    dts: Annotated[list[float], STATES] = []  # their different sizes
+    # Of the objects that were asked about; None where one cannot be told.
+    states: Annotated[list[Value], ITEMS] = []
 
 
 class CodeLine(Struct, frozen=True):
     file: Text
-    line: int
+    line: Annotated[int, Meta(ge=0, le=MAX_LINE)]
     function: Name
     text: Text
 
@@ -366,8 +378,8 @@ class ContactRow(Struct, frozen=True, array_like=True):
 
 
 class Simulated(Struct, frozen=True, tag="simulated"):
-    frames: list[list[float]]  # x, y, vx, vy, angle, omega of each watched body
-    contacts: list[list[ContactRow]] = []
+    frames: Annotated[list[Row], STATES]  # x, y, vx, vy, angle, omega of each watched body
+    contacts: Annotated[list[Annotated[list[ContactRow], PRESENT]], STATES] = []
     opcodes: int = 0  # that ran, where they were to be counted
 
 
@@ -383,15 +395,17 @@ class Photo(Struct, frozen=True, array_like=True):
 class Played(Struct, frozen=True, tag="played"):
     """The record of a program, frame by frame; the last entry covers what came after."""
 
-    steps: list[int]  # fixed steps that ran in each frame
-    clock: list[float]  # the scripted time when they had run, ms since the start
-    dts: list[float]  # the different step sizes seen, at most 16 of them
+    steps: Annotated[list[int], STATES]  # fixed steps that ran in each frame
+    # The scripted time when they had run, ms since the start.
+    clock: Annotated[list[float], STATES]
+    dts: Annotated[list[float], STATES]  # the different step sizes seen, at most 16 of them
     ended: Literal["returned", "stopped", "runaway"]  # stopped: it ran on after QUIT
     lines: Annotated[list[Text], Meta(max_length=MAX_LINES)]  # what it printed, the last of them
-    bodies: list[BodyValue | SpaceBody]
-    rods: list[tuple[float, float]]  # distance now, length meant; px
-    trail: list[list[float]] = []
-    pictures: list[int] = []  # a checksum of what the window showed when each frame ended
+    bodies: Annotated[list[BodyValue | SpaceBody], PRESENT]
+    rods: Annotated[list[tuple[float, float]], PRESENT]  # distance now, length meant; px
+    trail: Annotated[list[Row], STATES] = []
+    # A checksum of what the window showed when each frame ended.
+    pictures: Annotated[list[int], STATES] = []
     photos: Annotated[list[Photo], Meta(max_length=MAX_PHOTOS)] = []
     paced: bool = False  # every step ran in advance(world, accumulator, frame_seconds)
 
@@ -402,7 +416,7 @@ Reply = Returned | Raised | Missing | Simulated | Played
 class ShapeLook(Struct, frozen=True, array_like=True):
     """One point is a disc, two are a segment, more are a polygon; px from the body's centre."""
 
-    points: list[tuple[float, float]]
+    points: Annotated[list[tuple[float, float]], PRESENT]
     radius: float
 
 
@@ -410,7 +424,7 @@ class BodyLook(Struct, frozen=True):
     """The fixed properties of a body that is shown."""
 
     ref: int  # 0 where no request can name it
-    shapes: list[ShapeLook]
+    shapes: Annotated[list[ShapeLook], PRESENT]
     mass: float | None  # None: static
     moment: float | None
 
@@ -446,17 +460,17 @@ class Moment(Struct, frozen=True, array_like=True):
 
     time: float  # s, since the request began
     steps: int  # that have run since then
-    bodies: list[BodyRow]
-    touches: list[TouchRow]
-    rods: list[tuple[float, float, float, float]]  # from x, y to x, y
+    bodies: Annotated[list[BodyRow], PRESENT]
+    touches: Annotated[list[TouchRow], PRESENT]
+    rods: Annotated[list[tuple[float, float, float, float]], PRESENT]  # from x, y to x, y
 
 
 class WithMoments(Struct, frozen=True, tag="with-moments"):
     """The reply to a recorded request, and its moments: the last one shows how it ended."""
 
     reply: Reply
-    looks: dict[int, BodyLook]  # by number, of the bodies that are new
-    moments: list[Moment]
+    looks: Annotated[dict[int, BodyLook], PRESENT]  # by number, of the bodies that are new
+    moments: Annotated[list[Moment], STATES]
 
 
 class Asked(Struct, frozen=True):
@@ -499,7 +513,7 @@ class ChildSetup(Struct, frozen=True):
 
 class Ready(Struct, frozen=True):
     pid: int
-    layers: list[Name]
+    layers: Annotated[list[Name], PRESENT]
 
 
 class Open(Struct, frozen=True, tag="open"):

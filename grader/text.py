@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import re
 import unicodedata
 from collections.abc import Callable, Iterable
 from datetime import datetime
@@ -79,10 +80,28 @@ def about(value: float) -> str:
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")  # how a cell begins that a spreadsheet would run
 
 
+# The same signs inside a cell: spreadsheets part a line where their language or a setting says so.
+# Wide, small, raised and lowered ones count too.
+SIGNS = (
+    "=+@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b\u207c\u207a\u208c\u208a\ufb29\u2a75\u2a76-"
+)
+SEPARATORS = ";|\t\r\n"
+
+
 def escape_formula(cell: str) -> str:
     """Put an apostrophe before a cell that a spreadsheet would take for a formula."""
     plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
     return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
+
+
+def escape_inside(cell: str, separators: str = SEPARATORS) -> str:
+    """Put an apostrophe before each formula that begins after one of these separators."""
+    between = rf"[\s\"{separators}]"
+    return re.sub(
+        rf"(?<!{between}){between}++(?=[{SIGNS}])",  # each run is looked at once
+        lambda found: found[0] + "'" * any(each in separators for each in found[0]),
+        cell,
+    )
 
 
 def format_csv(
@@ -91,9 +110,14 @@ def format_csv(
     line_end: str = "\r\n",
     escape: Callable[[str], str] = escape_formula,
 ) -> str:
-    """Return the rows of a table as CSV, each text in it escaped."""
+    """Return the rows of a table as CSV, each text in it escaped.
+
+    No cell begins like a formula, whatever the table is taken apart at.
+    """
+    separators = SEPARATORS + "," * (delimiter != ",")  # the writer quotes what has a delimiter
     out = io.StringIO(newline="")
     writer = csv.writer(out, delimiter=delimiter, lineterminator=line_end)
     for row in table:
-        writer.writerow([escape(each) if isinstance(each, str) else each for each in row])
+        cells = (escape_inside(escape(c), separators) if isinstance(c, str) else c for c in row)
+        writer.writerow(cells)
     return out.getvalue()

@@ -70,14 +70,40 @@ class Pair(Struct, frozen=True):
         return self.first, self.second
 
 
+class Lines:
+    """The lines of a file, each read once, with a count of them."""
+
+    def __init__(self, source: str) -> None:
+        self.rest = io.StringIO(source)
+        self.read, self.ended = 0, False
+
+    def read_next(self) -> str:
+        self.read += 1
+        line = self.rest.readline()
+        self.ended = not line
+        return line
+
+
 def read_tokens(source: str) -> list[Token]:
-    """Return the tokens of a file, as far as Python can read it."""
-    found: list[Token] = []
-    with suppress(tokenize.TokenError, SyntaxError, ValueError):
-        for each in tokenize.generate_tokens(io.StringIO(source).readline):
-            if each.type not in LAYOUT:
-                found.append((generalize(each), each.start[0]))
+    """Return the tokens of a file; of a line that Python cannot read, only what it begins with."""
+    lines, found = Lines(source), list[Token]()
+    while not lines.ended:
+        found += read_until_error(lines)
     return found
+
+
+def read_until_error(lines: Lines) -> Iterator[Token]:
+    """Yield tokens up to one that is none of Python's.
+
+    `tokenize` goes on one letter further, and looks at all the rest of the line with each letter.
+    """
+    before = lines.read
+    with suppress(tokenize.TokenError, SyntaxError, ValueError):
+        for each in tokenize.generate_tokens(lines.read_next):
+            if each.type == token.ERRORTOKEN:
+                return
+            if each.type not in LAYOUT:
+                yield generalize(each), before + each.start[0]
 
 
 def generalize(each: tokenize.TokenInfo) -> str:

@@ -1,12 +1,14 @@
 """Pack what a student hands in: one zip of their own work, without what was given."""
 
+import io
 import zipfile
 from pathlib import Path
 
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
+from grader.judge.plain import read_plain
 from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
-from grader.report.files import put_in
+from grader.report.files import put_in, write_whole
 
 PACKED = "hand-in.zip"
 PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
@@ -27,9 +29,11 @@ def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tup
             f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}"
         )
     target = out or tree / PACKED
-    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, path in files.items():
-            put_in(archive, name, path.read_bytes())
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name in files:
+            put_in(archive, name, read_plain(tree, name))
+    write_whole(packed.getvalue(), target)
     return target, list(files)
 
 

@@ -1,12 +1,15 @@
 """Put given code back as it was handed out: `check --restore`."""
 
+import os
 from collections.abc import Iterable
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from grader.errors import Stop
 from grader.judge.failures import MOST_NAMES
+from grader.judge.plain import read_plain
 from grader.judge.result import Result
 from grader.judge.submission import load_given
+from grader.report.files import write_whole
 from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
 from grader.source.regions import RegionError, read_source
@@ -76,19 +79,28 @@ def is_given(name: str, texts: Iterable[str]) -> bool:
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:
     """Write a file, keep a copy of the one before, and return what was done."""
-    path = tree / file
+    path, content = tree / file, text.encode("utf-8")
+    if link := find_link(tree, file):
+        raise Stop(f"{link} is a link, and links are not followed: put there what it leads to")
     if not path.is_file():
-        path.write_text(text, encoding="utf-8", newline="\n")
+        write_whole(content, path)
         return f"{file} is there again, as it was handed out."
     copy = find_free_name(path)
-    copy.write_bytes(path.read_bytes())
-    path.write_text(text, encoding="utf-8", newline="\n")
+    write_whole(read_plain(tree, file), copy)
+    write_whole(content, path)
     kept = copy.relative_to(tree).as_posix()
     what = "its given code" if name.endswith(".py") else name
     return f"{file}: {what} is as it was handed out. The file as it was is kept as {kept}."
 
 
+def find_link(tree: Path, file: str) -> str:
+    """Return the first part of a file's path inside the tree that is a link; empty without one."""
+    inside = PurePosixPath(file)
+    parts = [*reversed(inside.parents), inside][1:]  # the first is the tree itself
+    return next((str(each) for each in parts if (tree / each).is_symlink()), "")
+
+
 def find_free_name(path: Path) -> Path:
     """Return `solver_old.py` beside `solver.py`, with a number where there is one."""
     names = [f"{path.stem}_old.py", *(f"{path.stem}_{n}_old.py" for n in range(2, 1000))]
-    return next(path.with_name(name) for name in names if not path.with_name(name).exists())
+    return next(path.with_name(name) for name in names if not os.path.lexists(path.with_name(name)))

@@ -3,6 +3,8 @@
 What is no zip is first made one by `repack`, in a process of its own.
 """
 
+import io
+import math
 import shutil
 import stat
 import subprocess
@@ -19,15 +21,22 @@ from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
 from grader.intake.places import SIGNS, is_system_file
+from grader.judge.children import reaped_seconds
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
 from grader.text import plural
 
-MAX_ZIP = 200 * 1024**2  # bytes of one zip: somebody's virtual environment fits
-MAX_DIRECTORY = 16 * 1024**2  # bytes of the list of files in a zip: about 200,000 of them
+# Of one submission, over all of its archives: many small ones cost no more than a large one.
+MAX_ARCHIVES = 100
+MAX_ZIP = 200 * 1024**2  # bytes: somebody's virtual environment fits
+MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,000 of them
+MAX_SECONDS = repack.SECONDS  # of the processor, for what is no zip
+MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
 SPARED = 100  # files of a submission's allowance that only the lab's own are given
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
-SECONDS_TO_REPACK = 4 * repack.SECONDS  # s on the clock: the last resort where nothing else ends it
+CLOCK_PER_CPU = (
+    4  # s on the clock for each of the processor: the last resort where nothing else ends it
+)
 
 
 @dataclass
@@ -36,6 +45,10 @@ class Bounds:
 
     files: int = MAX_FILES
     bytes: int = MAX_BYTES
+    archives: int = field(default_factory=lambda: MAX_ARCHIVES)
+    packed: int = field(default_factory=lambda: MAX_ZIP)  # bytes, of archives
+    listed: int = field(default_factory=lambda: MAX_DIRECTORY)  # bytes, of lists of files in zips
+    seconds: float = field(default_factory=lambda: MAX_SECONDS)
     left_out: list[str] = field(default_factory=list)
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
@@ -45,6 +58,19 @@ class Bounds:
             return False
         self.files, self.bytes = self.files - 1, self.bytes - length
         return True
+
+    def take_archive(self, length: int) -> None:
+        """Take an archive as it was handed in; raises CannotTake where it is too large."""
+        if length > self.packed:
+            most = f"the maximum for a submission is {MAX_ZIP >> 20} MB"
+            raise CannotTake(f"the archive has {length >> 20} MB: {most}")
+        self.packed -= length
+
+    def open_one(self) -> None:
+        """Count an archive that is opened; raises CannotTake where that is one too many."""
+        if self.archives < 1:
+            raise CannotTake(f"more than {MAX_ARCHIVES} archives in one submission: ask for one")
+        self.archives -= 1
 
     @property
     def notes(self) -> list[str]:
@@ -58,18 +84,21 @@ class Bounds:
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     """Unpack what may be part of a submission, the lab's files first, within the bounds."""
-    check_size(path)
-    with open_archive(path) as (archive, too_large):
+    bounds.open_one()
+    with open_archive(path, bounds) as (archive, too_large):
         bounds.left_out += too_large
-        members = sorted(name_members(archive), key=lambda each: rank_file(each[0]))
+        members = name_members(archive)
         if not members:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
-        for name, member in members:
-            ignored = any(part in IGNORED or is_system_file(part) for part in name.parts)
-            if ignored or environments & set(name.parents):
-                continue
+        wanted = (
+            (name, member)
+            for name, member in members
+            if not any(part in IGNORED or is_system_file(part) for part in name.parts)
+            and environments.isdisjoint(name.parents)
+        )
+        for name, member in sorted(wanted, key=lambda each: rank_file(each[0])):
             spared = SPARED if rank_file(name)[0] else 0
             if bounds.take(name.as_posix(), member.file_size, spared):
                 write_member(archive, member, folder / name)
@@ -77,7 +106,7 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
 
 def unzip_class(path: Path, folder: Path) -> None:
     """Unpack an LMS's download of a whole class; each submission in it is looked at later."""
-    with open_archive(path) as (archive, too_large):
+    with open_archive(path, Bounds(listed=MAX_CLASS)) as (archive, too_large):
         if too_large:
             raise CannotTake(f"{too_large[0]} is too large: unpack it, and name the folder instead")
         for member in list_members(archive):
@@ -87,7 +116,7 @@ def unzip_class(path: Path, folder: Path) -> None:
 
 
 @contextmanager
-def open_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
+def open_archive(path: Path, bounds: Bounds) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
     """Open an archive of any known kind, and list the files in it that are too large."""
     with open(path, "rb") as file:
         sign = file.read(8)
@@ -96,28 +125,33 @@ def open_archive(path: Path) -> Iterator[tuple[zipfile.ZipFile, list[str]]]:
     if sign.startswith(b"PK\x03\x04") or (
         path.suffix.lower() == ".zip" and not sign.startswith(SIGNS)
     ):
-        with open_zip(path) as archive:
+        with open_zip(path, bounds) as archive:
             yield archive, []
         return
     with work_folder() as work:
-        too_large = repack_as_zip(path, work / "plain.zip")
-        with open_zip(work / "plain.zip") as archive:
+        too_large = repack_as_zip(path, work / "plain.zip", bounds)
+        with open_zip(work / "plain.zip", bounds) as archive:
             yield archive, too_large
 
 
-def repack_as_zip(path: Path, target: Path) -> list[str]:
+def repack_as_zip(path: Path, target: Path, bounds: Bounds) -> list[str]:
     """Have the files packed as a zip by a process with limits; return those that are too large."""
-    script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target)]
+    if bounds.seconds <= 0:
+        raise CannotTake("the archives of the submission take too long to unpack")
+    seconds, began = math.ceil(bounds.seconds), reaped_seconds()
+    script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target), str(seconds)]
     try:
         done = subprocess.run(
             script,
             capture_output=True,
             encoding="utf-8",
             errors="replace",
-            timeout=SECONDS_TO_REPACK,
+            timeout=CLOCK_PER_CPU * seconds,
         )
     except subprocess.TimeoutExpired as error:
         raise CannotTake("the archive takes too long to unpack") from error
+    finally:
+        bounds.seconds -= reaped_seconds() - began
     if done.returncode == repack.REFUSED:
         raise CannotTake(done.stdout.strip().splitlines()[-1])
     if done.returncode:
@@ -126,10 +160,11 @@ def repack_as_zip(path: Path, target: Path) -> list[str]:
 
 
 @contextmanager
-def open_zip(path: Path) -> Iterator[zipfile.ZipFile]:
+def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
     """Open a zip, and make a sentence of whatever goes wrong with it."""
     try:
-        with zipfile.ZipFile(path) as archive:
+        with ZipReader(path, bounds.listed) as file, zipfile.ZipFile(file) as archive:
+            bounds.listed -= file.taken
             yield archive
     except CannotTake:
         raise
@@ -145,18 +180,25 @@ def open_zip(path: Path) -> Iterator[zipfile.ZipFile]:
         ) from error
 
 
-def check_size(path: Path) -> None:
-    """Refuse a zip that would take all memory before a single file of it is unpacked."""
-    size = path.stat().st_size
-    if size > MAX_ZIP:
-        raise CannotTake(f"the archive has {size >> 20} MB: the maximum is {MAX_ZIP >> 20} MB")
-    with open(path, "rb") as file:
-        file.seek(max(0, size - (1 << 16) - 64))
-        end = file.read()
-    at = end.rfind(b"PK\x05\x06")  # the end of the list of files, which says how long that is
-    length = int.from_bytes(end[at + 12 : at + 16], "little")
-    if at >= 0 and (length > MAX_DIRECTORY or end[max(0, at - 20) : at].startswith(b"PK\x06\x07")):
-        raise CannotTake("the zip lists too many files: ask for the program alone")
+class ZipReader(io.BufferedReader):
+    """A file for `zipfile`, of which no more is read at once than a list of files may have.
+
+    `zipfile` finds that list in its own way and reads it at once. So it is stopped there: whoever
+    looks for the list before may find another one.
+    """
+
+    def __init__(self, path: Path, most: int) -> None:
+        super().__init__(io.FileIO(path))
+        self.most = most  # bytes
+        self.taken = 0  # bytes so far
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        rest = size is None or size < 0
+        content = super().read(self.most + 1 if rest else min(size or 0, self.most + 1))
+        if len(content) > self.most:
+            raise CannotTake("the zip lists too many files: ask for the program alone")
+        self.taken += len(content)
+        return content
 
 
 def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:

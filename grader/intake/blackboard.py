@@ -13,12 +13,13 @@ from grader.intake.found import Upload
 from grader.intake.lms import Lms, MarkColumn, find_title, pick
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
+from grader.judge.plain import open_plain
 
 NAME = re.compile(
     r"(?P<attempt>(?P<assignment>.+)_(?P<user>[^_]+)_attempt_"
     r"(?P<when>\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d))(?:_(?P<file>.+)|\.txt)"
 )
-WHO = re.compile(r"Name:\s*(?P<name>.*?)\s*\((?P<user>[^()\n]+)\)\s*$", re.M)
+WHO = re.compile(r"Name:\s*+(?P<name>.*)\((?P<user>[^()\n]+)\)\s*$", re.M)
 HEAD = 600  # characters of a receipt that Blackboard writes itself, before the student's words
 COLUMNS = ("Last Name", "First Name", "Username", "Student ID")
 
@@ -77,8 +78,8 @@ def find_listed_user(match: re.Match[str], people: ClassList) -> str:
 
 def read_receipt(path: Path) -> tuple[str, str]:
     """Return the user's and the full name on a receipt; empty where there is none."""
-    with suppress(OSError), open(path, "rb") as file:
+    with suppress(OSError), open_plain(path.parent, path.name) as file:
         match = WHO.search(file.read(HEAD).decode("utf-8-sig", "replace").partition("\n\n")[0])
         if match:
-            return match["user"], match["name"]
+            return match["user"], match["name"].strip()
     return "", ""

@@ -9,7 +9,9 @@ from grader.intake.lms import Lms, MarkColumn, Page, find_title, pick
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster, Row
 
-NAME = r"(?P<name>(?:\w|[^\x00-\x7f])+?)"  # letters, and the marks on them that are none to Python
+# Letters, and the marks on them that are none to Python. One class: a letter that two classes have
+# doubles the ways to read a name.
+NAME = r"(?P<name>[0-9A-Za-z_\x80-\U0010ffff]+?)"
 FILE = re.compile(rf"{NAME}_(?P<late>LATE_)?(?P<user>\d+)_\d+_(?P<file>.+)")
 ANONYMOUS = re.compile(r"(?P<late>LATE_)?(?P<name>anon)_(?P<user>[^\W_]+)_\d+_(?P<file>.+)")
 NO_FILE = re.compile(rf"{NAME}_(text|link)\.html")

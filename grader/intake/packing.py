@@ -1,13 +1,15 @@
 """Read one submission: unpack archives, find the programs in them, and pack what counts."""
 
+import hashlib
 import re
 import shutil
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from filecmp import cmp
+from io import BufferedReader
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
-from grader.intake.archives import Bounds, check_size, unzip
+from grader.intake.archives import Bounds, unzip
 from grader.intake.found import CannotTake, Found, Package
 from grader.intake.names import MENTIONED, make_portable, shorten_list
 from grader.intake.pieces import (
@@ -24,9 +26,11 @@ from grader.intake.places import (
     cut_suffix,
     enter_single_folders,
     is_archive,
+    is_packed,
     list_modules,
 )
 from grader.intake.systems import SYSTEMS
+from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
 from grader.judge.workplace import work_folder
 
@@ -48,7 +52,8 @@ def open_submission(
         return
     with work_folder() as temporary:
         try:
-            package = pack(Found(make_portable(cut_suffix(path.resolve())), (path,)), asked)
+            real = path.resolve()
+            package = pack(Found(make_portable(cut_suffix(real)), (real,)), asked)
         except ManyPrograms as error:
             raise CannotTake(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
@@ -83,9 +88,9 @@ def pack(found: Found, asked: Collection[str] = ()) -> Package:
             if not any(module_of(PurePosixPath(name)) in asked for name in laid.files):
                 refuse_empty(folder, asked, notes)
             for name in sorted(laid.files, key=lambda each: rank_file(PurePosixPath(each))):
-                path = laid.files[name]
-                if bounds.take(name, path.stat().st_size):
-                    files.append((name, path.read_bytes()))
+                with open_inside(folder, laid.files[name]) as file:
+                    if bounds.take(name, length := size_of(file)):
+                        files.append((name, file.read(length)))
     except OSError as error:
         raise CannotTake(unreadable(error, found.sources[0])) from error
     except CannotGrade as error:
@@ -121,7 +126,8 @@ def lay_out(found: Found) -> Iterator[tuple[Path, list[str]]]:
             with work_folder() as temporary:
                 for name, path in laid.files.items():
                     (temporary / name).parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copyfile(path, temporary / name)
+                    with open_inside(folder, path) as file:
+                        copy_plain(file, temporary / name, size_of(file))
                 yield temporary, [*notes, *laid.notes]
 
 
@@ -181,38 +187,61 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
     if refused and not is_complete(laid, asked):
         names = {each.name for each in found.sources}
         why = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())
-        raise CannotTake("; ".join(why))
+        more = [f"and {len(refused) - MENTIONED} more"] * (len(refused) > MENTIONED)
+        raise CannotTake("; ".join([*islice(why, MENTIONED), *more]))
     laid.notes += [f"left out {name}: {words}" for name, words in refused.items()]
     return laid
 
 
 def copy_all(found: Found, folder: Path, bounds: Bounds) -> None:
     """Copy all that was handed in under the names it had, the same file only once."""
-    copied: dict[tuple[str, int], list[Path]] = {}
+    copied: set[tuple[str, str]] = set()
     for source in found.sources:
-        if source.is_file():
-            others = copied.setdefault((read_first_name(source), source.stat().st_size), [])
-            if any(cmp(source, each, shallow=False) for each in others):
-                continue
-            others.append(source)
         if source.is_dir():
             paths = (path.relative_to(source).as_posix() for path in plain_files(source))
             for inside in sorted(map(PurePosixPath, paths), key=rank_file):
-                copy_file(source / inside, folder / inside, bounds)
-        else:
-            copy_file(source, find_free_name(folder / read_first_name(source)), bounds)
+                with open_inside(source, source / inside) as file:
+                    copy_file(file, inside.name, folder / inside, bounds)
+            continue
+        name = read_first_name(source)
+        with open_inside(source, source) as file:
+            known = name, hash_file(file, bounds.packed)
+            if known not in copied:
+                copied.add(known)
+                copy_file(file, source.name, find_free_name(folder / name), bounds)
 
 
-def copy_file(path: Path, target: Path, bounds: Bounds) -> None:
+def hash_file(file: BufferedReader, most: int) -> str:
+    """Return a hash of an open file of at most so many bytes; empty for a longer one."""
+    if size_of(file) > most:
+        return ""
+    digest = hashlib.file_digest(file, "sha256").hexdigest()
+    file.seek(0)
+    return digest
+
+
+def open_inside(source: Path, path: Path) -> BufferedReader:
+    """Open a file of what was handed in; nothing of it may be a link, from its own name on.
+
+    Raises CannotTake where it cannot be read.
+    """
+    try:
+        return open_plain(source.parent, path.relative_to(source.parent))
+    except OSError as error:
+        raise CannotTake(unreadable(error, source)) from error
+
+
+def copy_file(file: BufferedReader, name: str, target: Path, bounds: Bounds) -> None:
     """Copy one file; an archive may be larger than a submission, its files may not."""
-    if not path.is_file():
-        raise CannotTake(f"{path.name} is no file to read, but a pipe, a device or nothing")
-    if is_archive(path):
-        check_size(path)
-    elif not bounds.take(path.name, path.stat().st_size):
+    length = size_of(file)
+    head = file.read(8)
+    file.seek(0)
+    if is_packed(target, head):
+        bounds.take_archive(length)
+    elif not bounds.take(name, length):
         return
     target.parent.mkdir(parents=True, exist_ok=True)
-    shutil.copyfile(path, target)
+    copy_plain(file, target, length)
 
 
 def find_free_name(path: Path) -> Path:

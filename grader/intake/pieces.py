@@ -8,7 +8,7 @@ it was, with a note. Where two files could be the same one, a person must choose
 import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path, PurePosixPath
@@ -18,18 +18,21 @@ from urllib.parse import unquote
 from grader.intake.found import CannotTake
 from grader.intake.names import fold
 from grader.intake.places import ARCHIVES, list_modules
-from grader.judge.submission import load_given, plain_files
+from grader.judge.plain import read_plain
+from grader.judge.submission import MAX_BYTES, load_given, plain_files
 from grader.source.regions import regions_in
 
 PACKAGE = "mini_engine"
 INIT = "__init__.py"
 NUMBER = r"\(\d{1,3}\)"
 WORD = r"(copy|copie|copia|kopie)"  # as desktops of several languages say it
+# Each sign has one place in it: what fits in two makes a name take twice as long with every sign.
 ADDED = re.compile(
-    rf"(\s*{NUMBER}|\s*-?\s+{WORD}(\s+\d+|\s*{NUMBER})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
+    rf"(\s*{NUMBER}|(\s+|\s*-\s+){WORD}(\s+\d{{4,}})?|-\d{{1,3}}|\s+\d{{1,3}})+", re.I
 )
 BEFORE = re.compile(rf"({WORD} (of|de|di|von) )+", re.I)
 MENTIONED = 5
+MOST_READ = MAX_BYTES + 1  # of a file, to compare it with another one
 SIGNS = {  # how a file begins that somebody saved under a program's name
     b"pk\x03\x04": "a zip or an Office document",
     b"%pdf": "a PDF",
@@ -99,7 +102,9 @@ class Piece:
     exact: bool
 
     def is_same(self, other: "Piece", folder: Path) -> bool:
-        mine, others = ({n: (folder / p).read_bytes() for n, p in x.files} for x in (self, other))
+        mine, others = (
+            {n: read_plain(folder, p, MOST_READ) for n, p in x.files} for x in (self, other)
+        )
         return mine == others
 
 
@@ -283,7 +288,9 @@ def list_files(piece: Piece, folder: Path, notes: list[str]) -> list[tuple[str, 
         if other != path and is_backup(path.name):
             notes.append(f"{path} was left out as a backup")
             continue
-        if other != path and (folder / other).read_bytes() != (folder / path).read_bytes():
+        if other != path and read_plain(folder, other, MOST_READ) != read_plain(
+            folder, path, MOST_READ
+        ):
             refuse_two(target, [other, path])
         if target != name:
             notes.append(f"{path} is taken as {target}")
@@ -296,10 +303,17 @@ def find_top(pieces: list[Piece]) -> PurePosixPath:
     return min(parents, key=lambda each: (-parents.count(each), len(each.parts), each))
 
 
+@lru_cache(maxsize=1024)  # most files of an archive lie in the same folders
+def is_program(name: str) -> bool:
+    """Tell whether a file or folder may be a program of the lab, by its name."""
+    return (
+        match_name(name, [*list_modules(), *(f"{each}.py" for each in list_modules())]) is not None
+    )
+
+
 def rank_file(path: PurePosixPath) -> tuple[bool, bool, int, PurePosixPath]:
     """Return a file's rank while there is room: what may be the lab's comes first."""
-    programs = [*list_modules(), *(f"{name}.py" for name in list_modules())]
-    of_lab = any(match_name(part, programs) for part in path.parts)
+    of_lab = any(map(is_program, path.parts))
     packed = path.suffix.lower() in ARCHIVES
     return not of_lab and not packed, path.suffix != ".py", len(path.parts), path
 

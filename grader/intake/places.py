@@ -1,7 +1,8 @@
 """Find where in a folder the work lies, apart from what desktops leave there."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
 
+from grader.judge.plain import open_plain
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import IGNORED
 
@@ -23,9 +24,17 @@ def is_system_file(name: str) -> bool:
 def is_archive(path: Path) -> bool:
     """Tell an archive by its name, or without a suffix, by its first bytes."""
     if path.suffix or not path.is_file():
-        return path.suffix.lower() in ARCHIVES
-    with open(path, "rb") as file:
-        return file.read(8).startswith((b"PK\x03\x04", *SIGNS))
+        return is_packed(path, b"")
+    real = path.resolve()
+    with open_plain(real.parent, real.name) as file:
+        return is_packed(path, file.read(8))
+
+
+def is_packed(name: PurePath, head: bytes) -> bool:
+    """Tell a file that is an archive by its name, or without a suffix, by its first bytes."""
+    if name.suffix:
+        return name.suffix.lower() in ARCHIVES
+    return head.startswith((b"PK\x03\x04", *SIGNS))
 
 
 def cut_suffix(path: Path) -> str:

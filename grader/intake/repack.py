@@ -38,8 +38,8 @@ class Refused(Exception):
     """An archive that is not unpacked; the message says why."""
 
 
-def main(source: str, target: str) -> int:
-    set_limits()
+def main(source: str, target: str, seconds: int = SECONDS) -> int:
+    set_limits(seconds)
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(encoding="utf-8", errors="replace")
     try:
@@ -70,11 +70,11 @@ def say(words: str) -> None:
     print(" ".join(words.split())[:300])
 
 
-def set_limits() -> None:
+def set_limits(seconds: int) -> None:
     if resource is not None:
         wanted = (
             (resource.RLIMIT_AS, MEMORY),
-            (resource.RLIMIT_CPU, SECONDS),
+            (resource.RLIMIT_CPU, seconds),
             (resource.RLIMIT_FSIZE, 2 * MAX_UNPACKED),
         )
         for kind, most in wanted:
@@ -210,4 +210,4 @@ def load_library(name: str, format: str) -> Any:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], sys.argv[2]))
+    sys.exit(main(sys.argv[1], sys.argv[2], int(sys.argv[3])))

@@ -433,6 +433,8 @@ class Lab(Decoder):
             "frames that take as long as they are asked to",
             "shorter ones",
         )
+        if any(len(row) % 6 for row in reply.trail):
+            self.fail("six numbers for each moving body", "another count of them")
         return reply
 
     def start_anew(self) -> None:

@@ -22,6 +22,7 @@ from grader.source.definitions import MAX_READ, statements
 from grader.source.regions import python_files, read_source
 
 MOST = 1000  # functions of a program; the lesson's have sixty
+LONGEST = 80  # letters of a name that may be another's new one
 ALIKE = 0.6  # of two names, from which on one may be the other's new one
 
 # What a message of Python's means where a student may not know it.
@@ -157,7 +158,11 @@ def renamed(
     meant: Signature, module: str, theirs: Mapping[str, Signature], ours: Mapping[str, Signature]
 ) -> str:
     """Say `World has no apply_damping; it has apply_damp: renamed?`, where a name is similar."""
-    new = [each for path, each in ours.items() if path not in theirs and each.owner == meant.owner]
+    new = [
+        each
+        for path, each in ours.items()
+        if path not in theirs and each.owner == meant.owner and len(each.name) <= LONGEST
+    ]
     near = max(new, key=lambda each: likeness(each.name, meant.name), default=None)
     if near is None or likeness(near.name, meant.name) < ALIKE:
         return ""

@@ -15,6 +15,7 @@ import msgspec
 
 from grader.errors import Stop
 from grader.judge.file_names import accept_printed_names
+from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
@@ -93,21 +94,18 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
 def copy_tree(path: Path, submission: Submission) -> None:
     """Copy plain files, the lab's first: no links, nothing hidden, no more than the bounds."""
     files = size = 0
-    for source in sorted(plain_files(path), key=lambda each: weight(each.relative_to(path))):
-        inside = source.relative_to(path)
-        try:
-            length = source.stat().st_size
-        except OSError as error:  # such as a path that is too long
-            raise CannotGrade(unreadable(error, path)) from error
-        if files + 1 > MAX_FILES or size + length > MAX_BYTES:
-            submission.left_out.append(f"{inside.as_posix()}: too much")
-            continue
-        files, size = files + 1, size + length
+    for inside in sorted((each.relative_to(path) for each in plain_files(path)), key=weight):
         target = submission.folder / inside
         try:
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
-        except OSError as error:
+            with open_plain(path, inside) as file:
+                length = size_of(file)
+                if files + 1 > MAX_FILES or size + length > MAX_BYTES:
+                    submission.left_out.append(f"{inside.as_posix()}: too much")
+                    continue
+                files, size = files + 1, size + length
+                target.parent.mkdir(parents=True, exist_ok=True)
+                copy_plain(file, target, length)
+        except OSError as error:  # such as a path that is too long
             if error.errno in FULL:
                 raise
             raise CannotGrade(unreadable(error, path)) from error

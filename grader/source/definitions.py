@@ -4,15 +4,18 @@ A folder often holds more than runs: a kept copy of the starter, a second try, a
 the names of imports are followed from the program's module to the one definition that counts.
 
 The text may be made to cost its reader much. So one file is parsed at a time, and no tree is kept;
-files have a greatest size, alone and together; and a name is looked up once in each module.
+files have a greatest size, alone and together; a name is looked up once in each module; and of
+names too long, or of too many that stand for each other, nothing is known.
 """
 
 import ast
 import textwrap
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from heapq import merge
 from pathlib import Path, PurePath
+from typing import TypeVar
 
 from grader.source.flaws import misplaced
 from grader.source.regions import parsed
@@ -20,6 +23,8 @@ from grader.source.regions import parsed
 MAX_READ = 1024 * 1024  # characters of a submission that are parsed, in all
 MAX_CALLED = 200  # names that are followed from a function
 MAX_HOPS = 50  # from module to module, or from a name to what it stands for; real ones take three
+MAX_TRIED = 2000  # bindings that one question may try; real ones take ten
+MAX_NAME = 1000  # characters of a dotted name; real ones have twenty
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +68,7 @@ class Imported:
 
 
 Binding = Function | Class | Alias | Imported
+Try = TypeVar("Try")
 
 
 @dataclass
@@ -75,12 +81,13 @@ class Module:
     stars: list[tuple[int, Binding]] = field(default_factory=list)
     imports: dict[str, None] = field(default_factory=dict)
 
-    def bindings(self, path: str, first: str) -> list[Binding]:
-        """Return the bindings that may define this dotted name, latest first."""
-        found = [*self.names.get(first, ()), *self.stars]
+    def bindings(self, path: str, first: str) -> Iterator[Binding]:
+        """Yield the bindings that may define this dotted name, latest first."""
+        lists = [self.names.get(first, []), self.stars]
         if path != first:
-            found += self.names.get(path, ())
-        return [each for _, each in sorted(found, key=lambda each: -each[0])]
+            lists.append(self.names.get(path, []))
+        backwards = (reversed(each) for each in lists)  # each is in the order of the text
+        yield from (each for _, each in merge(*backwards, key=lambda each: -each[0]))
 
 
 class Program:
@@ -101,6 +108,8 @@ class Program:
         self.unread: list[Path] = []
         self.read = 0  # characters that were parsed
         self.found: dict[tuple[str, str], Definition | None] = {}  # of one question
+        self.tried = 0  # bindings, for one question
+        self.parts: dict[str, list[str]] = {}  # what importing a module loads, by its name
 
     def tree(self, module: str) -> list[ast.stmt]:
         """Return the statements of a module; none where it is no Python."""
@@ -112,7 +121,7 @@ class Program:
 
     def definition(self, module: str, path: str) -> Definition | None:
         """Find where `module` gets `name` or `Class.name` from."""
-        self.found = {}
+        self.found, self.tried = {}, 0
         found = self._bound(module, path)
         if found is not None and found.function is not None:
             return found
@@ -122,19 +131,22 @@ class Program:
 
     def loaded(self, module: str) -> list[str]:
         """Return the submission's modules that importing `module` loads, by name."""
-        seen: set[str] = set()
-        waiting = [module]
-        while waiting:
-            name = waiting.pop()
-            if name in self.paths and name not in seen:
-                seen.add(name)
-                waiting += self._module(name).imports
-        return sorted(seen)
+        if module not in self.parts:
+            seen: set[str] = set()
+            waiting = [module]
+            while waiting:
+                name = waiting.pop()
+                if name in self.paths and name not in seen:
+                    seen.add(name)
+                    waiting += self._module(name).imports
+            self.parts[module] = sorted(seen)
+        return self.parts[module]
 
     def names_used(self, module: str, path: str) -> set[str]:
         """Return the names in a function and in those that it calls, as far as the text tells."""
         found: set[str] = set()
         seen: set[tuple[str, str]] = set()
+        read: set[Definition] = set()  # a function may have many names
         waiting = [(module, path)]
         while waiting and len(seen) < MAX_CALLED:
             asked = waiting.pop()
@@ -143,6 +155,9 @@ class Program:
             if defined is None or defined.function is None:
                 continue
             found.add(asked[1].rpartition(".")[2])
+            if defined in read:
+                continue
+            read.add(defined)
             owner = asked[1].rpartition(".")[0]
             for node in ast.walk(
                 ast.Module(statements(self.source(defined.module, defined.function)), [])
@@ -229,7 +244,7 @@ class Program:
 
     def _bound(self, module: str, path: str, hops: int = 0) -> Definition | None:
         """Return what a name of a module, or `Class.name`, is bound to at last."""
-        if module not in self.paths or hops > MAX_HOPS:
+        if module not in self.paths or hops > MAX_HOPS or len(path) > MAX_NAME:
             return None
         if (module, path) not in self.found:
             self.found[module, path] = None  # a name in a circle stands for nothing
@@ -239,7 +254,7 @@ class Program:
     def _looked_up(self, module: str, path: str, hops: int) -> Definition | None:
         first, _, rest = path.partition(".")
         known = self._module(module)
-        for binding in known.bindings(path, first):
+        for binding in self._limit(known.bindings(path, first)):
             found: Definition | None = None
             match binding:
                 case Function(name=name) if name == path:
@@ -273,8 +288,17 @@ class Program:
                 return Definition(module, function)
             case Alias(path=other):
                 return self._bound(module, other, hops)
-        bases = (self._bound(module, f"{base}.{name}", hops) for base in owner.bases)
-        return next((found for found in bases if found is not None), None)
+        bases = self._limit(owner.bases)
+        inherited = (self._bound(module, f"{base}.{name}", hops) for base in bases)
+        return next((found for found in inherited if found is not None), None)
+
+    def _limit(self, tries: Iterable[Try]) -> Iterator[Try]:
+        """Yield as many of these as one question may still try."""
+        for each in tries:
+            self.tried += 1
+            if self.tried > MAX_TRIED:
+                return
+            yield each
 
 
 def function_at(node: ast.FunctionDef) -> Function:

@@ -6,11 +6,13 @@ Layout, comments and docstrings are nobody's business.
 """
 
 import ast
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 from functools import cache
+from itertools import accumulate, islice
 
 from grader.source.definitions import dotted_name, statements
 from grader.source.flaws import MAX_LINE
@@ -24,6 +26,7 @@ from grader.source.regions import (
     shape_of,
 )
 
+MAX_COMPARED = 1000  # lines of code, with those that were given; no function has a tenth
 Definition = ast.FunctionDef | ast.ClassDef
 
 
@@ -175,7 +178,7 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
 
     A line that stands there as often as it was given has been moved, and is both of these.
     """
-    own, right = list(code_lines(mine)), list(code_lines(given))
+    own, right = list(islice(code_lines(mine), MAX_COMPARED)), list(code_lines(given))
     matcher = SequenceMatcher(None, [line for _, line in own], [line for _, line in right], False)
     for kind, start, stop, first, last in matcher.get_opcodes():
         if kind == "equal":
@@ -194,9 +197,13 @@ def first_difference(mine: Sequence[str], given: Sequence[str]) -> tuple[int, st
 def code_lines(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
     """Yield the lines that are neither empty nor a comment alone, with their indices."""
     for number, line in enumerate(lines):
-        text = line.strip()
-        if text and not text.startswith("#"):
-            yield number, text
+        if is_code(line):
+            yield number, line.strip()
+
+
+def is_code(line: str) -> bool:
+    text = line.strip()
+    return bool(text) and not text.startswith("#")
 
 
 def first_code(lines: Sequence[str]) -> str:
@@ -221,17 +228,22 @@ def given_pieces(text: str) -> dict[str, Piece]:
 
 def with_markers(found: dict[str, Piece], text: str) -> dict[str, Piece]:
     """Return the pieces with the last region in each, which may stand behind its last statement."""
-    lines, regions = text.splitlines(), read_regions(text)[0]
-    return {name: with_last_region(piece, regions, lines) for name, piece in found.items()}
+    lines = text.splitlines()
+    regions = sorted(read_regions(text)[0], key=lambda each: each.start)
+    code = list(accumulate(map(is_code, lines), initial=0))  # lines of code before each line
+    return {name: with_last_region(piece, regions, lines, code) for name, piece in found.items()}
 
 
-def with_last_region(piece: Piece, regions: Sequence[Region], lines: Sequence[str]) -> Piece:
+def with_last_region(
+    piece: Piece, regions: Sequence[Region], lines: Sequence[str], code: Sequence[int]
+) -> Piece:
     stop = piece.stop
-    for region in regions:
-        between = lines[stop : region.start]
-        behind = region.start >= stop and not any(code_lines(between))
-        inside = indent_of(lines[region.start]) > indent_of(lines[piece.start])
-        if inside and (piece.start <= region.start < stop or behind):
+    first = bisect_left(regions, piece.start, key=lambda each: each.start)
+    for number in range(first, len(regions)):
+        region = regions[number]
+        if region.start >= stop and code[stop] < code[region.start]:
+            break  # so is it with all that follow
+        if indent_of(lines[region.start]) > indent_of(lines[piece.start]):
             stop = max(stop, region.stop + 1)
     return replace(piece, stop=stop)
 

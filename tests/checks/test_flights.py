@@ -1,9 +1,12 @@
 """What a ball may do that touches nothing, and what no film may show."""
 
 import pytest
+from counting import count_calls
 
 from grader.checks.whole.flights import flew, is_clear, want_free_flights, want_no_jump
 from grader.checks.whole.lab_scene import BALLS
+from grader.checks.whole.pictures import Disc
+from grader.judge.decode import Decoder
 from grader.judge.failures import NotYet
 from grader.judge.lab import STEP, Lab, Moment
 
@@ -77,3 +80,30 @@ def test_what_touches_something_is_pushed_and_does_not_jump(after: Moment):
         want_no_jump(lab, before, [after], 2)
     with pytest.raises(NotYet, match="one at"):
         want_no_jump(lab, ball(200, 230, 0, 1e9), [before], 2)  # near everything, so never clear
+
+
+class NoLab(Decoder):
+    """A lab that nothing is asked of."""
+
+
+def row_of(count: int) -> list[float]:
+    """Return the balls of the scene, and so many others that fall far above the window."""
+    places = [*BALLS, *((100.0 * number, -1e6) for number in range(count))]
+    return [number for place in places for number in (*place, 0.0, 0.0, 0.0, 0.0)]
+
+
+@pytest.mark.parametrize("count", [1000, 40_000])
+def test_a_film_of_too_many_bodies_is_not_compared(count: int):
+    film = [row_of(count)] * 3
+
+    def judge() -> None:
+        with pytest.raises(NotYet, match=f"{count + len(BALLS)} of them, in 3 steps"):
+            want_free_flights(NoLab(), film)
+
+    assert count_calls(judge) < 5 * 3 * count + 2000
+
+
+def test_a_bob_far_away_hangs_on_no_endless_rod():
+    """A circle for each few pixels of a rod to a bob at 1e300 px is more than a day's work."""
+    few, many = (sum(1 for _ in Disc((x, 90.0), 24.0, 0.0, True).circles()) for x in (1e5, 1e300))
+    assert few == many < 1000

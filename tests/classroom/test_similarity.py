@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from command_line import run_grader
+from counting import count_calls
 from page_readers import HOSTILE, Reader
 from points_pool import Inline
 from rich.console import Console
@@ -15,7 +16,14 @@ from whole_bank import bank
 
 from grader.classroom import grading
 from grader.classroom.grading import ClassOptions, run_class
-from grader.classroom.similarity import EXPECTED, Pair, find_pairs, make_prints, read_pairs
+from grader.classroom.similarity import (
+    EXPECTED,
+    Pair,
+    find_pairs,
+    make_prints,
+    read_pairs,
+    read_tokens,
+)
 from grader.intake.found import Found, Package
 from grader.intake.packing import pack
 from grader.judge.grade import KIT, Options
@@ -87,6 +95,24 @@ def test_what_everybody_was_given_and_the_solutions_wording_tell_nothing(tmp_pat
     assert all(not make_prints(each).runs for each in trees)
     twins = [Package(name, trees[1].files) for name in ("ann", "ben")]
     assert find_pairs([make_prints(each) for each in twins], 0.0) == []
+
+
+@pytest.mark.parametrize("end", ["$", "$ $", "'", "'\\'\\'", "?"])
+def test_of_a_line_that_is_no_python_only_the_beginning_counts(end: str):
+    """Python's reader of tokens looks at the whole rest of it again with each letter."""
+    few, many = (
+        count_calls(lambda n=n: read_tokens(f"x{' ' * n}{end}{' ' * n}$")) for n in (9, 99)
+    )
+    assert few == many
+    assert read_tokens(f"x = 1\ny = {end}\nz = 2\n") == [
+        *(("name", 1), ("=", 1), ("number", 1), ("name", 2), ("=", 2)),
+        *(("name", 3), ("=", 3), ("number", 3)),
+    ]
+
+
+def test_lines_that_are_no_python_are_each_read_once():
+    few, many = (count_calls(lambda n=n: read_tokens("x = $\n" * n)) for n in (100, 200))
+    assert many < 3 * few
 
 
 def test_who_handed_in_together_is_no_pair(right):

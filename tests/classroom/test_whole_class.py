@@ -74,9 +74,9 @@ def in_one_process(monkeypatch) -> None:
 
 def here(monkeypatch) -> None:
     """Archives are read by this process: `test_pieces.py` has them read as they are in earnest."""
-    monkeypatch.setattr(repack, "set_limits", lambda: None)
-    make = lambda path, target: repack.main(str(path), str(target)) and []  # noqa: E731
-    monkeypatch.setattr(archives, "repack_as_zip", lambda *paths: make(*paths) or [])
+    monkeypatch.setattr(repack, "set_limits", lambda seconds: None)
+    make = lambda path, target, bounds: repack.main(str(path), str(target)) and []  # noqa: E731
+    monkeypatch.setattr(archives, "repack_as_zip", lambda *args: make(*args) or [])
 
 
 def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:

@@ -1,5 +1,6 @@
 """What a student hands in is what is asked for, and what the instructor's side finds in it."""
 
+import os
 import zipfile
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from command_line import run_grader
 from grader.bank.sync import list_students_files
 from grader.cli import hand_in as packing
 from grader.cli.hand_in import PACKED, find_missing, pack_tree
+from grader.cli.restore import restore
 from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.packing import pack
@@ -89,3 +91,38 @@ def test_more_than_will_be_read_is_refused(tree, monkeypatch):
     with pytest.raises(Stop, match="more than will be read"):
         pack_tree(tree)
     assert not (tree / PACKED).exists()
+
+
+LINKS = pytest.mark.skipif(os.name == "nt", reason="links are for administrators there")
+
+
+@LINKS
+def test_a_link_in_the_place_of_the_zip_is_not_written_through(tree, tmp_path):
+    (tmp_path / "mine.txt").write_text("mine")
+    (tree / PACKED).symlink_to(tmp_path / "mine.txt")
+    path, names = pack_tree(tree)
+    assert (tmp_path / "mine.txt").read_text() == "mine"
+    assert not path.is_symlink() and zipfile.ZipFile(path).namelist() == names
+
+
+@LINKS
+@pytest.mark.parametrize("link", ["mini_engine/solver.py", "mini_engine"])
+def test_given_code_is_not_put_back_through_a_link(tree, tmp_path, link):
+    outside = tmp_path / "outside"
+    (tree / link).rename(outside)
+    (tree / link).symlink_to(outside)
+    inside = outside / "solver.py" if outside.is_dir() else outside
+    inside.write_text(inside.read_text().replace("def ", "def my_"))
+    before = inside.read_bytes()
+    with pytest.raises(Stop, match=f"{link} is a link"):
+        restore(tree, "mini_engine/solver.py")
+    assert inside.read_bytes() == before
+
+
+@LINKS
+def test_the_copy_of_what_was_put_back_is_not_written_through_a_link(tree, tmp_path):
+    solver = tree / "mini_engine" / "solver.py"
+    solver.write_text(solver.read_text().replace("def ", "def my_"))
+    (solver.parent / "solver_old.py").symlink_to(tmp_path / "nowhere.py")
+    (said,) = restore(tree, "mini_engine/solver.py")
+    assert "solver_2_old.py" in said and not (tmp_path / "nowhere.py").exists()

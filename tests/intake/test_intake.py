@@ -406,6 +406,37 @@ def test_a_zip_that_lists_too_many_files_is_not_even_listed(classroom, monkeypat
     assert "too many" in refused(classroom, zipped({f"{n}.py": "" for n in range(40)}))
 
 
+@pytest.mark.parametrize("hidden", [b"PK\x05\x06", b"PK\x06\x07"])
+def test_the_list_that_is_bounded_is_the_one_that_is_read(classroom, monkeypatch, hidden):
+    """A second end of a zip, hidden in the comment of the first, says that the list is short."""
+    monkeypatch.setattr(archives, "MAX_DIRECTORY", 1000)
+    content = bytearray(zipped({f"{n}.py": "" for n in range(40)}))
+    content[-2:] = (40).to_bytes(2, "little")
+    assert "too many" in refused(classroom, bytes(content + hidden + bytes(36)))
+
+
+def test_a_short_list_is_read_where_another_end_is_hidden_in_it(classroom):
+    name = "PK\x05\x06" + "\xff" * 16
+    with pytest.raises(CannotTake, match="not for every system"):
+        pack(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
+
+
+def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
+    """Each costs a process, or a list; so their number, sizes, lists and seconds are counted."""
+    monkeypatch.setattr(archives, "MAX_ARCHIVES", 3)
+    monkeypatch.setattr(archives, "MAX_DIRECTORY", 10_000)
+    opened = []
+    real = archives.open_archive
+    monkeypatch.setattr(archives, "open_archive", lambda *args: opened.append(1) or real(*args))
+    with pytest.raises(CannotTake, match="more than 3 archives in one submission"):
+        pack(handed_in(classroom, zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})))
+    assert len(opened) == 3
+    monkeypatch.setattr(archives, "MAX_ARCHIVES", 40)
+    many = zipped({f"{n}.zip": zipped({f"{m}.txt": "" for m in range(20)}) for n in range(30)})
+    with pytest.raises(CannotTake, match="too many files"):
+        pack(handed_in(classroom, many))
+
+
 def test_a_zip_that_is_too_large_is_not_opened(classroom, monkeypatch):
     monkeypatch.setattr(archives, "MAX_ZIP", 10)
     assert "MB" in refused(classroom, zipped(PROGRAM))

@@ -1,5 +1,7 @@
 """What is of the lab in what was handed in: in archives of all kinds, anywhere, under any name."""
 
+import bz2
+import subprocess
 import tarfile
 from pathlib import Path
 
@@ -8,7 +10,7 @@ import pytest
 from whole_bank import bank
 
 from grader.errors import Stop
-from grader.intake import repack
+from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Found, Package
 from grader.intake.listing import open_class
 from grader.intake.packing import open_submission, pack
@@ -138,12 +140,30 @@ def test_a_class_in_an_archive_loses_nobody_for_being_large(tmp_path):
 def test_a_bomb_of_many_files_is_refused(tmp_path, kind, monkeypatch, capsys):
     path = tmp_path / "ann"
     path.write_bytes(KINDS[kind]({f"{number}.bin": bytes(300) for number in range(4)}))
-    monkeypatch.setattr(repack, "set_limits", lambda: None)
+    monkeypatch.setattr(repack, "set_limits", lambda seconds: None)
     for bound in ("MAX_UNPACKED", "MAX_MEMBERS"):
         with monkeypatch.context() as patch:
             patch.setattr(repack, bound, 1000 if bound == "MAX_UNPACKED" else 3)
             assert repack.main(str(path), str(tmp_path / "out")) == repack.REFUSED
         assert "too much" in capsys.readouterr().out
+
+
+def test_all_archives_of_a_submission_share_the_seconds_of_one(tmp_path, monkeypatch):
+    """A hundred bytes of bz2 hold ten megabytes; forty of them must not cost forty times that."""
+    given, used = [], iter([0.0, 2.5, 2.5, 3.5, 3.5, 9.0])
+
+    def run(script, **options):
+        given.append((int(script[-1]), options["timeout"]))
+        return subprocess.CompletedProcess(script, repack.REFUSED, "it is broken", "")
+
+    monkeypatch.setattr(archives, "MAX_SECONDS", 5)
+    monkeypatch.setattr(archives, "reaped_seconds", lambda: next(used))
+    monkeypatch.setattr(archives.subprocess, "run", run)
+    for number in range(9):
+        (tmp_path / f"{number}.tar.bz2").write_bytes(bz2.compress(b""))
+    with pytest.raises(CannotTake, match="archives of the submission take too long"):
+        pack(Found("ann", (tmp_path,)))
+    assert given == [(5, 20), (3, 12), (2, 8)]
 
 
 def test_a_library_that_is_not_here_is_named(monkeypatch):

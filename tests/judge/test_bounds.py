@@ -2,8 +2,10 @@
 sources and results. Thresholds are far above what honest work takes and far below what hurts.
 """
 
+import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,15 +14,35 @@ import pytest
 from whole_bank import bank
 
 from grader.bank.verify import shared_worker
+from grader.judge.children import Child, ChildEnded
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.judge.names import MOST, Names
+from grader.judge.names import LONGEST, MOST, Names
 from grader.judge.result import MAX_JSON, CheckResult, Result, TodoResult, Where
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, find_todos
 from grader.player.replay import grade_with_replays
-from grader.protocol import MAX_MESSAGE, Answered, Limits, Ready, cut
+from grader.protocol import (
+    MAX_ITEMS,
+    MAX_MESSAGE,
+    MAX_PRESENT,
+    MAX_STATES,
+    Answered,
+    BodyValue,
+    Channel,
+    CodeLine,
+    Items,
+    Limits,
+    Played,
+    Raised,
+    Ready,
+    Remembered,
+    Returned,
+    Simulated,
+    Vec,
+    cut,
+)
 from grader.source import definitions
-from grader.source.definitions import MAX_READ, Program
+from grader.source.definitions import MAX_READ, MAX_TRIED, Program
 from grader.source.regions import MAX_SHAPE, MAX_SOURCE, parsed, shape_of
 
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the most memory")
@@ -28,12 +50,11 @@ LINUX = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the
 # ---------------------------------------------------------------- answers
 
 
-def texts_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.StrType]:
-    """All types of text in a type of message."""
-    if isinstance(kind, msgspec.inspect.StrType):
-        yield kind
+def types_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.Type]:
+    """Yield all types that a type of message is made of."""
     if not isinstance(kind, msgspec.inspect.Type) or getattr(kind, "cls", None) in seen:
         return
+    yield kind
     if isinstance(kind, msgspec.inspect.StructType):
         seen.add(kind.cls)
     inner = [getattr(kind, name, None) for name in ("item_type", "key_type", "value_type")]
@@ -41,13 +62,73 @@ def texts_in(kind: object, seen: set[object]) -> Iterator[msgspec.inspect.StrTyp
     inner += getattr(kind, "item_types", ()) or ()
     inner += [field.type for field in getattr(kind, "fields", ())]
     for each in inner:
-        yield from texts_in(each, seen)
+        yield from types_in(each, seen)
+
+
+MANY = (
+    msgspec.inspect.StrType,
+    msgspec.inspect.BytesType,
+    msgspec.inspect.ListType,
+    msgspec.inspect.DictType,
+)
 
 
 @pytest.mark.parametrize("message", [Answered, Ready])
-def test_every_text_that_a_child_sends_has_a_greatest_length(message: type):
-    found = list(texts_in(msgspec.inspect.type_info(message), set()))
-    assert found and all(each.max_length for each in found)
+@pytest.mark.parametrize("kind", MANY)
+def test_every_text_and_list_that_a_child_sends_has_a_greatest_length(message: type, kind: type):
+    found = list(types_in(msgspec.inspect.type_info(message), set()))
+    unbounded = (msgspec.inspect.AnyType, msgspec.inspect.SetType, msgspec.inspect.VarTupleType)
+    assert found and not any(isinstance(each, unbounded) for each in found)
+    assert all(each.max_length for each in found if isinstance(each, kind))
+
+
+class NoWorker:
+    """Ends children that are no processes."""
+
+    def end(self, child: Child, gone: bool) -> int:
+        child.channel.close()
+        return 0
+
+    def pid_of(self, child: Child) -> int:
+        return 0
+
+
+def played(**fields: object) -> Played:
+    return msgspec.structs.replace(Played([1], [0.0], [], "returned", [], [], []), **fields)
+
+
+BODY = BodyValue(1, Vec(0, 0), Vec(0, 0), 0.0, 0.0, 1.0, 1.0, 10.0)
+OVERLONG = [
+    Returned(Items([0] * (MAX_ITEMS + 1))),
+    Returned(Items([Items([None] * (MAX_ITEMS + 1))])),
+    Simulated([[]] * (MAX_STATES + 1)),
+    Simulated([[0] * (6 * MAX_PRESENT + 1)]),
+    played(trail=[[0] * 6 * 40_000]),
+    played(trail=[[]] * (MAX_STATES + 1)),
+    played(bodies=[BODY] * (MAX_PRESENT + 1)),
+    played(steps=[0] * (MAX_STATES + 1)),
+    Raised("ValueError", "", [CodeLine("a.py", 10**17, "f", "")]),
+    Raised("ValueError", "", [CodeLine("a.py", -1, "f", "")]),
+]
+
+
+@pytest.mark.parametrize("reply", OVERLONG)
+def test_a_list_too_long_is_no_answer(reply: object):
+    ours, theirs = socket.socketpair()
+    channel = Channel(theirs)
+
+    def lie() -> None:
+        channel.send(Ready(1, []))
+        channel.receive()
+        channel.send(Answered(1, reply))
+
+    liar = threading.Thread(target=lie)
+    liar.start()
+    child = Child(Channel(ours), NoWorker(), 1)
+    with pytest.raises(ChildEnded, match="what it sent is not an answer"):
+        child.ask(Remembered())
+    liar.join()
+    theirs.close()
 
 
 def test_a_text_that_is_cut_says_so():
@@ -108,6 +189,16 @@ CIRCLES = {
     "modules": {f"m{n}": f"from m{n + 1} import f" for n in range(400)},
     "classes": {"m0": "".join(f"class C{n}(C{n + 1}): pass\n" for n in range(3000)) + "f = C0.f"},
     "elif": {"m0": "if a: pass\n" + "elif a: pass\n" * 1200},
+    "own bases": {"m0": "class A: pass\nif 0:\n    class A(A.a, A.b): pass"},
+    "own bases elsewhere": {
+        "m0": "from m1 import A",
+        "m1": "from m0 import A as B\nclass A(B.a, B.b): pass",
+    },
+    "long names": {
+        "m0": f"from m1 import A\nf = {'f' * 60_000}",
+        "m1": f"class A(A.{'a' * 60_000})",
+    },
+    "bindings": {"m0": "import m1 as A\n" + "def A(): pass\n" * 5000 + "class A(A.a, A.b): pass"},
     "dots": {"m0": f"import {'.'.join('a' * 60_000)}"},
     "number": {"m0": f"a[0x{'f' * 50_000}] = f"},
     "operators": {"m0": f"{'-' * 900}a.b = f\na{'.b' * 900} = f\nclass A(a{'.b' * 900}): pass"},
@@ -122,6 +213,7 @@ def test_a_name_that_leads_far_is_not_followed_for_ever(name: str):
         found = program.definition("m0", path)
         assert found is None or found.function is None
         assert len(program.found) <= 10_000
+        assert program.tried <= 2 * MAX_TRIED
 
 
 def test_files_are_read_up_to_a_sum(monkeypatch: pytest.MonkeyPatch):
@@ -156,6 +248,12 @@ def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
     assert "renamed?" in names.hint(todo, "mini_engine", check)
     assert len(names.of("mini_engine")) <= MOST
     assert names.changed("mini_engine") is names.changed("mini_engine")
+
+
+def test_a_name_too_long_to_be_another_one_is_not_compared(tmp_path: Path):
+    long = "effective_mass" * (LONGEST // 10)
+    (tmp_path / "mini_engine.py").write_text(f"def {long}(): pass\n", encoding="utf-8")
+    assert Names(tmp_path).changed("mini_engine") == {}
 
 
 # ---------------------------------------------------------------- results
@@ -263,4 +361,7 @@ def test_answers_cost_the_judge_little(tmp_path: Path):
 def test_the_bounds_are_what_the_page_says():
     page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
     assert f"a message of {MAX_MESSAGE >> 20} MB and" in page
+    assert f"at one moment at most {MAX_PRESENT} bodies" in page
+    assert f"at most {MAX_STATES:,} steps or frames, and at most {MAX_ITEMS:,} entries" in page
+    assert f"at most {MAX_TRIED:,} of its bindings" in page
     assert f"{MAX_SOURCE >> 10} KB" in page and f"{MAX_READ >> 20} MB of sources" in page

@@ -5,11 +5,20 @@ from pathlib import Path
 
 import pytest
 from conftest import HandIn
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from grader.judge.grade import KIT, load_stubs
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
-from grader.source.definitions import Program
+from grader.source.definitions import (
+    MAX_CALLED,
+    MAX_HOPS,
+    MAX_NAME,
+    MAX_TRIED,
+    Program,
+    source_of,
+)
 from grader.source.regions import read_source
 
 SOLVED = read_source(KIT / "solution" / "integrators.py")
@@ -100,6 +109,58 @@ def test_a_region_outside_the_function_that_runs_says_nothing(hand_in: HandIn, t
     submission = taken_in(hand_in("solution", integrators_py=again), tmp_path)
     assert submission.begun["8c"]
     assert submission.where["8c"].line == again.splitlines().index("def rk4(x, v, dt, accel):") + 1
+
+
+# ---------------------------------------------------------------- texts made to cost much
+
+NAMES = st.sampled_from(["f", "a", "b", "C", "D", "m", "o"])
+PATHS = st.lists(NAMES, min_size=1, max_size=3).map(".".join)
+MODULES = st.sampled_from(["m", "o", "p"])
+LINES = st.one_of(
+    st.builds("{} = {}".format, PATHS, PATHS),
+    st.builds("def {}(): pass".format, NAMES),
+    st.builds("class {}({}, {}): f = a".format, NAMES, PATHS, PATHS),
+    st.builds("from {} import *".format, MODULES),
+    st.builds("from {} import {} as {}".format, MODULES, NAMES, NAMES),
+    st.builds("import {} as {}".format, MODULES, NAMES),
+)
+TEXTS = st.lists(LINES, max_size=12).map("\n".join)
+PROGRAMS = st.fixed_dictionaries({"m": TEXTS, "o": TEXTS, "p": TEXTS})
+
+
+def follow_names(texts: dict[str, str]) -> None:
+    program = Program({Path(f"{name}.py"): text for name, text in texts.items()})
+    for path in ("f", "C.f", "D.a"):
+        program.definition("m", path)
+        assert program.tried <= MAX_TRIED + MAX_HOPS * len(texts)
+        assert all(len(name) <= MAX_NAME for _, name in program.found)
+
+
+@settings(max_examples=50, deadline=None)
+@given(PROGRAMS)
+def test_no_name_is_followed_without_end(texts: dict[str, str]):
+    follow_names(texts)
+
+
+@pytest.mark.soak
+@settings(max_examples=5000, deadline=None)
+@given(PROGRAMS)
+def test_no_name_of_many_programs_is_followed_without_end(texts: dict[str, str]):
+    follow_names(texts)
+
+
+def test_a_function_of_many_names_is_read_once(monkeypatch: pytest.MonkeyPatch):
+    """Else a few kilobytes of names cost as many readings of a long function."""
+    names = [f"a{number}" for number in range(MAX_CALLED - 10)]
+    lines = ["def f(): pass", *(f"{name} = f" for name in names), f"def g(): {'; '.join(names)}"]
+    program = Program({Path("m.py"): "\n".join(lines)})
+    read: list[str] = []
+    monkeypatch.setattr(
+        "grader.source.definitions.source_of",
+        lambda text, each, real=source_of: read.append(each.name) or real(text, each),
+    )
+    assert set(names) <= program.names_used("m", "g")
+    assert sorted(read) == ["f", "g"]
 
 
 # ---------------------------------------------------------------- given files

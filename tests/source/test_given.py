@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from command_line import run_grader
+from counting import count_calls
 
 from grader.bank.verify import shared_worker
 from grader.cli.restore import find_changes
@@ -14,7 +15,15 @@ from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult
 from grader.judge.submission import load_given
 from grader.judge.wording import named_reasons
-from grader.source.given import Changed, changes, restored
+from grader.source.definitions import statements
+from grader.source.given import (
+    Changed,
+    changes,
+    first_difference,
+    pieces,
+    restored,
+    with_markers,
+)
 from grader.source.regions import regions_in, replaced
 
 SOLVER, CONSTANTS = "mini_engine/solver.py", "mini_engine/constants.py"
@@ -320,3 +329,34 @@ def test_what_cannot_be_put_back_is_said_and_nothing_is_written(hand_in):
     done = run_grader("check", tree, "--restore=nothing_of_the_kind")
     assert done.exit_code == 2 and "nothing to put back" not in out
     assert {path: path.read_bytes() for path in tree.rglob("*.py")} == before
+
+
+def test_many_regions_and_pieces_take_no_more_than_their_sum():
+    """Each piece was once compared with each region, and all lines between the two were read."""
+
+    def read(count: int) -> int:
+        constants = "".join(f"a{number} = 1\n" for number in range(count))
+        marks = "".join(f"# TODO {n}: x\nz = 1\n# END TODO {n}\n" for n in range(count))
+        text = constants + marks
+        found = pieces(statements(text))
+        return count_calls(lambda: with_markers(found, text))
+
+    assert read(400) < 3 * read(200)
+
+
+def test_of_a_long_function_the_first_lines_are_compared():
+    def read(count: int) -> int:
+        mine = [f"y = {number}" for number in range(count)]
+        return count_calls(lambda: first_difference(mine, ["pass", "x = 2"] * 60))
+
+    assert read(20_000) == read(2_000)
+
+
+def test_a_marker_behind_the_last_statement_belongs_to_the_function():
+    text = (
+        "def f():\n    pass\n    # TODO 1: x\n    # END TODO 1\n"
+        "    # TODO 2: y\n    # END TODO 2\n\ny = 1\n    # TODO 3: z\n    # END TODO 3\n"
+    )
+    found = with_markers(pieces(statements(text)), text)
+    assert (found["f"].start, found["f"].stop) == (0, 6)
+    assert (found["y"].start, found["y"].stop) == (7, 10)

@@ -50,7 +50,7 @@ class Disc:
         yield *self.place, self.radius + MARGIN
         if self.is_bob:
             (x, y), (along_x, along_y) = HOOK, self.place
-            count = int(math.dist(HOOK, self.place) / MARGIN) + 1
+            count = int(min(math.dist(HOOK, self.place), 2 * SIZE[0]) / MARGIN) + 1
             for share in (number / count for number in range(count)):
                 yield x + share * (along_x - x), y + share * (along_y - y), 1.5 * MARGIN
 

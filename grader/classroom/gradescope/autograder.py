@@ -63,7 +63,7 @@ def grade_submission(submission: Path) -> bytes:
     settings = msgspec.json.decode((KIT / "settings.json").read_bytes(), type=Settings)
     reference, course = shipped_reference(), settings.course
     options = Options(reference, settings.isolation, seed=settings.seed, course=course)
-    package = pack(Found("submission", (submission,)), course.modules)
+    package = pack(Found("submission", (submission.resolve(),)), course.modules)
     with work_folder() as work:
         result = grade(package.unpack(work), options)
     console = Console(highlight=False, markup=False, width=100)

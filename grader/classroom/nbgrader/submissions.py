@@ -18,6 +18,7 @@ from grader.intake.found import Found, Intake
 from grader.intake.listing import open_class
 from grader.intake.packing import lay_out
 from grader.judge.grade import KIT, Options
+from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import plain_files, unreadable
 
 ASSIGNMENT = "physics-engine"
@@ -80,9 +81,11 @@ def copy_files(path: Path, target: Path) -> int:
             inside = Path(inside.name)
         (target / inside).parent.mkdir(parents=True, exist_ok=True)
         try:
-            shutil.copyfile(source, target / inside)
-        except PermissionError as error:
+            file = open_plain(path, source.relative_to(path))
+        except OSError as error:
             raise Stop(unreadable(error, path)) from error
+        with file:
+            copy_plain(file, target / inside, size_of(file))
     return sum((target / name).exists() for name in wanted)
 
 

@@ -1,0 +1,136 @@
+"""Names cost their reader little, whatever is in them, and honest ones of any script are known."""
+
+from pathlib import Path
+
+import pytest
+from counting import count_calls
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from grader.intake.blackboard import WHO
+from grader.intake.names import LONGEST, make_portable
+from grader.intake.pieces import is_backup, is_renamed, match_name, strip_additions
+from grader.intake.places import list_modules
+from grader.intake.roster import ClassList
+from grader.intake.systems import SYSTEMS
+
+MOST = 255  # bytes of a file's name on any disk
+
+# A name that takes twice as long with each part would take years: this file would not end.
+PARTS = [
+    *("\u03b1", "\u4e2d", "\N{GRINNING FACE}", "e\u0301", "a", "_", "1", "-", "-1", " ", "  ", "."),
+    *(
+        "copy",
+        " copy",
+        " copy 1",
+        " - copy",
+        " (1)",
+        "copy of ",
+        "_LATE_",
+        "LATE_",
+        "anon_",
+        "_text",
+    ),
+    *(
+        " - ",
+        " - a 2026",
+        "2026",
+        "_attempt_",
+        "_a_attempt_2026-01-01-01-01-01",
+        "%20",
+        ".py",
+        ".txt",
+    ),
+    *("_1", "_1_1_", "_assignsubmission_", "_assignsubmission_file_", "1-2 - ", "integrators"),
+]
+NAMES = st.builds(
+    "{}{}{}".format,
+    st.sampled_from(["", *PARTS]),
+    st.builds(lambda parts, n: "".join(parts) * n, st.lists(st.sampled_from(PARTS)), st.just(99)),
+    st.sampled_from(["", "!", "\n", ".py", "!.py", "_1_2_a.py", ".zip"]),
+)
+
+
+def read_name(name: str) -> None:
+    """Read a file's name in all the ways in which the intake does."""
+    name = name.encode()[:MOST].decode("utf-8", "ignore").replace("/", "_").replace("\0", "_")
+    for system in SYSTEMS:
+        system.read_upload(Path("nowhere", name), ClassList())
+        system.read_own_name(Path("nowhere", name))
+    assert len(make_portable(name).encode()) <= LONGEST + 1
+    assert strip_additions(name) == strip_additions(name)
+    assert is_backup(name) in (True, False)
+    for module in list_modules():
+        assert is_renamed(f"{name}.py", module) in (True, False)
+        assert match_name(name, [module]) in (None, module)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_a_name_of_one_part_again_and_again_is_read(part: str):
+    for end in ("", "!", "!.py", "_1_2_a.py"):
+        read_name(part * MOST + end)
+        read_name((part * MOST)[: MOST - len(end)] + end)
+
+
+@settings(max_examples=50, deadline=None)
+@given(NAMES)
+def test_a_name_of_any_parts_is_read(name: str):
+    read_name(name)
+
+
+@pytest.mark.soak
+@settings(max_examples=20_000, deadline=None)
+@given(st.one_of(NAMES, st.text(max_size=MOST)))
+def test_many_names_of_any_parts_are_read(name: str):
+    read_name(name)
+
+
+@pytest.mark.parametrize("part", [" copy", " copy 1", " -1", "copy of ", "%20", "\u03b1"])
+def test_a_name_twice_as_long_takes_twice_the_calls_at_most(part: str):
+    few, many = (count_calls(lambda n=n: strip_additions(f"a{part * n}!.py")) for n in (200, 400))
+    assert many < 3 * few
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "\u03a0\u03b1\u03c0\u03b1\u03b4\u03cc\u03c0\u03bf\u03c5\u03bb\u03bf\u03c2\u039d\u03b9\u03ba\u03cc\u03bb\u03b1\u03bf\u03c2",
+        "\u738b\u5c0f\u660e",
+        "\N{GRINNING FACE}",
+        "Zoe\u0308_Smith",
+        "becker",
+    ],
+)
+@pytest.mark.parametrize("late", ["", "LATE_"])
+def test_canvas_knows_names_of_any_script(name: str, late: str):
+    (canvas,) = (each for each in SYSTEMS if each.name == "canvas")
+    upload = canvas.read_upload(Path(f"{name}_{late}123_456_work.zip"), ClassList())
+    assert upload is not None
+    assert (upload.owner, upload.late) == ("123", bool(late))
+    assert upload.name == make_portable(f"{name}_123")
+
+
+@pytest.mark.parametrize(
+    ("name", "plain"),
+    [
+        ("solver copy 2.py", "solver.py"),
+        ("solver - copy (3).py", "solver.py"),
+        ("solver -  Copy.py", "solver.py"),
+        ("solver copy 12345.py", "solver.py"),
+        ("solver (1) (2).py", "solver.py"),
+        ("solver-1-2.py", "solver.py"),
+        ("solver 2 copy.py", "solver.py"),
+        ("copy of copy of solver.py", "solver.py"),
+        ("solver 12345.py", "solver 12345.py"),
+        ("solver-copy.py", "solver-copy.py"),
+    ],
+)
+def test_additions_to_a_name_are_left_out(name: str, plain: str):
+    assert strip_additions(name) == plain
+
+
+def test_a_receipt_is_read_whatever_stands_in_it():
+    (match,) = WHO.finditer("Name: Anna (Ann) Becker  (abecker)  \nAssignment: Lab")
+    assert (match["name"].strip(), match["user"]) == ("Anna (Ann) Becker", "abecker")
+    for part in (" ", "(", "(a", "Name:", "Name: ", ")"):
+        assert WHO.search(f"Name:{part * 600}!") is None
