@@ -28,6 +28,7 @@ from grader.source.regions import (
     read_regions,
     read_source,
     shape_of,
+    write_source,
 )
 
 MAX_FILES = 500
@@ -264,7 +265,7 @@ def mend_file(
         submission.outside.setdefault(module, flaw)
         return
     texts[path] = mended.text
-    (submission.folder / path).write_text(mended.text, encoding="utf-8", newline="\n")
+    write_source(submission.folder / path, mended.text)
     for todo, each in mended.flaws.items():
         if todo == OUTSIDE:
             submission.outside.setdefault(module, each)

@@ -1,12 +1,15 @@
 """Read the marked regions of the student's files: `# TODO 4: …` to `# END TODO 4`."""
 
 import ast
+import codecs
 import re
 import textwrap
+import tokenize
 import warnings
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 
 # No lesson file comes near these. What is parsed takes up to a thousand times its length in memory.
@@ -14,6 +17,8 @@ MAX_SOURCE = 128 * 1024  # bytes of a file
 MAX_SHAPE = 32 * 1024  # characters of a region or function of which more is kept than the text
 # Fifty names with dots between them: in an import, Python's parser keeps each beginning of these.
 CHAIN = re.compile(r"(?:\.[\s\\]*+\w++[\s\\]*+){50}")
+# Encodings of text that editors write; others may cost more than their length to read.
+USUAL = re.compile(r"iso8859-\d+|cp\d+|koi8-[ru]|mac-\w+|gb\w+|big5\w*|shift_jis\w*|euc_\w+")
 TODO_ID = r"[0-9]+[a-z]?|B[0-9]+"  # the ids of TODOs, here and nowhere else
 START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
 END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
@@ -129,4 +134,22 @@ def python_files(tree: Path) -> Iterator[Path]:
 
 def read_source(path: Path) -> str:
     """Return a file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
-    return path.read_bytes().decode("utf-8-sig", "replace").replace("\r\n", "\n")
+    data = path.read_bytes()
+    return data.decode(encoding_of(data), "replace").replace("\r\n", "\n")
+
+
+def write_source(path: Path, text: str) -> None:
+    """Write a source as Python will read it: in the encoding that its first lines declare."""
+    data = text.encode("utf-8", "replace")
+    encoding = encoding_of(data)
+    path.write_bytes(data if encoding == "utf-8-sig" else text.encode(encoding, "replace"))
+
+
+def encoding_of(data: bytes) -> str:
+    """Return the encoding that a source declares (PEP 263), and UTF-8 where it is no usual one."""
+    try:
+        declared, _ = tokenize.detect_encoding(BytesIO(data).readline)
+        name = codecs.lookup(declared).name
+    except (SyntaxError, LookupError):
+        return "utf-8-sig"
+    return name if USUAL.fullmatch(name) else "utf-8-sig"

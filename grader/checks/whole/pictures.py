@@ -133,11 +133,10 @@ def moments_of(played: Played, movers: Sequence[Mover], frame: int) -> list[list
 
 def want_discs_where_they_are(lab: Lab, picture: Picture, others: list[Picture]) -> None:
     """Insist that all discs are shown in one of the steps that the picture may be of."""
-    hidden = [
-        [disc for disc in discs if not is_shown(disc, picture, others)] for discs in picture.moments
-    ]
-    least = min(hidden, key=len)
-    picture.discs = picture.moments[hidden.index(least)]
+    shares = [[seen_share(disc, picture, others) for disc in discs] for discs in picture.moments]
+    best = max(shares, key=sum)
+    picture.discs = picture.moments[shares.index(best)]
+    least = [disc for disc, share in zip(picture.discs, best, strict=True) if share < SHOWN]
     lab.want(
         not least,
         "a picture with every ball where it is",
@@ -148,15 +147,15 @@ def want_discs_where_they_are(lab: Lab, picture: Picture, others: list[Picture])
     )
 
 
-def is_shown(disc: Disc, picture: Picture, others: list[Picture]) -> bool:
-    """Return whether a disc is seen, or cannot be told from what is near it."""
+def seen_share(disc: Disc, picture: Picture, others: list[Picture]) -> float:
+    """Return the share of a disc that is seen; 1 where it cannot be told from what is near it."""
     points = [each for each in (*disc.ring(0.55, 12), *disc.ring(0.9, 12)) if is_clear(each)]
     known = [
         differ(picture[point], other[point])
         for point in points
         for other in islice((each for each in others if each.is_free(point)), 1)
     ]
-    return not known or sum(known) >= SHOWN * len(known)
+    return sum(known) / len(known) if known else 1.0
 
 
 def want_a_cleared_window(lab: Lab, movers: Sequence[Mover], first: Picture, last: Picture) -> None:
