@@ -12,7 +12,7 @@ from grader.judge.submission import load_given
 from grader.report.files import write_whole
 from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
-from grader.source.regions import RegionError, read_source
+from grader.source.regions import RegionError, encoded, read_source
 
 
 def find_changes(tree: Path) -> list[Changed]:
@@ -79,7 +79,7 @@ def is_given(name: str, texts: Iterable[str]) -> bool:
 
 def write_text(tree: Path, name: str, file: str, text: str) -> str:
     """Write a file, keep a copy of the one before, and return what was done."""
-    path, content = tree / file, text.encode("utf-8")
+    path, content = tree / file, encoded(text)
     if link := find_link(tree, file):
         raise Stop(f"{link} is a link, and links are not followed: put there what it leads to")
     if not path.is_file():

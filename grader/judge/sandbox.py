@@ -12,7 +12,7 @@ from grader.judge.isolation import Isolation, refusal
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import remove
 from grader.protocol import ChildSetup, Limits
-from grader.source.regions import write_source
+from grader.source.regions import encoded
 
 COMPILING_SECONDS = 5  # of processor time, for all files of a submission
 LATER = 10  # s
@@ -75,7 +75,7 @@ class Sandbox:
             path = tree / name
             later = path.stat().st_mtime + LATER
             path.chmod(0o644)
-            write_source(path, text)
+            path.write_bytes(encoded(text))
             os.utime(path, (later, later))
             path.chmod(0o444)
         return replace(self, tree=tree, used=[])

@@ -24,11 +24,11 @@ from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
     Region,
+    encoded,
     python_files,
     read_regions,
     read_source,
     shape_of,
-    write_source,
 )
 
 MAX_FILES = 500
@@ -265,7 +265,7 @@ def mend_file(
         submission.outside.setdefault(module, flaw)
         return
     texts[path] = mended.text
-    write_source(submission.folder / path, mended.text)
+    (submission.folder / path).write_bytes(encoded(mended.text))
     for todo, each in mended.flaws.items():
         if todo == OUTSIDE:
             submission.outside.setdefault(module, each)

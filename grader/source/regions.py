@@ -138,11 +138,11 @@ def read_source(path: Path) -> str:
     return data.decode(encoding_of(data), "replace").replace("\r\n", "\n")
 
 
-def write_source(path: Path, text: str) -> None:
-    """Write a source as Python will read it: in the encoding that its first lines declare."""
+def encoded(text: str) -> bytes:
+    """Return a source's bytes as Python will read them: in the encoding that it declares."""
     data = text.encode("utf-8", "replace")
     encoding = encoding_of(data)
-    path.write_bytes(data if encoding == "utf-8-sig" else text.encode(encoding, "replace"))
+    return data if encoding == "utf-8-sig" else text.encode(encoding, "replace")
 
 
 def encoding_of(data: bytes) -> str:

@@ -1,8 +1,18 @@
 """The markers that both trees, the bank and the judge live by."""
 
+from pathlib import Path
+
 import pytest
 
-from grader.source.regions import RegionError, read_regions, regions_in, replaced, shape_of
+from grader.source.regions import (
+    RegionError,
+    encoded,
+    read_regions,
+    read_source,
+    regions_in,
+    replaced,
+    shape_of,
+)
 
 TEXT = """def f():
     # TODO 4: clamp
@@ -63,3 +73,21 @@ def test_layout_and_comments_do_not_change_the_shape():
     assert shape_of("x = 1") != shape_of("x = 2")
     assert shape_of("return 1") == shape_of("    return 1")
     assert shape_of("no python !") == "no python !"
+
+
+@pytest.mark.parametrize(
+    ("head", "encoding"),
+    [
+        ("", "utf-8"),
+        ("# coding: latin-1\n", "latin-1"),
+        ("#!/usr/bin/env python\n# -*- coding: cp1252 -*-\n", "cp1252"),
+        ("# coding: no-such-encoding\n", "utf-8"),
+        ("# coding: punycode\n", "utf-8"),
+    ],
+)
+def test_a_source_is_read_and_written_as_it_declares(tmp_path: Path, head: str, encoding: str):
+    text = f'{head}name = "Größe"\n'
+    path = tmp_path / "a.py"
+    path.write_bytes(text.encode(encoding))
+    assert read_source(path) == text
+    assert encoded(text) == text.encode(encoding)
