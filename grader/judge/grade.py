@@ -107,7 +107,8 @@ def grading(
     with work_folder() as work:
         submission = take_in(path, work / "submission", load_rubric(), load_stubs())
         ours = worker or start_worker(options.spawn)
-        ours.helpers(options.jobs - 1)  # to load meanwhile
+        if options.jobs > 1:
+            ours.helpers(options.jobs - 1)  # to load meanwhile
         try:
             sandbox = sandbox_for(submission, work, ours, options)
             yield Grading(options, rubric, reference, submission, sandbox)

@@ -82,7 +82,7 @@ class Sandbox:
 
     def beside(self, count: int) -> list["Sandbox"]:
         """Return others of the same tree, so many at the most, that work at the same time."""
-        workers = self.worker.helpers(count)
+        workers = self.worker.helpers(count) if count > 0 else ()
         return [replace(self, worker=each, used=[], unseen="") for each in workers]
 
     @property

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.report.sinks.markdown import write_markdown
-from grader.report.terminal import show
+from grader.report.terminal import Printer
 
 
 @pytest.mark.parametrize(
@@ -50,6 +50,6 @@ def test_an_experiment_is_mentioned(
     assert result.points == result.max_points
     assert result.todos[0].notes == [words]
     console = Console(file=io.StringIO(), width=100)
-    show(result, console)
+    Printer(console).print(result)
     assert words in console.file.getvalue()  # type: ignore[attr-defined]
     assert words.partition(":")[0] in write_markdown(result)

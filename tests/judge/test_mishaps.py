@@ -167,7 +167,7 @@ def test_a_warm_process_that_was_stopped_is_replaced(tmp_path: Path, monkeypatch
     def opened(scratch: str):
         submission, bytecode = str(tmp_path / "submission"), str(tmp_path / "bytecode")
         place = str(tmp_path / scratch)
-        return worker.open(ChildSetup(submission, place, Limits(), True, [], bytecode, False))
+        return worker.open(ChildSetup(submission, place, Limits(10), True, [], bytecode, False))
 
     first = opened("first")
     first.ask(Import("stops"))
