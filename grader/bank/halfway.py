@@ -76,7 +76,7 @@ class Halfway:
         first = first_failure(result)
         if first is None:
             return "nothing fails"
-        words = first.meaning or first.got
+        words = first.meaning or f"{first.title}; expected {first.expected}; got {first.got}"
         missing = [each for each in self.state.says if not re.search(each, words, re.IGNORECASE)]
         wrong = [each for each in self.state.never if re.search(each, words, re.IGNORECASE)]
         if wrong:

@@ -49,6 +49,22 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
         all(-STEP_MS - p.waiting <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
         ", ".join(f"{each.time / 1000:.3f} s at {rate}" for rate, each in paces.items()),
         ", ".join(f"{each.done / 1000:.3f} s at {rate}" for rate, each in paces.items()),
+        explain_too_much({rate: each.done / each.time for rate, each in paces.items()}),
+    )
+
+
+def explain_too_much(shares: dict[int, float]) -> str:
+    """Say what follows where more time is simulated than passes, by the frames a second."""
+    if min(shares.values()) <= 1.05:
+        return ""
+    if shares[30] > 1.05 * shares[144]:
+        return (
+            "The longer a frame, the more is simulated in it: a step is STEP long whatever the "
+            "frame, and as many run as the accumulator holds."
+        )
+    return (
+        f"About {shares[144]:.2g} times as much is simulated as passes: a step is not STEP long, "
+        "or it takes too little out of the accumulator."
     )
 
 
