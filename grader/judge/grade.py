@@ -241,15 +241,8 @@ class Grading:
                 kept.append(blamed)
                 hint = "" if blamed.is_all else self.names.hint(job.todo, job.module, check)
                 loop.failing.pop(key, None)
-                loop.results[key] = msgspec.structs.replace(
-                    check,
-                    state="passed",
-                    points=check.max_points,
-                    expected="",
-                    got="",
-                    meaning=f"{blamed.in_words} {hint}".rstrip(),
-                    where=blamed.place(check),
-                )
+                passed = as_passed(check, f"{blamed.in_words} {hint}".rstrip())
+                loop.results[key] = msgspec.structs.replace(passed, where=blamed.place(check))
         costly = [each for each in kept if not each.is_experiment]
         if costly:
             self.charge_whole(loop, costly[0])
@@ -465,6 +458,11 @@ def pass_for_others(wrong: list[str], check: CheckResult) -> CheckResult:
         f"A scene that also runs TODO {', '.join(wrong)}, which is not right yet, cannot be "
         "judged. It counts as passed, because all else here passes."
     )
+    return as_passed(check, meaning)
+
+
+def as_passed(check: CheckResult, meaning: str) -> CheckResult:
+    """Return a failed check that counts all the same, with the sentence that says why."""
     return msgspec.structs.replace(
         check, state="passed", points=check.max_points, expected="", got="", meaning=meaning
     )

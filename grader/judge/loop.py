@@ -25,7 +25,7 @@ from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission, load_given
-from grader.protocol import CodeLine
+from grader.protocol import CodeLine, Piece
 from grader.source.flaws import Flaw
 
 DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one question
@@ -80,7 +80,7 @@ ALONE, ISOLATED = Way(), Way(isolated=True)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a check that ran."""
+    """The result of a check that ran, and what was seen of it."""
 
     result: CheckResult
     lab: Lab  # whose observations count
@@ -92,7 +92,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Ahead:
-    """What came of a check that a helper ran, with the budget before and after it."""
+    """The outcome of a check that a helper ran, with the budget before and after it."""
 
     before: Budget
     outcome: Outcome
@@ -173,8 +173,8 @@ class CheckLoop:
         Each has a copy of the budget. Where the loop's turns out to have been another one, the
         check is run once more: marks do not hang on how many run at a time.
         """
-        jobs = [job for job in jobs if self._blocked(job) is None]
-        if not self.helpers or len(jobs) < 2:
+        jobs = [job for job in jobs if self.helpers and self._blocked(job) is None]
+        if len(jobs) < 2:
             yield {}
             return
         free: SimpleQueue[Opener] = SimpleQueue()
@@ -235,13 +235,16 @@ class CheckLoop:
             return ""
         modules = dict.fromkeys(check.module or todo.module for check in todo.checks)
         right = [
-            self.reference.right_versions(
-                todo, module, self.rubric, self.submission, self._replaceable()
-            )
-            for module in modules
+            piece for module in modules for piece in self._right(todo, module, differing=False)
         ]
-        pieces = {id: piece for some in right for id, piece in some.items()}
-        return program_key(todo, self.submission, pieces, self.seed)
+        return program_key(todo, self.submission, right, self.seed)
+
+    def _right(self, todo: Todo, module: str, differing: bool = True) -> list[Piece]:
+        """Return the right versions of other TODOs; see Reference.for_the_others."""
+        failed = self._replaceable()
+        return self.reference.for_the_others(
+            todo, module, self.rubric, self.submission, failed, differing
+        )
 
     def _blocked(self, job: Job) -> CheckResult | None:
         """Return the result of a check that need not run."""
@@ -389,11 +392,8 @@ class CheckLoop:
 
     def _ask(self, job: Job, example: Example, way: Way) -> Lab:
         """Return a lab in which the check ran."""
-        others = self.reference.for_the_others(
-            job.todo, job.module, self.rubric, self.submission, self._replaceable()
-        )
         secret = secret_of(self.seed, job.todo, job.check)
-        pieces = others if way.isolated else []
+        pieces = self._right(job.todo, job.module) if way.isolated else []
         lab = Lab(job.module, lambda: self._child_for(job, way), pieces, secret=secret)
         lab.surveys, lab.connection.watched = way.surveys, way.watched
         little = self.budget.why_little(job.todo.id)

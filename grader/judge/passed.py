@@ -9,7 +9,7 @@ import ast
 import hashlib
 import platform
 import sys
-from collections.abc import Mapping
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -42,7 +42,7 @@ PASSED = PassedPrograms(Path(__file__).parents[2] / "build" / "passed")
 
 
 def program_key(
-    todo: Todo, submission: Submission, right: Mapping[str, Piece], seed: int | None
+    todo: Todo, submission: Submission, right: Sequence[Piece], seed: int | None
 ) -> str:
     """Hash the program that the checks of a TODO run, with the checks and what they run on.
 
@@ -55,7 +55,7 @@ def program_key(
     started = [*modules, *(f"{module}.__main__" for module in modules)]
     loaded = {program.paths[part] for module in started for part in program.loaded(module)}
     texts = {path: program.texts[path] for path in loaded}
-    for piece in right.values():
+    for piece in right:
         defined = program.definition(*piece.target.split(":"))
         if defined is None or defined.function is None:
             continue

@@ -58,25 +58,14 @@ class Reference:
         rubric: Rubric,
         submission: Submission,
         failed: frozenset[str] = frozenset(),
+        differing: bool = True,
     ) -> list[Piece]:
-        """Return the right versions that a check of a TODO needs: where the submission differs."""
-        right = self.right_versions(todo, module, rubric, submission, failed)
-        functions = submission.functions
-        return [piece for id, piece in right.items() if self.shapes[id] != functions.get(id)]
-
-    def right_versions(
-        self,
-        todo: Todo,
-        module: str,
-        rubric: Rubric,
-        submission: Submission,
-        failed: frozenset[str] = frozenset(),
-    ) -> dict[str, Piece]:
-        """Return the pieces, by TODO, of the others in `module` that shall be right.
+        """Return the right versions of the other TODOs in `module` that a check of a TODO needs.
 
         A TODO has right versions of all others. The whole has them of those that have `failed`, of
         its bonus tasks, and of what `rubric` leaves out: that was handed out done, so a stub in its
         place is none of the student's. A bonus task that was not begun does nothing, and stays.
+        `differing`: without those that the submission has in the same words.
         """
         asked = {each.id for each in rubric.todos}
         own = todo.function.partition(":")[2]
@@ -87,16 +76,15 @@ class Reference:
                 return begun or not other.bonus
             return other.id in failed if begun else other.id not in asked
 
-        return {
-            other.id: without(
-                own, msgspec.structs.replace(self.pieces[other.id], asked=todo.function)
-            )
+        return [
+            without(own, msgspec.structs.replace(self.pieces[other.id], asked=todo.function))
             for other in self.todos
             if other.id != todo.id
             and other.module == module
             and other.id in self.pieces
             and stands_in(other)
-        }
+            and not (differing and self.shapes[other.id] == submission.functions.get(other.id))
+        ]
 
 
 def without(function: str, piece: Piece) -> Piece:

@@ -33,7 +33,7 @@ def key_for(tree: Path, copy: Path) -> str:
     (todo,) = [each for each in rubric.todos if each.id == "2"]
     submission = take_in(tree, copy, rubric, load_stubs())
     reference = Reference(shipped_reference(), rubric)
-    right = reference.right_versions(todo, todo.module, rubric, submission)
+    right = reference.for_the_others(todo, todo.module, rubric, submission, differing=False)
     return program_key(todo, submission, right, None)
 
 
