@@ -1,5 +1,6 @@
 """Count work, so that a test can hold it against the size of its input without a clock."""
 
+import gc
 import sys
 from collections.abc import Callable
 
@@ -12,10 +13,13 @@ def count_calls(work: Callable[[], object]) -> int:
         nonlocal calls
         calls += event in ("call", "c_call")
 
-    before = sys.getprofile()
+    before, collects = sys.getprofile(), gc.isenabled()
+    gc.disable()  # hypothesis is called at each collection, whenever that is
     sys.setprofile(count)
     try:
         work()
     finally:
         sys.setprofile(before)
+        if collects:
+            gc.enable()
     return calls
