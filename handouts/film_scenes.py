@@ -1,4 +1,4 @@
-"""What the films of the lab sheet show: one small scene for each TODO, run by the tree we are in.
+"""Make what the films of the lab sheet show: one scene for each TODO, run by the tree we are in.
 
     python film_scenes.py TODO
 
@@ -28,7 +28,7 @@ class Film:
         self.looks, self.frames, self.last = {}, [], {}
 
     def look(self, number, points, radius=0.0, mass=1.0):
-        """How a body looks: one point and a radius are a disc, more points its corners."""
+        """Describe how a body looks: one point and a radius are a disc, more points its corners."""
         self.looks[number] = {"shapes": [[points, radius]], "mass": mass, "moment": None, "ref": 0}
 
     def shoot(self, time, rows, rods=()):

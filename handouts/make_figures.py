@@ -377,7 +377,7 @@ ENGINES = {"lesson": RED, "stable": BLUE, "pymunk": ORANGE, "box2d": GREEN}
 
 
 def limits():
-    """How far each engine holds, in shares of what must hold, on one axis."""
+    """Draw how far each engine holds, in shares of what must hold, on one axis."""
     lines = json.loads((HERE / "results.json").read_text(encoding="utf-8"))["hard-cases.md"]
     rows = [line.removesuffix(": must hold") for line in lines if re.match("limit.*hold$", line)]
     svg = Svg(760, 90 + 58 * len(rows), "How far each engine holds, by what is made harder")

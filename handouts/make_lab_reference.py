@@ -56,7 +56,7 @@ def page():
 
 
 def described(kind, name):
-    """What a class is for, its fields, and its methods with their docstrings."""
+    """Return what a class is for, its fields, and its methods with their docstrings."""
     if kind not in (Lab, Decoder):
         yield f"{inspect.getdoc(kind)}\n"
     fields = getattr(kind, "__annotations__", {})

@@ -130,7 +130,7 @@ def shoot_scene(screen, order):
 
 
 def open_scene(module, screen):
-    """What advances it, its world, what draws it, and what tells the places of moving bodies."""
+    """Return what advances it, its world, what draws it, and what tells where moving bodies are."""
     import pygame
 
     if module == "pymunk_scene":

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: your engine and integrators, the stable engine, pymunk, Box2D.
+"""Measure what accuracy costs: your engine and integrators, the stable engine, pymunk, Box2D.
 
 Every scene has an exact answer. The program turns each dial of each engine, and measures how far
 the answer is off and what the run costs. It prints tables and writes them with figures to a folder:

@@ -1,4 +1,4 @@
-"""How many frames a lab program may run, and how it pauses. Nothing to do here.
+"""Count the frames that a lab program may run, and pause it. Nothing to do here.
 
 For a person there is no limit of frames. A checker sets the environment variable LAB_FRAMES.
 """

@@ -145,7 +145,7 @@ def advance(space, accumulator, frame_seconds):
 
 
 def stack_stands(stack):
-    """Whether no box of the stack has tipped over."""
+    """Return whether no box of the stack has tipped over."""
     return all(abs(box.angle) < 0.2 for box in stack)  # rad
 
 
@@ -179,13 +179,13 @@ def draw(screen, font, space):
 
 
 def rod_error(space):
-    """How far the rods are from their lengths, in px."""
+    """Return how far the rods are from their lengths, in px."""
     rods = [joint for joint in space.constraints if isinstance(joint, pymunk.PinJoint)]
     return sum(abs(rod_length(rod) - rod.distance) for rod in rods)
 
 
 def rod_length(rod):
-    """How far the two ends of a rod are from each other, in px."""
+    """Return how far the two ends of a rod are from each other, in px."""
     return rod.a.local_to_world(rod.anchor_a).get_distance(rod.b.local_to_world(rod.anchor_b))
 
 

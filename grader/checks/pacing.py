@@ -39,7 +39,7 @@ def ever_longer_frames() -> list[int]:
 
 @dataclass
 class Pace:
-    """What a program made of its frames, frame by frame."""
+    """Hold what a program made of its frames, frame by frame."""
 
     lengths: list[float]  # ms, as scripted, or longer where the program slept longer
     steps: list[int]  # that ran once this frame was over, and before the next one was
@@ -189,7 +189,7 @@ def standing_still(lab: Lab) -> Thing:
 
 
 def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float) -> None:
-    """What `advance` is given it must spend on whole steps, and return the rest."""
+    """Insist that `advance` spends its time on whole steps and returns the rest."""
     lab.ran(
         f"advance with {1000 * accumulator:g} ms in the accumulator "
         f"and a frame of {1000 * seconds:.6g} ms"

@@ -1,4 +1,4 @@
-"""What hypothesis may draw: all strategies, on grids that make short counterexamples."""
+"""Say what hypothesis may draw: all strategies, on grids that make short counterexamples."""
 
 import math
 

@@ -41,7 +41,7 @@ KIT = Path(__file__).parents[2]
 
 @dataclass(frozen=True)
 class Options:
-    """How to grade; without any, as a student's copy does that has no reference.
+    """Options of a grade; without any, those of a student's copy, which has no reference.
 
     `reference`: a complete tree, whose functions stand in for a submission's unfinished ones;
     `shipped_reference()` is the one that `make grade` takes. With None, checks that need an

@@ -119,7 +119,7 @@ class WrongPart:
 
 @dataclass(frozen=True)
 class Narrowed:
-    """What is wrong in the answers, as far as their numbers tell."""
+    """The part of the answers that is wrong, as far as their numbers tell."""
 
     wrong: tuple[WrongPart, ...] = ()
     fine: tuple[str, ...] = ()  # parts that are right in all answers

@@ -61,7 +61,7 @@ class Class:
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What another module has under a name; all of it for `*`, and the module itself without."""
+    """A name of another module; all of its names for `*`, and the module itself without one."""
 
     module: str
     name: str = ""
@@ -73,7 +73,7 @@ Try = TypeVar("Try")
 
 @dataclass
 class Module:
-    """What the names of a module are bound to, and which others its import loads."""
+    """The bindings of a module's names, and the modules that its import loads."""
 
     empty: bool = True  # nothing in it, or no Python
     refused: bool = False  # whether it may be no Python, or has statements where none may be

@@ -33,7 +33,7 @@ CLOSES = re.compile(r"[ \t]*[)\]}]")
 
 @dataclass(frozen=True)
 class HandedOut:
-    """What students were given: files by name, and stubs by the ids of TODOs.
+    """The code that students were given: files by name, and stubs by the ids of TODOs.
 
     `stubs` has the region of a TODO under its id, and the function around it under `def ID`.
     `functions` has the path of each TODO's function, such as World.apply_damping.

@@ -84,7 +84,7 @@ def chosen(cases, length):
 
 
 class Bench:
-    """What a trial works with: engines as the case wants them, and how long to run them."""
+    """Hold what a trial works with: engines as the case wants them, and how long to run them."""
 
     def __init__(self, case, name):
         self.seconds, self.dt = case.seconds, case.dt

@@ -1,4 +1,4 @@
-"""What a run costs: time, and counts that no other program on the machine can move."""
+"""Measure what a run costs: time, and counts that no other program on the machine can move."""
 
 import gc
 import time

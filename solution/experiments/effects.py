@@ -1,4 +1,4 @@
-"""What each effect costs: `python -m experiments.effects [--quick] [--markdown FILE]`.
+"""Measure what each effect costs: `python -m experiments.effects [--quick] [--markdown FILE]`.
 
 Takes a pile of balls at rest, declares one effect after the other, and counts what one step takes:
 opcodes, and what the engine did (pairs, contacts, solves ...). The price of an effect is the

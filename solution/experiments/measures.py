@@ -1,4 +1,4 @@
-"""What is measured, the same for every engine. Lengths in px, speeds in px/s.
+"""Measure every engine in the same way. Lengths in px, speeds in px/s.
 
 Geometry comes from the scene's data and the places of the bodies, never from an engine's contacts.
 """

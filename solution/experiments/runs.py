@@ -17,7 +17,7 @@ TOO_SLOW = 1.3  # a setting that exceeds the largest budget by this factor is no
 
 @dataclass
 class Effort:
-    """How much work a study may do."""
+    """The greatest amount of work in a study."""
 
     quick: bool = False
     scale: float = 1.0  # share of the simulated time

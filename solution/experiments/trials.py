@@ -1,4 +1,4 @@
-"""What is done to an engine in a case, and what is measured then.
+"""Try an engine in a case, and measure what it does.
 
 Each trial takes a bench (battery.py), which builds engines and says for how long (s) and in which
 steps (s) to run them, and a scene. It returns figures by name. Lengths in px, speeds in px/s.

@@ -20,7 +20,7 @@ def apply_impulse(a, b, impulse, ra, rb):
 
 
 def effective_mass(a, b, ra, rb, axis):
-    """How much the speed along axis changes per unit of impulse, in 1/kg.
+    """Return the change of speed along axis per unit of impulse, in 1/kg.
 
     This is the inverse of the effective mass:
     1/m_a + 1/m_b + (ra x axis)²/I_a + (rb x axis)²/I_b.

@@ -38,7 +38,7 @@ class Body:
 
     @property
     def is_static(self):
-        """Whether no force can move this body."""
+        """Return whether no force can move this body."""
         return self.inv_mass == 0
 
     def check(self):

@@ -102,7 +102,7 @@ class Window:
         return [((12, 10), status), ((12, 34), rod), ((12, HEIGHT - 38), HELP)]
 
     def rod_error(self):
-        """How far the rods are from their lengths, in px."""
+        """Return how far the rods are from their lengths, in px."""
         return sum(abs((rod.b.pos - rod.a.pos).length() - rod.length) for rod in self.world.joints)
 
 

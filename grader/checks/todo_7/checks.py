@@ -112,7 +112,7 @@ FRICTION, ELASTICITY = 0.6, 0.4  # of a ball
 
 
 class Ball(NamedTuple):
-    """What add_ball put into a space."""
+    """A body and its circle, as add_ball put them into a space."""
 
     body: Thing
     radius: float  # px

@@ -1,4 +1,4 @@
-"""What a recorded run must be, whoever recorded it: what touches nothing falls, and nothing jumps.
+"""Judge a recorded run, whoever recorded it: what touches nothing falls, and nothing jumps.
 
 A submission runs in one process with the recorder, and can send a recording of its own. So a
 recording is compared with what can be computed without the program: where the balls begin, and each

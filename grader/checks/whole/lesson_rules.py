@@ -105,7 +105,7 @@ def say(body: BodyValue) -> str:
 
 
 def want_a_total_that_is_clamped(lab: Lab) -> None:
-    """What an earlier pass gave too much is taken back.
+    """Insist that a pass takes back what an earlier one gave too much.
 
     A disc falls into a shallow groove between two large ones. Each side that is solved pushes it a
     little off the other one. With totals clamped the next pass draws it back, and after two passes
@@ -167,7 +167,7 @@ def want_gravity_then_damping(lab: Lab) -> None:
 
 
 def want_a_free_flight(lab: Lab) -> None:
-    """What meets nothing and is not damped keeps its velocity, however large."""
+    """Insist that what meets nothing and is not damped keeps its velocity, however large."""
     vx, vy = lab.about(3000.0), lab.about(-4000.0)
     lab.ran(f"a disc at ({vx:g}, {vy:g}) px/s that meets nothing, one step")
     disc = lab.circle((0, 0), vel=(vx, vy))

@@ -1,4 +1,4 @@
-"""What the window shows at a few moments: every disc where it is, its spoke, and nothing else.
+"""Look at the window at a few moments: every disc where it is, its spoke, and nothing else.
 
 A program may draw as it likes, and with what colours it likes. So a pixel is compared with the same
 one of another moment: where a disc is, it differs from the one where nothing is. The picture may

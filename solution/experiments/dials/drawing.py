@@ -1,4 +1,4 @@
-"""How the window with dials looks: a panel on the left, the scene in each engine beside it.
+"""Draw the window with dials: a panel on the left, the scene in each engine beside it.
 
 Whatever a key does can be clicked: while it draws, a picture notes which key each place stands for.
 """

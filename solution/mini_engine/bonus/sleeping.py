@@ -12,7 +12,7 @@ WAKING = 30.0  # px/s, a touch by a faster body wakes
 
 
 def speed(body, fall):
-    """How fast the centre or the rim moves (px/s), whichever is faster; 0 for what cannot move.
+    """Return the speed of the centre or the rim (px/s), the greater one; 0 for what cannot move.
 
     fall is the velocity (px/s) that gravity has just added in this step. It does not count.
     """
@@ -72,6 +72,6 @@ def update_sleep(world, dt):
 
 
 def has_left(body, near, present):
-    """Whether a sleeper's support is gone: out of the world, or awake and not near any more."""
+    """Return whether a sleeper's support is gone: out of the world, or awake and not near."""
     still = body.is_static or body.asleep
     return body not in present or not (still or body in near)

@@ -31,7 +31,7 @@ def between(body, share):
 
 
 def heaviness():
-    """How many times as heavy as usual the next ball is: 10 while Shift is held, else 1."""
+    """Return how many times as heavy the next ball is: 10 while Shift is held, else 1."""
     # TODO B6: heavier balls with Shift
     return 10 if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
     # END TODO B6

@@ -31,7 +31,7 @@ def between(body, share):
 
 
 def heaviness():
-    """How many times as heavy as usual the next ball is: 10 while Shift is held, else 1."""
+    """Return how many times as heavy the next ball is: 10 while Shift is held, else 1."""
     # TODO B6: heavier balls with Shift
     # All balls weigh the same, whatever keys are held.
     return 1
