@@ -92,7 +92,7 @@ def the_first_body_adds_its_spin_term(lab: Lab) -> None:
     for rx in (-9.75, 9.75):
         want_about(lab, Lever(0.5, 20.0, rx, 17.0), FLOOR, DOWN)
     want_about(lab, USUAL, FLOOR, DOWN)
-    want_about(lab, Lever(4.0, 15.0, 8.0, 12.0), FLOOR, DIAGONAL)
+    want_about(lab, Lever(3.0, 15.0, 8.0, 12.0), FLOOR, DIAGONAL)
 
 
 def the_second_body_adds_its_spin_term(lab: Lab) -> None:
@@ -101,7 +101,7 @@ def the_second_body_adds_its_spin_term(lab: Lab) -> None:
     for rx in (-9.75, 9.75):
         want_about(lab, FLOOR, Lever(0.5, 20.0, rx, 17.0), DOWN)
     want_about(lab, FLOOR, USUAL, DOWN)
-    want_about(lab, FLOOR, Lever(4.0, 15.0, 8.0, 12.0), DIAGONAL)
+    want_about(lab, FLOOR, Lever(3.0, 15.0, 8.0, 12.0), DIAGONAL)
 
 
 def only_the_part_of_an_arm_across_the_axis_counts(lab: Lab) -> None:
