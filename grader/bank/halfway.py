@@ -85,17 +85,25 @@ class Halfway:
 
 
 def halfway(todo: str = "") -> Iterator[Halfway]:
-    """Yield all states, or those of one TODO."""
+    """Yield all states, or those of one TODO; ValueError for edits that do not fit its code."""
     for path in sorted((BANK / "halfway").glob(f"{todo or '*'}.toml")):
         sheet = msgspec.toml.decode(path.read_bytes(), type=Sheet)
         for name, state in sheet.state.items():
-            yield Halfway(path.stem, f"{path.stem}-{name}", state.rewrite(sheet.code), state)
+            yield make_state(path.stem, name, sheet.code, state)
     for path in sorted((BANK / "wrong").glob(f"{todo or '*'}.toml")):
         for name, wrong in read_wrong(path).items():
             if wrong.says:
-                code = wrong.rewrite(solution_code()[path.stem])
-                state = State(says=wrong.says, never=wrong.never)
-                yield Halfway(path.stem, f"{path.stem}-{wrong.state or name}", code, state)
+                words = State(
+                    wrong.why, wrong.code, wrong.change, says=wrong.says, never=wrong.never
+                )
+                yield make_state(path.stem, wrong.state or name, solution_code()[path.stem], words)
+
+
+def make_state(todo: str, name: str, right: str, state: State) -> Halfway:
+    try:
+        return Halfway(todo, f"{todo}-{name}", state.rewrite(right), state)
+    except ValueError as error:
+        raise ValueError(f"{todo}-{name}: {error}") from None
 
 
 def first_failure(result: Result) -> CheckResult | None:

@@ -133,10 +133,18 @@ class Member:
         """Return the code that replaces regions, by TODO."""
         if self.source is not None and self.source.suffix == ".py":
             return regions_of(self.source)
-        if self.entry.code or self.entry.change or self.is_rung:
-            todo = self.name.partition("-")[0]
-            return {todo: tuple(self.entry.rewrite(solution_code()[todo]).split("\n"))}
-        return {}
+        return {
+            todo: tuple(self.entry.rewrite(solution_code()[todo]).split("\n"))
+            for todo in self.patched
+        }
+
+    @property
+    def patched(self) -> frozenset[str]:
+        """Return the TODOs whose regions it replaces, whether its edits fit the solution or not."""
+        if self.source is not None and self.source.suffix == ".py":
+            return frozenset(regions_of(self.source))
+        by_edits = self.entry.code or self.entry.change or self.is_rung
+        return frozenset({self.name.partition("-")[0]} if by_edits else ())
 
     @property
     def is_rung(self) -> bool:
@@ -145,7 +153,7 @@ class Member:
     @property
     def is_patch(self) -> bool:
         """Return whether it replaces the regions of TODOs."""
-        return bool(self.regions)
+        return bool(self.patched)
 
     @property
     def breach(self) -> Wrong | None:
@@ -155,7 +163,7 @@ class Member:
     @property
     def todos(self) -> frozenset[str]:
         """Return the TODOs whose regions it replaces, or "whole" for the program as a whole."""
-        return frozenset({"whole"} if self.breach else self.regions)
+        return frozenset({"whole"}) if self.breach else self.patched
 
     @property
     def bonus(self) -> bool:

@@ -113,8 +113,7 @@ def verify(
     ]
     verdicts = judge_members(chosen, jobs, StoredResults(RESULTS), fresh)
     report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
-    todos = {todo.id for todo in course.rubric.todos}
-    states = [each for each in halfway() if each.todo in todos and only in f"halfway/{each.name}"]
+    states = list_halfway(only, course, report.complaints)
     judged = run_in_processes(judge_halfway, states, jobs)
     report.halfway = collect("grading half-way states", judged, len(states), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
@@ -160,6 +159,17 @@ def list_trees(course: Course = FULL) -> list[Member]:
         Member("right", "solution", "package", Entry(), None, course),
         Member("hostile", "starter", "package", nothing, None, course),
     ]
+
+
+def list_halfway(only: str, course: Course, complaints: list[str]) -> list[Halfway]:
+    """Return the half-way states of a course; where one cannot be built, none, and a complaint."""
+    todos = {todo.id for todo in course.rubric.todos}
+    try:
+        states = [each for each in halfway() if each.todo in todos]
+    except ValueError as error:
+        complaints.append(f"half-way states: {error}")
+        return []
+    return [each for each in states if only in f"halfway/{each.name}"]
 
 
 def check_kit() -> Iterator[str]:
@@ -210,7 +220,10 @@ def grade_member(
         passed = None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
         submission = Path(folder).resolve() / member.name
-        member.build(KIT, submission)
+        try:
+            member.build(KIT, submission)
+        except ValueError as error:  # an edit of what the solution no longer has
+            return Verdict(member, None, 0.0, f"cannot be built: {error}")
         todos, worker = only or member.judged_by, shared_worker()
         reference, course = shipped_reference(), member.course
         options = Options(reference, only=todos, trusted=True, course=course, passed=passed)
@@ -234,7 +247,10 @@ def judge_halfway(state: Halfway) -> HalfwayVerdict:
     worker = shared_worker()
     shared = worker if isinstance(worker, WarmWorker) else None
     with tempfile.TemporaryDirectory(prefix="bank-") as folder:
-        result = graded(state, Path(folder).resolve(), shared)
+        try:
+            result = graded(state, Path(folder).resolve(), shared)
+        except ValueError as error:
+            return HalfwayVerdict(state.name, f"cannot be built: {error}")
         return HalfwayVerdict(state.name, state.complaint(result))
 
 

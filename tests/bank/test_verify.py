@@ -191,6 +191,15 @@ def test_every_kind_is_counted_by_itself():
     assert next(summarize(Report([fell_over]))) == "hostile: 1, of which 1 with a complaint"
 
 
+def test_an_edit_that_no_longer_fits_the_solution_is_a_complaint():
+    path = KIT / "tests" / "bank" / "wrong" / "5.toml"
+    member = Member("wrong", "5-gone", "package", Entry(change=[("no such line", "")]), path)
+    table = io.StringIO()
+    verdicts = [*judge_members([member], 1, StoredResults(path.parent / "none"), fresh=False)]
+    verify.show(Report(verdicts), Console(file=table, width=200))
+    assert "cannot be built: 'no such line' stands there 0 times, not once" in table.getvalue()
+
+
 def test_a_wrong_name_for_a_mistake_is_a_complaint():
     member = next(each for each in bank() if each.name == "5-spin-is-not-damped")
     lost = [TodoResult("5", "Damping", "not yet", 0, 8, "spin-is-not-damped", [])]
