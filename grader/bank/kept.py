@@ -1,4 +1,4 @@
-"""Store the results of members that got the marks they must, in build/verify.
+"""Store what got the marks, or was told the words, that it must, in build/verify.
 
 Each file says what it was made from. It is ignored if any of that changed, or if it was damaged.
 """
@@ -14,17 +14,14 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
+from grader.bank.halfway import Halfway
 from grader.bank.members import Member
 from grader.judge.fingerprint import fingerprint
 from grader.judge.grade import KIT
 from grader.judge.result import Result
 from grader.report.files import write_whole
 
-DECIDING = (
-    "members.py",
-    "traces.py",
-    "verify.py",
-)  # of this folder
+DECIDING = ("halfway.py", "members.py", "traces.py", "verify.py")  # of this folder
 BESIDES = ("__pycache__", "notebooks", ".*")  # in a tree: no submission is made of them
 
 
@@ -65,6 +62,30 @@ class StoredResults:
 
     def file(self, member: Member) -> Path:
         return self.folder / member.kind / f"{member.name} as {member.form}.json"
+
+
+class StoredStates:
+    """The half-way states in a folder that were told what they must be."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder / "halfway"
+
+    def holds(self, state: Halfway) -> bool:
+        with suppress(OSError, ValueError):
+            return self.file(state).read_text("ascii") == make_state_key(state)
+        return False
+
+    def add(self, state: Halfway) -> None:
+        write_whole(make_state_key(state).encode("ascii"), self.file(state))
+
+    def file(self, state: Halfway) -> Path:
+        return self.folder / f"{state.name}.txt"
+
+
+def make_state_key(state: Halfway) -> str:
+    """Hash the state and all that decides about what it is told, and this machine."""
+    said = msgspec.json.encode([state.name, state.code, state.state]).decode()
+    return hash_lines([hash_surroundings(), said])
 
 
 def make_key(member: Member) -> str:

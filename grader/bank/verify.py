@@ -19,7 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from grader.bank.halfway import Halfway, graded, halfway
-from grader.bank.kept import StoredResults
+from grader.bank.kept import StoredResults, StoredStates
 from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.sync import sync
@@ -64,8 +64,13 @@ class Verdict:
 class HalfwayVerdict:
     """A half-way state, and what its first failure says wrongly or does not say."""
 
-    name: str
+    state: Halfway
     complaint: str
+    earlier: bool = False  # judged by an earlier run
+
+    @property
+    def name(self) -> str:
+        return self.state.name
 
 
 @dataclass
@@ -114,7 +119,7 @@ def verify(
     verdicts = judge_members(chosen, jobs, StoredResults(RESULTS), fresh)
     report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
     states = list_halfway(only, course, report.complaints)
-    judged = run_in_processes(judge_halfway, states, jobs)
+    judged = judge_states(states, jobs, StoredStates(RESULTS), fresh)
     report.halfway = collect("grading half-way states", judged, len(states), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
@@ -149,6 +154,20 @@ def judge_members(
     for verdict in grade_all(to_grade, jobs, None if fresh else PASSED):
         if verdict.result is not None and not verdict.complaint:
             results.write(verdict.member, verdict.result, verdict.seconds)
+        yield verdict
+
+
+def judge_states(
+    states: list[Halfway], jobs: int, told: StoredStates, fresh: bool
+) -> Iterator[HalfwayVerdict]:
+    """Yield a verdict on each half-way state, earlier ones first; note those that were told."""
+    earlier = [] if fresh else [state for state in states if told.holds(state)]
+    yield from (HalfwayVerdict(state, "", earlier=True) for state in earlier)
+    names = {state.name for state in earlier}
+    left = [state for state in states if state.name not in names]
+    for verdict in run_in_processes(judge_halfway, left, jobs):
+        if not verdict.complaint:
+            told.add(verdict.state)
         yield verdict
 
 
@@ -250,8 +269,8 @@ def judge_halfway(state: Halfway) -> HalfwayVerdict:
         try:
             result = graded(state, Path(folder).resolve(), shared)
         except ValueError as error:
-            return HalfwayVerdict(state.name, f"cannot be built: {error}")
-        return HalfwayVerdict(state.name, state.complaint(result))
+            return HalfwayVerdict(state, f"cannot be built: {error}")
+        return HalfwayVerdict(state, state.complaint(result))
 
 
 def find_complaint(member: Member, result: Result, seconds: float) -> str:
@@ -332,7 +351,11 @@ def summarize(report: Report) -> Iterator[str]:
     yield f"{count} members: {count - earlier} graded now, {earlier} taken from an earlier run"
     if report.halfway:
         helped = sum(not each.complaint for each in report.halfway)
-        yield f"half-way states: {len(report.halfway)}, told what is wrong: {helped}"
+        again = sum(each.earlier for each in report.halfway)
+        yield (
+            f"half-way states: {len(report.halfway)}, told what is wrong: {helped}; "
+            f"{again} taken from an earlier run"
+        )
     if report.halfway_complaint:
         yield f"half-way states: {report.halfway_complaint}"
     yield from (f"the kit: {complaint}" for complaint in report.complaints)

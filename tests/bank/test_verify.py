@@ -17,9 +17,10 @@ from msgspec.structs import replace as replace_in
 from rich.console import Console
 
 from grader.bank import kept, traces, verify
-from grader.bank.kept import StoredResults, make_key
+from grader.bank.halfway import halfway
+from grader.bank.kept import StoredResults, StoredStates, make_key
 from grader.bank.members import Entry, Member
-from grader.bank.verify import Report, Verdict, find_complaint, grade_member, summarize, judge_members
+from grader.bank.verify import HalfwayVerdict, Report, Verdict, find_complaint, grade_member, summarize, judge_members
 from grader.judge.grade import KIT
 from grader.judge.result import Result, TodoResult
 
@@ -173,6 +174,22 @@ def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.Monk
     assert "1 members: 0 graded now, 1 taken from an earlier run" in told[1]
     table = re.compile("│ wrong.*")
     assert table.findall(told[0]) == table.findall(told[1]) != []
+
+
+def test_a_half_way_state_is_judged_again_once_its_words_change(tmp_path: Path, monkeypatch):
+    state = next(halfway("5"))
+    monkeypatch.setattr(
+        verify,
+        "run_in_processes",
+        lambda judge, states, jobs: [HalfwayVerdict(each, "") for each in states],
+    )
+    other = replace(state, state=replace_in(state.state, says=["another"]))
+    told = StoredStates(tmp_path)
+    earlier = [
+        [each.earlier for each in verify.judge_states([each], 1, told, fresh)]
+        for each, fresh in [(state, False), (state, False), (state, True), (other, False)]
+    ]
+    assert earlier == [[False], [True], [False], [False]]
 
 
 # ---------------------------------------------------------------- what is counted
