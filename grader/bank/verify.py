@@ -4,6 +4,7 @@ A member that got the marks it must is not graded again until something changes 
 them. So a run that was stopped resumes.
 """
 
+import atexit
 import tempfile
 import time
 from collections import Counter as Count
@@ -287,6 +288,7 @@ def find_complaint(member: Member, result: Result, seconds: float) -> str:
 def shared_worker() -> Worker:
     """One for all members that this process grades; it ends when this process does."""
     worker = start_worker()
+    atexit.register(worker.close)
     if isinstance(worker, WarmWorker):
         worker.wait_until_loaded()  # its own processes are none that a grade leaves behind
     return worker

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Collection, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Protocol
 
@@ -353,13 +353,17 @@ class WarmWorker:
     def _open(self, message: object, setup: ChildSetup) -> Child:
         self.wait_until_loaded()
         ours, theirs = socket.socketpair()
-        with theirs:
-            self.control.send(message)
-            try:
-                socket.send_fds(self.control.sock, [b"!"], [theirs.fileno()])
-            except OSError as error:
-                raise ChannelClosed(str(error)) from error
-        return Child(Channel(ours), self, setup.limits.cpu_seconds)
+        with ExitStack() as undone:
+            undone.enter_context(ours)
+            with theirs:
+                self.control.send(message)
+                try:
+                    socket.send_fds(self.control.sock, [b"!"], [theirs.fileno()])
+                except OSError as error:
+                    raise ChannelClosed(str(error)) from error
+            child = Child(Channel(ours), self, setup.limits.cpu_seconds)
+            undone.pop_all()  # the child keeps its end
+        return child
 
     def pid_of(self, child: Child) -> int:
         """Return its number here: in a namespace of its own it has another one."""
