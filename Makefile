@@ -16,6 +16,8 @@ SITE := .venv/site-is-installed
 NOTEBOOKS := .venv/notebooks-is-installed
 WHERE ?= starter
 ENGINE ?= docker
+# Of a package with a plugin that pytest finds by itself, it rewrites every file, in each process.
+PLUGINS := --disable-plugin-autoload -p xdist.plugin -p grader.checks.pytest_plugin
 
 LOCK := $(PY) -m uv pip compile pyproject.toml --group build --quiet --upgrade --universal \
 	--python-version 3.11 --generate-hashes --no-header --no-emit-index-url
@@ -141,7 +143,7 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
 
 test: $(DEV) ## Run the test suite, with some of the bank; verify and soak have the rest
-	@$(PY) -m pytest tests -n 2 --dist loadfile
+	@$(PY) -m pytest tests $(PLUGINS) -n 2 --dist loadfile
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
 	@$(PY) -m pytest tests -m soak
@@ -187,7 +189,7 @@ $(CORE): requirements-archives.txt pyproject.toml
 	@echo "Installing what grading needs into .venv (less than a minute) ..."
 	@$(PIP) install --no-compile --require-hashes -r requirements-archives.txt
 	@$(PIP) install --no-deps --no-build-isolation --editable .
-	@$(PY) -m compileall -qq -j 0 .venv || true # on all cores, where pip would take one
+	@$(PY) -m compileall -qq -j 0 .venv grader || true # on all cores, where pip would take one
 	@touch $@
 
 $(DEV): $(CORE) requirements-dev.txt

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
 import pytest
@@ -15,7 +16,7 @@ from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
 from grader.judge.course import FULL
 from grader.judge.grade import Options, grade, opened, shipped_reference
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import Rubric, load_rubric
 from grader.player import replay
 from grader.questions.program import open_program
@@ -34,6 +35,7 @@ os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
 
 HandIn = Callable[..., Path]
 Once = Callable[[str, Callable[[Path], object]], Path]
+Part = TypeVar("Part", TodoResult, CheckResult)
 RECORDED = {"1", "8b"}  # TODOs whose right runs are recorded
 FEW_CASES = 3  # of each question for practice
 LONGEST = 1800  # s that a process waits for what another one makes
@@ -125,9 +127,26 @@ def handout_pages(once: Once) -> Path:
 
 
 @pytest.fixture(scope="session")
-def solution(once: Once) -> Result:
-    """What the solution gets, graded with the reference."""
-    return result_of("solution", once)
+def solution(starter: Result) -> Result:
+    """Return the result that the solution must get, made of the starter's without grading it.
+
+    That the solution gets it is asked by `make verify` and by `solution_graded`.
+    """
+
+    def with_full_marks(part: Part) -> Part:
+        return msgspec.structs.replace(part, state="passed", points=part.max_points)
+
+    todos = [
+        msgspec.structs.replace(with_full_marks(todo), checks=[*map(with_full_marks, todo.checks)])
+        for todo in starter.todos
+    ]
+    return msgspec.structs.replace(starter.with_todos(todos), submission="solution")
+
+
+@pytest.fixture(scope="session")
+def solution_graded(once: Once) -> Callable[[tuple[str, ...]], Result]:
+    """Grade the solution with the reference, on some TODOs or, given none, on all."""
+    return lambda todos: result_of("solution", once, todos)
 
 
 @pytest.fixture(scope="session")
@@ -169,10 +188,10 @@ def only_some(rubric: Rubric) -> Rubric:
     return Rubric([todo for todo in rubric.todos if todo.id in RECORDED])
 
 
-def result_of(tree: str, once: Once) -> Result:
+def result_of(tree: str, once: Once, todos: tuple[str, ...] = ()) -> Result:
     def fill(folder: Path) -> None:
-        result = grade(KIT / tree, Options(shipped_reference()), shared_worker())
-        write_json(result, folder / "result.json")
+        options = Options(shipped_reference(), only=frozenset(todos))
+        write_json(grade(KIT / tree, options, shared_worker()), folder / "result.json")
 
-    folder = once(f"graded-{tree}", fill)
+    folder = once("-".join(("graded", tree, *todos)), fill)
     return msgspec.json.decode((folder / "result.json").read_bytes(), type=Result)
