@@ -62,8 +62,14 @@ class Mutant:
 def all_mutants() -> tuple[Mutant, ...]:
     """Make every mutant of every TODO of the solution, in the order of the rubric."""
     return tuple(
-        mutant for todo in load_rubric().todos if todo.function for mutant in mutate(todo.id)
+        mutant for todo in load_rubric().todos if todo.function for mutant in mutants_of(todo.id)
     )
+
+
+@cache
+def mutants_of(todo: str) -> tuple[Mutant, ...]:
+    """Make every mutant of one TODO of the solution."""
+    return tuple(mutate(todo))
 
 
 def mutate(todo: str) -> Iterator[Mutant]:
@@ -121,8 +127,10 @@ def choose_mutants(todos: Collection[str], operators: Collection[str]) -> list[M
     """Return the mutants of these TODOs and operators; of all where none is named."""
     return [
         each
-        for each in all_mutants()
-        if (not todos or each.todo in todos) and (not operators or each.operator in operators)
+        for todo in load_rubric().todos
+        if todo.function and (not todos or todo.id in todos)
+        for each in mutants_of(todo.id)
+        if not operators or each.operator in operators
     ]
 
 
