@@ -87,6 +87,7 @@ def test_no_scheduler_is_a_sentence(classroom, monkeypatch):
         graded(classroom, "out", cluster="tcp://127.0.0.1:9")
 
 
+@pytest.mark.soak
 def test_workers_with_another_grader_are_refused(workers, classroom):
     with distributed.Client(workers, set_as_default=False) as client:
         client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))

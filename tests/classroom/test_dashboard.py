@@ -14,6 +14,7 @@ from msgspec import structs
 from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
 from whole_bank import bank
 
+from grader.bank.verify import shared_worker
 from grader.classroom.book import Book, Outcome, make_outcome
 from grader.classroom.dashboard import read_class, write_dashboard
 from grader.errors import Stop
@@ -184,7 +185,7 @@ def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
     member = next(each for each in bank() if each.name == "5-spin-is-not-damped")
     for student in ("ann", "ben"):
         member.build(KIT, tmp_path / "class" / student)
-        graded = grade(tmp_path / "class" / student, ONLY_5)
+        graded = grade(tmp_path / "class" / student, ONLY_5, shared_worker())
         write_json(graded, tmp_path / "results" / f"{student}.json")
     before = (tmp_path / "results" / "ann.json").read_bytes()
     folders = [str(tmp_path / "results"), "--submissions", str(tmp_path / "class")]

@@ -46,7 +46,13 @@ def test_the_exact_end_agrees_with_a_reference_solution(make):
     assert smooth.measure_distance(system, x, v) < 1e-8 * system.size
 
 
-@SYSTEMS
+@pytest.mark.parametrize(
+    "make",
+    [
+        pytest.param(each, marks=pytest.mark.soak if "orbit" in each.__name__ else ())
+        for each in smooth.SYSTEMS
+    ],
+)
 def test_every_method_has_its_order(make):
     study = smooth.study_system(make())
     for row in study["methods"]:

@@ -290,6 +290,7 @@ def test_a_second_of_an_lms_is_known_again(tmp_path):
 # ---------------------------------------------------------------- the bank
 
 
+@pytest.mark.soak
 def test_what_deserves_points_is_taken_in_whole(tmp_path):
     """No right submission of the bank loses a file or meets a doubt on its way in."""
     for member in bank():

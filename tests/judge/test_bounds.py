@@ -232,6 +232,7 @@ def test_who_has_a_file_too_long_is_told(tmp_path: Path):
     assert said.startswith("integrators.py has 129 KB and was not looked into")
 
 
+@pytest.mark.soak
 def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
     """A name like the one that is missing is told; a million of them are not gone through."""
     package = tmp_path / "mini_engine"
@@ -285,7 +286,7 @@ from grader.judge.grade import Options, grade, shipped_reference
 from grader.judge.result import MAX_JSON
 only = frozenset(sys.argv[1].split(","))
 for tree in map(Path, sys.argv[2:]):
-    result = grade(tree, Options(shipped_reference(), only=only, trusted=True))
+    result = grade(tree, Options(shipped_reference(), only=only, trusted=True), shared_worker())
     assert len(msgspec.json.encode(result)) <= MAX_JSON
     used = resource.getrusage(resource.RUSAGE_SELF)
     print(used.ru_maxrss // 1024, used.ru_utime + used.ru_stime)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
+from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.report.sinks.markdown import write_markdown
 from grader.report.terminal import Printer
@@ -29,12 +30,13 @@ from grader.report.terminal import Printer
             "7a",
             "An experiment: sleep_time_threshold is set, so bodies at rest may sleep.",
         ),
-        (
+        pytest.param(
             "mini_engine/constants.py",
             "ITERATIONS = 8",
             "ITERATIONS = 2",
             "whole",
             "An experiment: the solver runs 2 passes in a step, not 8.",
+            marks=pytest.mark.soak,
         ),
     ],
 )
@@ -46,7 +48,8 @@ def test_an_experiment_is_mentioned(
     text = (tree / file).read_text("utf-8")
     assert text.count(old) == 1
     (tree / file).write_text(text.replace(old, new), "utf-8")
-    result = grade(tree, Options(shipped_reference(), only=frozenset({todo}), trusted=True))
+    options = Options(shipped_reference(), only=frozenset({todo}), trusted=True)
+    result = grade(tree, options, shared_worker())
     assert result.points == result.max_points
     assert result.todos[0].notes == [words]
     console = Console(file=io.StringIO(), width=100)

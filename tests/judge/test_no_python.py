@@ -190,7 +190,11 @@ def test_a_file_made_to_be_read_for_long_is_given_up():
 # ---------------------------------------------------------------- the marks
 
 
-@pytest.mark.parametrize("reference", [shipped_reference(), None], ids=["grade", "check"])
+@pytest.mark.parametrize(
+    "reference",
+    [shipped_reference(), pytest.param(None, marks=pytest.mark.soak)],
+    ids=["grade", "check"],
+)
 def test_a_broken_todo_costs_its_own_points(hand_in, reference: Path | None):
     tree = edited(hand_in("solution"), SOLVER, IN_2, "total += cross(ra, axis ** 2")
     options = Options(reference, only=frozenset("245"), trusted=True)

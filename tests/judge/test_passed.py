@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.bank.members import members
-from grader.bank.verify import grade_member
+from grader.bank.verify import grade_member, shared_worker
 from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
 from grader.judge.passed import PassedPrograms, program_key
 from grader.judge.reference import Reference
@@ -42,18 +42,18 @@ def test_a_wrong_todo_leaves_the_others_the_program_that_they_were(tmp_path: Pat
     tree = changed(tmp_path / "tree", DAMPING, replaced(text, {"5": WRONG}))
     passed = PassedPrograms(tmp_path / "passed")
     options = Options(shipped_reference(), only=TODOS, trusted=True)
-    assert grade(KIT / "solution", replace(options, passed=passed)).points == 18
+    assert grade(KIT / "solution", replace(options, passed=passed), shared_worker()).points == 18
     known = set(passed.folder.iterdir())
-    result = grade(tree, replace(options, passed=passed))
+    result = grade(tree, replace(options, passed=passed), shared_worker())
     assert [todo.state for todo in result.todos] == ["passed", "not yet"]
     assert set(passed.folder.iterdir()) == known and len(known) == len(TODOS)
-    assert grade(tree, options) == result
+    assert grade(tree, options, shared_worker()) == result
 
 
 def test_nothing_is_remembered_of_the_work_of_others(tmp_path: Path):
     passed = PassedPrograms(tmp_path / "passed")
     options = Options(shipped_reference(), only=frozenset({"8a"}), passed=passed)
-    assert grade(KIT / "solution", options).points == 2
+    assert grade(KIT / "solution", options, shared_worker()).points == 2
     assert not passed.folder.exists()
 
 

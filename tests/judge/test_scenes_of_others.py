@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.source.regions import regions_in, replaced
 
@@ -27,7 +28,8 @@ def test_a_stub_in_a_single_file_costs_its_own_points(tmp_path: Path, stub: str,
     lines = textwrap.indent(textwrap.dedent("\n".join(code)), margin).splitlines()
     (tree / "mini_engine.py").write_text(replaced(engine, {stub: tuple(lines)}), "utf-8")
     options = Options(shipped_reference(), only=frozenset({stub, *others}), trusted=True)
-    points = {todo.id: (todo.points, todo.max_points) for todo in grade(tree, options).todos}
+    graded = grade(tree, options, shared_worker())
+    points = {todo.id: (todo.points, todo.max_points) for todo in graded.todos}
     for id in others:
         assert points[id][0] == points[id][1]
     assert points[stub][0] == 0

@@ -24,7 +24,7 @@ def broken(folder: Path, code: tuple[str, ...]) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("jobs", [2, 3])
+@pytest.mark.parametrize("jobs", [2, pytest.param(3, marks=pytest.mark.soak)])
 def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
     tree = broken(tmp_path / "tree", (WRONG,))
     told: dict[int, list[CheckResult]] = {1: [], jobs: []}

@@ -171,6 +171,7 @@ def test_a_todo_keeps_its_points_where_given_code_is_to_blame(hand_in):
 BODY = "mini_engine/body.py"
 
 
+@pytest.mark.soak
 def test_changed_given_code_costs_the_whole_alone(hand_in):
     tree = hand_in("solution")
     change(tree, BODY, "1 / (0.5 * mass * shape", "1 / (mass * shape")  # a ring
