@@ -268,13 +268,16 @@ threading.Timer.start = slowly
 # ---------------------------------------------------------------- the terminal
 
 
-def test_no_line_is_longer_than_80_columns(hand_in):
+def test_no_line_is_longer_than_80_columns(hand_in, monkeypatch: pytest.MonkeyPatch):
     tree = hand_in("starter")
     fill_in(tree, INTEGRATORS, _8b="    return x, v")
-    wide = grader("check", "--todo", "8b", cwd=tree, columns=200).stdout
+    monkeypatch.chdir(tree)
+    monkeypatch.setenv("COLUMNS", "200")
+    wide = check(Path(), "8b")
     assert max(map(len, wide.splitlines())) <= 80
     assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # words that go on below hang
-    narrow = grader("check", "--todo", "8b", cwd=tree, columns=76).stdout
+    monkeypatch.setenv("COLUMNS", "76")
+    narrow = check(Path(), "8b")
     words = [line for line in narrow.splitlines() if ".html" not in line]
     assert max(map(len, words)) <= 76
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from grader.bank.verify import shared_worker
 from grader.judge.budget import Budget
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.result import CheckResult
@@ -38,6 +39,7 @@ def test_results_are_the_same_and_come_in_order(tmp_path: Path, jobs: int):
                 jobs=number,
                 progress=told[number].append,
             ),
+            shared_worker(),
         )
         for number in told
     ]
