@@ -42,7 +42,7 @@ LONGEST = 1800  # s that a process waits for what another one makes
 
 
 def pytest_configure() -> None:
-    """Nothing that collecting makes is garbage: looking for some takes a third of its time."""
+    """Look for no garbage: collecting makes none, and looking takes a third of its time."""
     gc.disable()
 
 
@@ -53,7 +53,7 @@ def pytest_collection_finish() -> None:
 
 @pytest.fixture(scope="session")
 def handed_out(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A student's folder in which nothing is done yet: the starter, and what is laid in."""
+    """Make a student's folder in which nothing is done yet: the starter, and what is laid in."""
     folder = tmp_path_factory.mktemp("handed-out")
     for name, path in list_students_files(KIT).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -122,7 +122,7 @@ def wait_for(path: Path) -> None:
 
 @pytest.fixture(scope="session")
 def handout_pages(once: Once) -> Path:
-    """The pages of the handouts as the student's folder has them."""
+    """Write the pages of the handouts as the student's folder has them."""
     return once("pages", lambda folder: write_pages(KIT / "handouts", folder, FULL))
 
 
@@ -156,7 +156,7 @@ def starter(once: Once) -> Result:
 
 @pytest.fixture(scope="session")
 def expected_runs(once: Once) -> bytes:
-    """The solution's runs of some TODOs, which students' copies of the grader carry with them.
+    """Record the solution's runs of some TODOs, for students' copies of the grader.
 
     Those of a contact and of an integrator. `make soak` has all.
     """
@@ -171,7 +171,7 @@ def expected_runs(once: Once) -> bytes:
 
 @pytest.fixture(scope="session")
 def practice_file(once: Once, solution: Result) -> bytes:
-    """What a release has for practice, with fewer cases, and the solution graded once in all."""
+    """Make what a release has for practice, with fewer cases."""
 
     def fill(folder: Path) -> None:
         with pytest.MonkeyPatch.context() as patch:
@@ -184,7 +184,7 @@ def practice_file(once: Once, solution: Result) -> bytes:
 
 
 def only_some(rubric: Rubric) -> Rubric:
-    """The rubric with the TODOs whose expected runs are recorded."""
+    """Return the rubric with the TODOs whose expected runs are recorded."""
     return Rubric([todo for todo in rubric.todos if todo.id in RECORDED])
 
 

@@ -67,7 +67,7 @@ def briefly(member: Member) -> tuple[Member, frozenset[str]]:
 
 
 def draw(member: Member) -> float:
-    """A number from 0 to 1 that belongs to its name."""
+    """Return a number from 0 to 1 that belongs to its name."""
     return int(sha256(named(member).encode()).hexdigest()[:12], 16) / 16**12
 
 

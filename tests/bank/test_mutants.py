@@ -305,7 +305,7 @@ def test_a_division_by_a_k_of_0_is_told_from_one_that_always_fails():
 
 
 def the_one(todo: str, now: str) -> Mutant:
-    """The mutant of a TODO with this line in it."""
+    """Return the mutant of a TODO with this line in it."""
     (found,) = [each for each in mutants_of(todo) if now in each.now.split("; ")]
     return found
 
@@ -342,7 +342,7 @@ def test_alone_a_mutant_is_graded_up_to_the_first_check_that_fails():
 
 
 def first_of(todo: str):
-    """Its first check in the rubric."""
+    """Return its first check in the rubric."""
     return next(each for each in load_rubric().todos if each.id == todo).checks[0]
 
 

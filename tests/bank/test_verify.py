@@ -41,7 +41,7 @@ BANK = [Member("right", name, "package", Entry(), None) for name in ("a", "b", "
 
 @pytest.fixture
 def graded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The names of the members that are graded, which get what they must, but for z."""
+    """List the names of the members that are graded; they get what they must, but for z."""
     names = []
 
     def grade_all(chosen: list[Member], jobs: int, passed: object) -> Iterator[Verdict]:
@@ -273,7 +273,7 @@ def test_a_ladder_must_rise_from_nothing_to_all(tmp_path: Path, points, complain
 
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder in the place of those where every account may write."""
+    """Make a folder in the place of those where every account may write."""
     folder = tmp_path / "shared"
     folder.mkdir()
     monkeypatch.setattr(traces, "OPEN_TO_ALL", (str(folder),))

@@ -40,7 +40,7 @@ def graded(folder: Path, only: frozenset[str] = frozenset()) -> Result:
 
 @pytest.fixture(scope="module")
 def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) -> Result:
-    """The solution as of somebody who did no bonus task.
+    """Grade the solution of somebody who did no bonus task.
 
     Graded again is the program as a whole, which bonus code would be run in, if any were.
     """
@@ -54,7 +54,7 @@ def without_bonus(solution: Result, tmp_path_factory: pytest.TempPathFactory) ->
 
 @pytest.fixture(scope="module")
 def with_bonus(without_bonus: Result) -> Result:
-    """Full marks, half of the first bonus task and all of the second."""
+    """Return full marks, half of the first bonus task and all of the second."""
     first, second = (todo for todo in without_bonus.todos if todo.id in ("B1", "B2"))
     half = [msgspec.structs.replace(each, state="not yet", got="42") for each in first.checks]
     half[0] = msgspec.structs.replace(half[0], state="passed", points=half[0].max_points)

@@ -42,7 +42,7 @@ def workers() -> Iterator["distributed.LocalCluster"]:
 
 @pytest.fixture
 def classroom(tmp_path: Path) -> Path:
-    """The solution and the starter in turns, each with something of its own."""
+    """Make a class of the solution and the starter in turns, each with something of its own."""
     for number in range(SIZE):
         folder = tmp_path / "class" / f"student-{number}"
         folder.mkdir(parents=True)
@@ -52,7 +52,7 @@ def classroom(tmp_path: Path) -> Path:
 
 
 def graded(classroom: Path, out: str, **how: object) -> dict[str, bytes]:
-    """Every result and the table, byte by byte."""
+    """Return every result and the table, byte by byte."""
     wanted = ClassOptions(ONLY_8A, classroom.parent / out, **how)
     run = run_class(classroom, wanted, QUIET)
     assert not any(each.trouble for each in run.outcomes)

@@ -53,7 +53,7 @@ def result(student: int, words: str = "w") -> Result:
 
 
 def make_class(folder: Path, count: int, name: str = "student {:03}", words: str = "w") -> Path:
-    """A class in which student 3 is in trouble, 4 was late and 5 took longest."""
+    """Make a class in which student 3 is in trouble, 4 was late and 5 took longest."""
     outcomes = []
     with Book(folder) as book:
         for number in range(count):

@@ -62,7 +62,7 @@ class Class:
 
 
 def name_in(system: str, student: Student) -> str:
-    """What the class list calls a student."""
+    """Return what the class list calls a student."""
     return student.email if system in classes.BY_EMAIL else student.login
 
 
@@ -73,7 +73,7 @@ def in_one_process(monkeypatch) -> None:
 
 
 def here(monkeypatch) -> None:
-    """Archives are read by this process: `test_pieces.py` has them read as they are in earnest."""
+    """Read archives in this process: `test_pieces.py` has them read as they are in earnest."""
     monkeypatch.setattr(repack, "set_limits", lambda seconds: None)
     make = lambda path, target, bounds: repack.main(str(path), str(target)) and []  # noqa: E731
     monkeypatch.setattr(archives, "repack_as_zip", lambda *args: make(*args) or [])
@@ -227,7 +227,7 @@ def test_on_two_workers_the_bytes_are_the_same(tmp_path, monkeypatch):
 
 
 def bytes_of(monkeypatch, folder: Path, options: ClassOptions, executor) -> dict[str, bytes]:
-    """What a run leaves behind, once more run to make sure that nothing is graded again."""
+    """Return what a run leaves behind; another run grades nothing again."""
     monkeypatch.setattr(grading, "open_executor", executor)
     run_class(folder, options, QUIET)
     run = run_class(folder, options, QUIET)
@@ -261,7 +261,7 @@ TODOS = ("4", "8a")
 
 @pytest.fixture(scope="module")
 def archived(tmp_path_factory) -> list[Student]:
-    """Submissions of the bank, each in another archive, among all that goes wrong; as graded."""
+    """Pack and grade submissions of the bank, each in another archive, among all that goes wrong."""
     place = tmp_path_factory.mktemp("bank")
     options = Options(shipped_reference(), only=frozenset(TODOS))
     found, worker = [], start_worker()
@@ -320,7 +320,7 @@ def test_a_class_of_the_bank_is_graded_in_earnest_killed_twice(tmp_path, archive
 
 
 def grouped(roster: Path, system: str, group: list[Student], students: list[Student]) -> None:
-    """The class list with a column of groups, in which these are one."""
+    """Return the class list with a column of groups, in which these are one."""
     mark = "\t" if system == "blackboard" else ","
     first, *rows = roster.read_text(encoding="utf-8").splitlines()
     own = {name_in(system, each) for each in group}

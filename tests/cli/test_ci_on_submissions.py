@@ -158,13 +158,13 @@ def checkout_of(tree: str, folder: Path) -> Path:
 
 
 def with_integrators(checkout: Path) -> Path:
-    """A starter in which TODOs 8a to 8c are done."""
+    """Make a starter in which TODOs 8a to 8c are done."""
     shutil.copyfile(KIT / "solution" / "integrators.py", checkout / "integrators.py")
     return checkout
 
 
 def in_agreement(run: Run) -> Run:
-    """Every form says the same points."""
+    """Check that every form says the same points."""
     points, most = run.result["points"], run.result["max_points"]
     assert run.result["submission"] == "cs-engine-anna"
     assert (run.outputs["points"], run.outputs["max-points"]) == (str(points), str(most))
@@ -183,7 +183,7 @@ def in_agreement(run: Run) -> Run:
 
 
 def unbegun_bonus(todo: dict[str, Any]) -> bool:
-    """Nothing is said of a bonus task until it is begun."""
+    """Return whether nothing may be said yet of a bonus task."""
     return is_bonus(todo["id"]) and todo["state"] == "not started"
 
 
@@ -275,7 +275,7 @@ rk4 = module.rk4
 
 @pytest.fixture
 def attacked(tmp_path: Path) -> Run:
-    """A submission that forges all it can: streams, files of the runner, names and messages."""
+    """Run a submission that forges all it can: streams, files of the runner, names and messages."""
     checkout, runner = checkout_of("starter", tmp_path), tmp_path / "runner"
     found = [str(runner / name) for name in ("output", "summary", "env", "path")]
     found += [str(checkout / "report" / name) for name in ("result.json", "junit.xml")]

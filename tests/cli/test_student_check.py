@@ -40,7 +40,7 @@ def grader(
 
 
 def check(tree: Path, *todos: str, options: tuple[str, ...] = ()) -> str:
-    """What `check` prints, without a process of its own."""
+    """Return what `check` prints, without a process of its own."""
     words = ["check", str(tree), *options, *(f"--todo={todo}" for todo in todos)]
     return run_grader(*words).output
 

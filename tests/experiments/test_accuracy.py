@@ -258,7 +258,7 @@ def test_within_a_budget_the_best_setting_counts_that_fits_and_repeats_make_a_ra
 
 @pytest.fixture(scope="module")
 def tiny(tmp_path_factory):
-    """One run of the whole program in this process, with a tiny budget."""
+    """Run the whole program once in this process, with a tiny budget."""
     out = tmp_path_factory.mktemp("accuracy")
     (out / "handout").mkdir()
     handout = str(out / "handout" / "t.md")

@@ -30,7 +30,7 @@ ONLY = {todo: Options(shipped_reference(), only=frozenset({todo})) for todo in "
 
 
 def graded(submission: Path, options: Options = WITH_REFERENCE) -> Result:
-    """By a worker that serves all tests: that takes half a second less."""
+    """Grade by a worker that serves all tests, which takes half a second less."""
     return grade(submission, options, shared_worker())
 
 
@@ -203,7 +203,7 @@ def test_one_finished_todo_earns_its_own_points(
 
 
 def earned_in_the_whole(todo: str) -> set[str]:
-    """The checks of the whole that need this TODO at most; guards alone earn nothing."""
+    """Return the checks of the whole that need this TODO at most; guards alone earn nothing."""
     (whole,) = [each for each in load_rubric().todos if each.id == "whole"]
     free = [check for check in whole.checks if set(check.needs) <= {todo}]
     return set() if all(check.guard for check in free) else {check.id for check in free}

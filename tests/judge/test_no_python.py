@@ -26,7 +26,7 @@ def take(tree: Path, copy: Path) -> Submission:
 
 
 def refused(tree: Path, copy: Path) -> tuple[set[str], set[str]]:
-    """The TODOs and the programs in which something is no Python, and see that the rest is."""
+    """Return the TODOs and programs in which something is no Python; check that the rest is."""
     taken = take(tree, copy)
     for path in copy.rglob("*.py"):
         compile(path.read_bytes(), path.name, "exec")

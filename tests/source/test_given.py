@@ -42,7 +42,7 @@ def restore(tree: Path, *names: str) -> str:
 
 
 def only(file: str, old: str, new: str) -> Changed:
-    """The one change that is found after a replacement in a file as it was handed out."""
+    """Return the one change that is found after a replacement in a file as it was handed out."""
     text = load_given()[file]
     assert text.count(old) == 1
     (found,) = changes({file: text.replace(old, new)}, load_given())
@@ -139,7 +139,7 @@ def test_another_change_in_a_file_says_nothing_of_its_todos():
 
 
 def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, list[dict[str, str]]]:
-    """The named lines of each failed check, by TODO."""
+    """Return the named lines of each failed check, by TODO."""
     options = Options(reference=reference, only=frozenset(todos), trusted=True)
     result = grade(tree, options, shared_worker())
     return {
@@ -149,7 +149,7 @@ def told(tree: Path, *todos: str, reference: Path | None = None) -> dict[str, li
 
 
 def passed(tree: Path, todo: str, reference: Path | None = None) -> list[CheckResult]:
-    """The checks of a TODO, all of which have passed, that say something all the same."""
+    """Return the checks of a TODO, all of which have passed, that say something all the same."""
     options = Options(reference=reference, only=frozenset({todo}), trusted=True)
     (result,) = grade(tree, options, shared_worker()).todos
     assert result.state == "passed" and result.points == result.max_points
@@ -215,7 +215,7 @@ RIGHT = "    v = explicit_euler(x, v, dt, accel)[1]\n    return x + v * dt, v"
 
 
 def integrators(tree: Path, region: str, given: str) -> None:
-    """TODO 8a with a region that calls given code, which is another one."""
+    """Return TODO 8a with a region that calls given code, which is another one."""
     path = tree / "integrators.py"
     text = path.read_text(encoding="utf-8").replace(EULER, given, 1)
     path.write_text(replaced(text, {"8a": tuple(region.splitlines())}), encoding="utf-8")
