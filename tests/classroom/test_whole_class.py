@@ -261,7 +261,7 @@ TODOS = ("4", "8a")
 
 @pytest.fixture(scope="module")
 def archived(tmp_path_factory) -> list[Student]:
-    """Pack and grade submissions of the bank, each in another archive, among all that goes wrong."""
+    """Pack and grade submissions of the bank, each in another archive, and all that goes wrong."""
     place = tmp_path_factory.mktemp("bank")
     options = Options(shipped_reference(), only=frozenset(TODOS))
     found, worker = [], start_worker()

@@ -294,7 +294,7 @@ for tree in map(Path, sys.argv[2:]):
 
 
 def cost(todos: str, *trees: Path) -> list[tuple[int, float]]:
-    """Return the most memory of the judge so far (MB) after each of these grades, and its seconds."""
+    """Return the most memory of the judge (MB) after each of these grades, and its seconds."""
     command = [sys.executable, "-c", MEASURE, todos, *map(str, trees)]
     told = subprocess.run(command, capture_output=True, text=True, check=True, cwd=KIT)
     lines = [line.split() for line in told.stdout.splitlines()]

@@ -513,6 +513,7 @@ def test_the_gradescope_zip_takes_the_course_along(tmp_path: Path):
     assert settings.course == COURSES["without-pymunk"]
 
 
+@pytest.mark.soak
 def test_code_that_is_given_is_no_secret_and_the_rest_is():
     course = COURSES["engine"]
     secrets = find_secrets(KIT, course)

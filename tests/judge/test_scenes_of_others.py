@@ -15,7 +15,9 @@ SINGLE = KIT / "tests" / "bank" / "single_file" / "mini_engine.py"
 STUBS = {"4": "solver.py", "5": "world.py"}
 
 
-@pytest.mark.parametrize(("stub", "others"), [("4", "2"), ("5", "4")])
+@pytest.mark.parametrize(
+    ("stub", "others"), [pytest.param("4", "2", marks=pytest.mark.soak), ("5", "4")]
+)
 def test_a_stub_in_a_single_file_costs_its_own_points(tmp_path: Path, stub: str, others: str):
     text = (KIT / "starter" / "mini_engine" / STUBS[stub]).read_text("utf-8")
     (code,) = [each.lines for each in regions_in(text) if each.id == stub]

@@ -728,7 +728,7 @@ def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Pat
     assert shown.complaints == []
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.soak)])
 def test_pages_open_without_a_complaint(browser: Any, pages: Path, scheme: str):
     shown = Screen(browser, next(pages.glob("*.html")), color_scheme=scheme)
     dark = "22, 25, 34" in shown.page.evaluate("getComputedStyle(document.body).backgroundColor")

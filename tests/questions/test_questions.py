@@ -109,6 +109,7 @@ def test_nothing_is_asked_twice_while_there_is_something_else():
     assert names.index("purse") > names.index("fall"), "steps was about TODO 6 already"
 
 
+@pytest.mark.soak
 def test_the_last_reason_is_about_the_function_whose_lines_are_shown(solution: Result):
     todos = [todo for todo in solution.todos if todo.id in ("3", "5", "7b")]
     with program_of(KIT / "solution", solution.with_todos(todos)) as program:
@@ -355,6 +356,7 @@ def test_a_program_whose_films_lie_is_not_asked_about_them(
     assert any(words.startswith("films: its film of") for words in sheet.dropped)
 
 
+@pytest.mark.soak
 def test_a_quarter_of_the_todos_is_enough_for_a_sheet(solution: Result):
     right = {"5", "8a", "7b"}
     todos = [t if t.id in right else structs.replace(t, state="not yet") for t in solution.todos]
