@@ -258,6 +258,7 @@ def test_where_processes_are_numbered_with_all_others_none_is_left_behind(tmp_pa
     asker.end()
     assert server.children(recursive=True) == []
     assert asker("folder")  # the warm process lives
+    asker.children[-1].end()
     worker.close()
 
 
@@ -271,6 +272,7 @@ def test_a_child_ends_with_the_process_that_forked_it(tmp_path: Path):
     server.kill()
     psutil.wait_procs([process], timeout=600)
     assert not process.is_running()
+    child.channel.close()
     worker.close()
 
 
