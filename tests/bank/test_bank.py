@@ -20,6 +20,7 @@ from grader.source.regions import python_files, read_source, regions_in
 EVERY = bank()
 MEMBERS = [member for member in EVERY if member.kind != "ladder"]
 RUNGS = [member for member in EVERY if member.kind == "ladder" and member.is_patch]
+WHOLE = "lesson-as-printed"  # graded in full
 # Each of these takes as long as ten others.
 TOO_LONG = (
     "in-every-todo",
@@ -33,7 +34,7 @@ TOO_LONG = (
 
 
 def chosen(every: list[Member]) -> list[Member]:
-    """Return what `make test` has time for: one member of each group.
+    """Return what `make test` has time for: one member of each group, and the lesson's program.
 
     The wrong members of a TODO are a group, and those of all bonus tasks are one together. The
     hash of its name decides on a member, so that a new one replaces one at most. `make verify`, a
@@ -48,7 +49,8 @@ def chosen(every: list[Member]) -> list[Member]:
         if member.kind == "wrong":
             about = "bonus" if member.bonus else " ".join(sorted(member.todos))
         groups.setdefault((member.kind, about), []).append(member)
-    return [min(group, key=draw) for group in groups.values()]
+    lesson = [member for member in every if (member.name, member.form) == (WHOLE, "package")]
+    return lesson + [min(group, key=draw) for group in groups.values()]
 
 
 def briefly(member: Member) -> tuple[Member, frozenset[str]]:

@@ -54,7 +54,6 @@ def marks_of(result: Result) -> list[tuple[str, str, int, int]]:
     ]
 
 
-@SOAK  # `make verify` has it too
 def test_the_solution_earns_everything(solution: Result, solution_graded: Graded):
     assert marks_of(solution_graded(())) == marks_of(solution)
     assert (solution.points, solution.max_points, solution.bonus) == (100, 100, 16)
