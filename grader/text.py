@@ -91,7 +91,18 @@ SEPARATORS = ";|\t\r\n"
 def escape_formula(cell: str) -> str:
     """Put an apostrophe before a cell that a spreadsheet would take for a formula."""
     plain = unicodedata.normalize("NFKC", cell).lstrip(" ")
-    return f"'{cell}" if plain.startswith(FORMULA) and plain != "-" else cell
+    return f"'{cell}" if plain.startswith(FORMULA) and not is_dash(cell) else cell
+
+
+def is_plain_row(cells: list[object]) -> bool:
+    """Return whether a row begins with a word, and on one line: a dash in it begins nothing."""
+    words = [str(cell) for cell in cells]
+    return words[0][:1].isalnum() and not any(sign in word for word in words for sign in '"\r\n')
+
+
+def is_dash(cell: object) -> bool:
+    """Return whether a cell is a dash alone, which stands for nothing."""
+    return isinstance(cell, str) and unicodedata.normalize("NFKC", cell).lstrip(" ") == "-"
 
 
 def escape_inside(cell: str, separators: str = SEPARATORS) -> str:
@@ -118,6 +129,8 @@ def format_csv(
     out = io.StringIO(newline="")
     writer = csv.writer(out, delimiter=delimiter, lineterminator=line_end)
     for row in table:
-        cells = (escape_inside(escape(c), separators) if isinstance(c, str) else c for c in row)
+        cells = [escape_inside(escape(c), separators) if isinstance(c, str) else c for c in row]
+        if len(cells) > 1 and not is_plain_row(cells):
+            cells = [f"'{cell}" if is_dash(cell) else cell for cell in cells]
         writer.writerow(cells)
     return out.getvalue()
