@@ -6,7 +6,6 @@ Results are written as they come, and what an earlier run left is not graded aga
 import hashlib
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from grader.intake.found import CannotTake, Found, Intake, Package
 from grader.intake.names import shorten_list
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
+from grader.judge.outer import Exceeded, Failed
 from grader.judge.result import Result
 from grader.report.files import as_json
 from grader.report.progress import Counter
@@ -63,9 +63,8 @@ class Run:
                 package = pack(first, self.course.modules)
                 digest, prints = package.digest, make_prints(package, first.team)
             except Exception as error:  # this one submission; the others go on
-                words = str(error) if isinstance(error, CannotTake) else describe_error(error)
                 for found in members:
-                    self.record_trouble(found, words)
+                    self.record_trouble(found, describe_error(error))
                 continue
             self.same.setdefault(digest, {})[first.team] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
@@ -180,33 +179,26 @@ def grade_tasks(tasks: Iterator[Task], executor: Executor) -> Iterator[tuple[Tas
     for task in tasks:
         under_way[executor.submit(task.package)] = task
         if len(under_way) >= executor.capacity():
-            yield from collect_results(under_way, executor)
+            yield from collect_results(under_way)
     while under_way:
-        yield from collect_results(under_way, executor)
+        yield from collect_results(under_way)
 
 
 def collect_results(
-    under_way: "dict[Future[Graded], Task]", executor: Executor
+    under_way: "dict[Future[Graded], Task]",
 ) -> Iterator[tuple[Task, Graded | str]]:
     """Return the tasks that have ended by now, at least one."""
     done, _ = wait(under_way, return_when=FIRST_COMPLETED)
     if any(future.cancelled() for future in done):
         raise Stop(LOST)
-    if any(isinstance(future.exception(), BrokenProcessPool) for future in done):
-        done, _ = wait(under_way)  # at once: the pool has given all of them up
-        executor.restart()
     for future in done:
-        task = under_way.pop(future)
-        yield task, read_future(future, task, executor)
+        yield under_way.pop(future), read_future(future)
 
 
-def read_future(future: Future[Graded], task: Task, executor: Executor) -> Graded | str:
-    """Return a result or its trouble; grade once more what ended with its process."""
+def read_future(future: Future[Graded]) -> Graded | str:
+    """Return a result or its trouble."""
     try:
-        again = isinstance(future.exception(), BrokenProcessPool)
-        return executor.run_alone(task.package) if again else future.result()
-    except BrokenProcessPool:
-        return "it ended the grader's own process, twice: please report it"
+        return future.result()
     except ExecutorFailed:
         raise
     except Exception as error:  # this one submission; the others go on
@@ -214,4 +206,7 @@ def read_future(future: Future[Graded], task: Task, executor: Executor) -> Grade
 
 
 def describe_error(error: Exception) -> str:
+    """Return an exception in words; some have all of them in their message."""
+    if isinstance(error, CannotTake | Exceeded | Failed):
+        return str(error)
     return f"{type(error).__name__}: {error}"

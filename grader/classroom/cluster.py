@@ -83,12 +83,6 @@ class Cluster:
         )
         return future
 
-    def restart(self) -> None:
-        pass
-
-    def run_alone(self, package: Package) -> Graded:
-        return self.submit(package).result()
-
 
 @contextmanager
 def connect(address: str, options: Options) -> Iterator[Cluster]:

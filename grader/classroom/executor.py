@@ -3,19 +3,18 @@
 Both run the same function on the same packages. A package that ends its process ends no other.
 """
 
-import multiprocessing
-import sys
 import time
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from functools import cache
+from queue import SimpleQueue
 from typing import Protocol, Self
 
 from grader.errors import Stop
 from grader.intake.found import Package
 from grader.judge.children import Worker, count_cores, start_worker
 from grader.judge.grade import Options, grade
-from grader.judge.processes import begin_process, end_all
+from grader.judge.outer import GRADING, Failed, Lost, WatchedProcess
 from grader.judge.workplace import work_folder
 from grader.report.files import as_json
 
@@ -48,56 +47,47 @@ class Executor(Protocol):
 
     def submit(self, package: Package) -> "Future[Graded]": ...
 
-    def restart(self) -> None:
-        """Start anew after a process ended, and with it all that was under way."""
-
-    def run_alone(self, package: Package) -> Graded:
-        """Grade one of those that were under way then, with nothing beside it."""
-        ...
-
 
 class ExecutorFailed(Stop):
     """The executor cannot go on; the message says why and what to do."""
 
 
 class Pool:
+    """Processes of this machine; each grades one submission after another, within its limits."""
+
     work = staticmethod(grade_package)
+    allowance = GRADING
 
     def __init__(self, options: Options, jobs: int) -> None:
         self.options, self.jobs = options, jobs or count_cores()
-        if sys.platform == "win32":
-            self.jobs = min(self.jobs, 61)  # Windows waits for no more at once
-
-    def _start(self, jobs: int) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), begin_process)
 
     def __enter__(self) -> Self:
-        self.processes = self._start(self.jobs)
+        self.processes = [WatchedProcess() for _ in range(self.jobs)]
+        self.free: SimpleQueue[WatchedProcess] = SimpleQueue()
+        for each in self.processes:
+            self.free.put(each)
+        self.threads = ThreadPoolExecutor(self.jobs)
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
-        if kind is not None:  # such as Ctrl-C
-            under_way = multiprocessing.active_children()
-            self.processes.shutdown(wait=False, cancel_futures=True)
-            end_all(under_way)
-        self.processes.shutdown(cancel_futures=True)
+        self.threads.shutdown(wait=kind is None, cancel_futures=True)
+        for each in self.processes:
+            each.close()
+        self.threads.shutdown()
 
     def capacity(self) -> int:
         return self.jobs * (1 + AHEAD)
 
     def submit(self, package: Package) -> "Future[Graded]":
+        return self.threads.submit(self.grade, package)
+
+    def grade(self, package: Package) -> Graded:
+        """Grade one in a process that is free; once more where it ended that process."""
+        process = self.free.get()
         try:
-            return self.processes.submit(self.work, package, self.options)
-        except BrokenProcessPool as error:
-            broken: Future[Graded] = Future()
-            broken.set_exception(error)
-            return broken
-
-    def restart(self) -> None:
-        self.processes.shutdown()
-        self.processes = self._start(self.jobs)
-
-    def run_alone(self, package: Package) -> Graded:
-        """Grade it in a pool of its own, which shows whether it is to blame."""
-        with self._start(1) as executor:
-            return executor.submit(self.work, package, self.options).result()
+            for _ in range(2):
+                with suppress(Lost):
+                    return process.call(self.allowance, Graded, self.work, package, self.options)
+            raise Failed("it ended the grader's own process, twice: please report it")
+        finally:
+            self.free.put(process)

@@ -30,6 +30,7 @@ from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
+from grader.judge.outer import READING, Exceeded, Failed, call_within
 from grader.player.page import fill_template
 from grader.report.files import write_whole
 from grader.source.regions import python_files
@@ -149,8 +150,10 @@ def hash_runs(text: str) -> frozenset[int]:
 
 def make_prints(package: Package, team: tuple[str, ...] = ()) -> Prints:
     """Return what is a submission's own: neither given nor the solution's wording."""
-    runs: frozenset[int] = frozenset().union(*map(hash_runs, read_texts(package).values()))
-    return Prints(package.name, runs - collect_given_runs(), team)
+    given = collect_given_runs()  # once, for all processes that are forked from here
+    texts = read_texts(package).values()
+    runs = call_within(READING, frozenset[int], lambda: frozenset().union(*map(hash_runs, texts)))
+    return Prints(package.name, runs - given, team)
 
 
 def read_prints(
@@ -162,7 +165,7 @@ def read_prints(
         if each.handed_in_by:
             continue  # the work of a group is compared once
         name = f"{label}/{each.name}" if label else each.name
-        with suppress(CannotTake):
+        with suppress(CannotTake, Exceeded, Failed):
             prints.append(replace(make_prints(pack(each), each.team), name=name))
             found[name] = each
     return found, prints
@@ -213,7 +216,11 @@ Side = dict[str, list[Line]]  # one of two submissions: lines around what both s
 def compare(first: Package, second: Package) -> tuple[Side, Side]:
     """Show what both have and nobody was given, where it stands in each."""
     common = make_prints(first).runs & make_prints(second).runs
-    return mark_lines(first, common), mark_lines(second, common)
+    return call_within(
+        READING,
+        tuple[Side, Side],
+        lambda: (mark_lines(first, common), mark_lines(second, common)),
+    )
 
 
 def mark_lines(package: Package, common: frozenset[int]) -> Side:

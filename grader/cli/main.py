@@ -30,6 +30,7 @@ from grader.errors import Stop
 from grader.judge.children import count_cores
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.outer import MOST_MEMORY, WHOLE, go_on_within
 from grader.judge.result import Result
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
@@ -124,6 +125,9 @@ def grade_command(
     todos = check_todos(todo, taken)
     options = Options(complete, isolation, todos, seed, trusted=own, course=taken)
     output = Output(out, json, at_least)
+    jobs_of_one = jobs or count_cores()
+    if path is not None and not class_ and not own and context.obj is not None:
+        context.obj(replace(WHOLE, memory=MOST_MEMORY * jobs_of_one))
     if path is None:
         demonstrate(options)
     elif class_:
@@ -132,9 +136,9 @@ def grade_command(
 
         grade_folder(path, ClassOptions(options, out, jobs, roster, adjust, cluster))
     elif ci is not None:
-        grade_in_ci(path, ci, output, replace(options, jobs=jobs or count_cores()))
+        grade_in_ci(path, ci, output, replace(options, jobs=jobs_of_one))
     else:
-        options = replace(options, jobs=jobs or count_cores())
+        options = replace(options, jobs=jobs_of_one)
         with open_path(path, taken.modules) as folder:
             replays = None if out is None else out / folder.resolve().name
             result = grade_and_show(folder, options, replays)
@@ -283,4 +287,4 @@ def make_app() -> typer.Typer:
 def main() -> None:
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
-    make_app()(prog_name="grader")
+    make_app()(prog_name="grader", obj=go_on_within)

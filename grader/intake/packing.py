@@ -5,6 +5,7 @@ import re
 import shutil
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from functools import partial
 from io import BufferedReader
 from itertools import islice
 from pathlib import Path, PurePosixPath
@@ -30,6 +31,7 @@ from grader.intake.places import (
     list_modules,
 )
 from grader.intake.systems import SYSTEMS
+from grader.judge.outer import READING, Exceeded, Failed, Lost, call_within
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
 from grader.judge.workplace import work_folder
@@ -78,9 +80,18 @@ def is_laid_out(path: Path, asked: Collection[str] = ()) -> bool:
 def pack(found: Found, asked: Collection[str] = ()) -> Package:
     """Read what may be taken of a submission, wherever in it the programs lie.
 
-    Raises CannotTake where it has none of the programs asked for, or cannot be read: that is not
-    worth 0 points but needs manual review.
+    Raises CannotTake where it has none of the programs asked for, or cannot be read within the
+    limits: that is not worth 0 points but needs manual review.
     """
+    try:
+        work = partial(read_package, found, asked)
+        return call_within(READING, Package, work, (ManyPrograms, CannotTake))
+    except (Exceeded, Failed, Lost) as error:
+        raise CannotTake(str(error)) from error
+
+
+def read_package(found: Found, asked: Collection[str] = ()) -> Package:
+    """Read it in this process."""
     bounds, files = Bounds(), []
     asked = asked or list_modules()
     try:

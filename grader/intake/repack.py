@@ -25,8 +25,8 @@ except ImportError:  # Windows: the time that the parent waits is the only limit
 MAX_CONTENT = 20 * 1024**2  # bytes of one file: no submission may have more in all
 MAX_UNPACKED = 200 * 1024**2  # of one archive, unpacked
 MAX_MEMBERS = 200_000
-MEMORY = 2 * 1024**3  # bytes
-SECONDS = 60  # of the processor
+MEMORY = 768 * 1024**2  # bytes
+SECONDS = 12  # of the processor
 PEEK = 8  # bytes that tell a format
 PART = "this .rar is one part of several: ask for one zip"
 REFUSED = 3  # exit status: what is printed is a sentence for people

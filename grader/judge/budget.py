@@ -73,7 +73,8 @@ class Budget:
     @property
     def has_more(self) -> bool:
         """Return whether time is left for questions that decide about words and pictures alone."""
-        return self.words_cpu < WORDS_CPU and self.words_rest < WORDS_REST
+        left = END_CPU - sum(self.cpu.values())
+        return self.words_cpu < min(WORDS_CPU, left) and self.words_rest < WORDS_REST
 
     @property
     def cut(self) -> str:

@@ -7,6 +7,7 @@ import time
 from grader.classroom.executor import Graded, Pool
 from grader.intake.found import Package
 from grader.judge.grade import Options
+from grader.judge.outer import Allowance
 from grader.judge.result import Result, TodoResult
 from grader.report.files import as_json
 
@@ -20,13 +21,30 @@ def result_of(package: Package) -> bytes:
 
 def stand_in(package: Package, options: Options) -> Graded:
     """Instead of grading: what some submissions do to the process that grades them."""
-    if package.name.startswith("killer"):
+    kind, held = package.name.partition("-")[0], []
+    if kind.startswith("killer"):
         os.kill(os.getpid(), signal.SIGKILL)
-    if package.name.startswith("raiser"):
+    if kind == "raiser":
         raise ValueError("the judge fell over")
-    time.sleep(0.05)
+    if kind == "worker" and os.fork():
+        os.wait()  # the work is another process's
+    while kind in ("looper", "worker"):
+        pass
+    while kind == "eater":
+        held.append(bytearray(b"x") * (1 << 20))
+        time.sleep(0.001)
+    if kind == "gulper":
+        held.append(bytes(1 << 40))
+    if kind == "sleeper":
+        time.sleep(1000)
+    print("what is printed is in no message", flush=True)
     return result_of(package), 0.05
 
 
 class FragilePool(Pool):
     work = staticmethod(stand_in)
+    allowance = Allowance("grading it", cpu=2, memory=200)
+
+
+class ImpatientPool(FragilePool):
+    allowance = Allowance("grading it", cpu=100, seconds=1)

@@ -4,6 +4,7 @@ import ast
 import csv
 import io
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -16,7 +17,7 @@ from pathlib import Path
 import psutil
 import pytest
 from command_line import run_grader
-from fragile_pool import FragilePool, result_of
+from fragile_pool import FragilePool, ImpatientPool, result_of
 from rich.console import Console
 
 from grader.bank.members import add_odd_names
@@ -284,14 +285,48 @@ def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypa
 
 
 def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
-    for name in ("killer", "killer2", "raiser", *(f"more{n}" for n in range(3))):
+    for name in ("killer", "killer-2", "raiser", *(f"more{n}" for n in range(3))):
         shutil.copytree(classroom / "ann", classroom / name)
     with open_class(classroom) as intake, FragilePool(Options(), 2) as pool:
         run = grade_class(start(intake, classroom), pool, QUIET)
     troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
-    assert troubles.keys() == {"killer", "killer2", "raiser"}
+    assert troubles.keys() == {"killer", "killer-2", "raiser"}
     assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
     assert run.counts == {"graded": 6, "kept": 0, "trouble": 3}
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="one of them forks")
+def test_a_judge_that_reaches_a_limit_leaves_the_others_as_they_were(classroom, tmp_path):
+    limits = {
+        "looper": "2 s of processor time",
+        "worker": "2 s of processor time",
+        "eater": "200 MB of memory",
+        "gulper": "200 MB of memory",
+    }
+    nine = [*limits, "looper-2", "eater-2", "gulper-2", "killer", "raiser"]
+    before = {found.name: result_of(pack(found)) for found in list_class(classroom)}
+    for name in nine:
+        shutil.copytree(classroom / "ann", classroom / name)
+    with open_class(classroom) as intake, FragilePool(Options(), 2) as pool:
+        run = grade_class(start(intake, classroom), pool, QUIET)
+    assert len(run.outcomes) == 12 and run.counts["graded"] == 3
+    troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
+    assert troubles.keys() == set(nine)
+    for name, limit in limits.items():
+        assert troubles[name] == f"needs manual review: grading it takes more than {limit}"
+    for name, content in before.items():
+        assert run.book.locate_result(name).read_bytes() == content
+
+
+def test_so_does_one_that_waits_for_ever():
+    with ImpatientPool(Options(), 1) as pool:
+        future = pool.submit(Package("sleeper", []))
+        assert "grading it takes more than 1 s" in str(future.exception())
+
+
+def list_class(classroom: Path) -> list[Found]:
+    with open_class(classroom) as intake:
+        return intake.found
 
 
 def test_an_executor_that_is_gone_ends_the_class_and_what_is_graded_stays(classroom):

@@ -429,7 +429,7 @@ def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
     real = archives.open_archive
     monkeypatch.setattr(archives, "open_archive", lambda *args: opened.append(1) or real(*args))
     with pytest.raises(CannotTake, match="more than 3 archives in one submission"):
-        pack(handed_in(classroom, zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})))
+        read_package(handed_in(classroom, zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})))
     assert len(opened) == 3
     monkeypatch.setattr(archives, "MAX_ARCHIVES", 40)
     many = zipped({f"{n}.zip": zipped({f"{m}.txt": "" for m in range(20)}) for n in range(30)})

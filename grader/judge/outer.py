@@ -1,0 +1,426 @@
+"""Hold a submission, and the judge that reads it, within one outer limit.
+
+A child has limits from its start. What the judge computes from a submission's bytes and names runs
+in a process as well, and another one of ours measures that from outside, with all that it started:
+its processor time, its memory and the time on the clock. A submission that reaches a limit needs
+manual review; the rest of its class goes on.
+"""
+
+import os
+import pickle
+import queue
+import select
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import IO, Any, NoReturn, TypeVar
+
+import msgspec
+import psutil
+from msgspec import Struct
+
+from grader.errors import Stop
+from grader.judge.children import command
+from grader.judge.workplace import work_folder
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
+
+MEGABYTE = 1024 * 1024
+READING_CPU, GRADING_CPU = 15.0, 105.0  # s of processor time; both together make two minutes
+MOST_MEMORY = 1024  # MB, of all processes of a submission; twice as much of addresses
+MOST_SECONDS = 1800.0  # s on the clock: the last resort, where nothing else ends it
+LOOK_SECONDS = 0.5
+SECONDS_TO_END = 5.0  # s that a process has to put away what it holds
+WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere what is read is read without limits
+TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
+PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+TELLS_CHILDREN = Path(f"/proc/self/task/{os.getpid()}/children").exists()
+LENGTH = struct.Struct(">Q")
+
+Reply = TypeVar("Reply")
+Family = dict[int, tuple[float, int]]  # seconds and bytes, by number of process
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """Limits for one call: processor seconds, MB of memory, seconds on the clock."""
+
+    what: str  # such as "grading it"
+    cpu: float
+    memory: int = MOST_MEMORY
+    seconds: float = MOST_SECONDS
+
+
+READING = Allowance("reading it", READING_CPU)
+WHOLE = Allowance("grading it", READING_CPU + GRADING_CPU)
+GRADING = Allowance("grading it", GRADING_CPU)
+HELD: list[Allowance] = []  # the limits within which this process is
+
+
+class Exceeded(Stop):
+    """A submission reached an outer limit; the message says which."""
+
+    cannot = "grade"
+
+
+class Lost(Exception):
+    """The process ended without an answer, and nobody ended it."""
+
+
+class Failed(Exception):
+    """What was called raised an exception; the message has its type and its words."""
+
+
+class Answer(Struct, tag=True):
+    """The value that a call returned, as MessagePack."""
+
+    value: bytes
+
+
+class Refusal(Struct, tag=True):
+    """The exception that a call raised: the name of its class, and its words."""
+
+    error: str
+    words: str
+
+
+reply_decoder = msgspec.msgpack.Decoder(Answer | Refusal)
+
+
+# ---------------------------------------------------------------- measuring
+
+
+class Watch:
+    """Measures a process and all that it started, from now on, against an allowance."""
+
+    def __init__(self, pid: int, allowance: Allowance) -> None:
+        self.pid, self.allowance = pid, allowance
+        self.began = time.monotonic()
+        self.before = sum(cpu for cpu, _ in measure_family(pid).values())
+
+    def look(self) -> str:
+        """Return why it must end; empty while it may go on."""
+        allowance, family = self.allowance, measure_family(self.pid)
+        if sum(cpu for cpu, _ in family.values()) - self.before > allowance.cpu:
+            return say_limit(allowance, f"{allowance.cpu:g} s of processor time")
+        if sum(memory for _, memory in family.values()) > allowance.memory * MEGABYTE:
+            return say_limit(allowance, f"{allowance.memory} MB of memory")
+        if time.monotonic() - self.began > allowance.seconds:
+            return say_limit(allowance, f"{allowance.seconds:g} s")
+        return ""
+
+
+def say_limit(allowance: Allowance, limit: str) -> str:
+    return f"needs manual review: {allowance.what} takes more than {limit}"
+
+
+def measure_family(pid: int) -> Family:
+    """Return the processor seconds and the bytes of a process and of all that it started.
+
+    Those that have ended count with the process that waited for them. Pages that a process shares
+    with others are not its own.
+    """
+    if TELLS_CHILDREN:
+        return dict(read_family(pid))
+    found: Family = {}
+    with suppress(psutil.Error):
+        top = psutil.Process(pid)
+        for each in [top, *top.children(recursive=True)]:
+            with suppress(psutil.Error):
+                found[each.pid] = sum(each.cpu_times()[:4]), each.memory_info().rss
+    return found
+
+
+def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
+    """Yield the same of each process, as Linux tells it; see proc(5)."""
+    waiting = [pid]
+    while waiting:
+        process = Path(f"/proc/{waiting.pop()}")
+        with suppress(OSError):
+            about = (process / "stat").read_bytes().rpartition(b")")[2].split()
+            pages = (process / "statm").read_bytes().split()
+            memory = (int(pages[1]) - int(pages[2])) * PAGE
+            yield int(process.name), (sum(map(int, about[11:15])) / TICKS, memory)
+            for task in os.listdir(process / "task"):
+                children = (process / "task" / task / "children").read_bytes()
+                waiting += map(int, children.split())
+
+
+def end_family(pid: int) -> None:
+    """Kill a process and all that it started."""
+    with suppress(psutil.NoSuchProcess):
+        top = psutil.Process(pid)
+        for each in [top, *top.children(recursive=True)]:
+            with suppress(psutil.NoSuchProcess):
+                each.kill()
+
+
+def limit_addresses(allowance: Allowance) -> None:
+    """Let the kernel refuse what would be allocated between two looks."""
+    if resource is not None and sys.platform.startswith("linux"):
+        most = 2 * allowance.memory * MEGABYTE
+        with suppress(ValueError, OSError):
+            resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+# ---------------------------------------------------------------- one call, in a fork
+
+
+def call_within(
+    allowance: Allowance,
+    kind: Any,
+    work: Callable[[], Reply],
+    errors: tuple[type[Exception], ...] = (),
+) -> Reply:
+    """Do `work` in a process forked for it, and return its value, which is of this kind.
+
+    Raises Exceeded at a limit, one of `errors` if `work` does, and Failed for any other exception.
+    Where nobody can watch a fork, or somebody watches already, `work` is done here.
+    """
+    if not WATCHES_FORKS or HELD:
+        return work()
+    with work_folder() as place:
+        ours, theirs = os.pipe()
+        pid = os.fork()
+        if not pid:
+            try:
+                tempfile.tempdir = str(place)
+                limit_addresses(allowance)
+                with open(theirs, "wb") as out:
+                    out.write(answer(work))
+            finally:
+                os._exit(0)
+        os.close(theirs)
+        try:
+            reply = hear(ours, Watch(pid, allowance))
+        finally:
+            os.close(ours)
+            end_family(pid)
+            os.waitpid(pid, 0)
+    returned: Reply = read_reply(reply, allowance, kind, errors)
+    return returned
+
+
+def hear(descriptor: int, watch: Watch) -> bytes:
+    """Return all that a process writes until it ends; raises Exceeded at a limit."""
+    heard = bytearray()
+    while True:
+        if not select.select([descriptor], [], [], LOOK_SECONDS)[0]:
+            if why := watch.look():
+                raise Exceeded(why)
+        elif part := os.read(descriptor, MEGABYTE):
+            heard += part
+        else:
+            return bytes(heard)
+
+
+def answer(work: Callable[[], object]) -> bytes:
+    """Return the message of what was computed, or of the exception that was raised instead."""
+    reply: Answer | Refusal
+    try:
+        reply = Answer(msgspec.msgpack.encode(work()))
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:
+        reply = Refusal(type(error).__name__, str(error))
+    return msgspec.msgpack.encode(reply)
+
+
+def read_reply(
+    message: bytes, allowance: Allowance, kind: Any, errors: tuple[type[Exception], ...] = ()
+) -> Any:
+    """Return the value in a message, or raise what it tells."""
+    if not message:
+        raise Lost
+    reply = reply_decoder.decode(message)
+    if isinstance(reply, Answer):
+        return msgspec.msgpack.decode(reply.value, type=kind)
+    if reply.error == "MemoryError":
+        raise Exceeded(say_limit(allowance, f"{allowance.memory} MB of memory"))
+    error = next((each for each in errors if each.__name__ == reply.error), None)
+    raise error(reply.words) if error else Failed(f"{reply.error}: {reply.words}")
+
+
+# ---------------------------------------------------------------- many calls, one after another
+
+
+class WatchedProcess:
+    """A process of ours for calls that leave something to use again, such as a warm process.
+
+    It is started anew after a call that reached a limit. Its temporary files are in a folder that
+    ends with this object.
+    """
+
+    def __init__(self) -> None:
+        self.process: subprocess.Popen[bytes] | None = None
+        self.stack = ExitStack()
+        self.why = ""  # it was ended
+        self.closed = False
+
+    def start(self) -> "subprocess.Popen[bytes]":
+        place = self.stack.enter_context(work_folder())
+        place.chmod(0o711)  # a child that is a user of its own passes through
+        process = subprocess.Popen(
+            command("grader.judge.outer", str(place)),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+        self.send(process, sys.path)
+        return process
+
+    def send(self, process: "subprocess.Popen[bytes]", what: object) -> None:
+        assert process.stdin is not None
+        write_message(process.stdin, pickle.dumps(what))
+
+    def call(
+        self,
+        allowance: Allowance,
+        kind: Any,
+        function: Callable[..., Reply],
+        *args: object,
+    ) -> Reply:
+        """Call an importable function there; raises as `call_within`, and Lost."""
+        if self.closed:
+            raise Failed("stopped before the end")
+        self.process = self.process or self.start()
+        process, done = self.process, threading.Event()
+        watch = Watch(process.pid, allowance)
+        threading.Thread(target=self.end_at_limit, args=(watch, done), daemon=True).start()
+        try:
+            with suppress(OSError):  # it is gone, and gives no reply
+                self.send(process, (allowance, function, args))
+            assert process.stdout is not None
+            reply = read_message(process.stdout)
+        finally:
+            done.set()
+        if not reply:
+            self.end()
+            raise Exceeded(self.why) if self.why else Lost
+        returned: Reply = read_reply(reply, allowance, kind)
+        return returned
+
+    def end_at_limit(self, watch: Watch, done: threading.Event) -> None:
+        """Look at the process until the call has ended, and end it at a limit."""
+        while not done.wait(LOOK_SECONDS):
+            if why := watch.look():
+                self.why = why
+                end_family(watch.pid)
+                return
+
+    def close(self) -> None:
+        """End it for good: a call that is under way ends, too."""
+        self.closed = True
+        self.end()
+
+    def end(self) -> None:
+        """End the process with all that it started, and remove what it wrote."""
+        process, self.process = self.process, None
+        if process is not None:
+            end_family(process.pid)
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                with suppress(OSError):
+                    pipe.close() if pipe else None
+        self.stack.close()
+
+
+def write_message(pipe: IO[bytes], message: bytes) -> None:
+    pipe.write(LENGTH.pack(len(message)) + message)
+    pipe.flush()
+
+
+def read_message(pipe: IO[bytes]) -> bytes:
+    """Return the next message; empty where the other side has ended."""
+    head = pipe.read(LENGTH.size)
+    length = LENGTH.unpack(head)[0] if len(head) == LENGTH.size else 0
+    message = pipe.read(length)
+    return message if len(message) == length else b""
+
+
+def serve(place: str) -> None:
+    """Do what the other side asks, until it closes or ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    tempfile.tempdir = place
+    out = open(os.dup(1), "wb")  # noqa: SIM115  # what is printed must be in no message
+    os.dup2(2, 1)
+    calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    threading.Thread(target=take_calls, args=(calls,), daemon=True).start()
+    sys.path[:] = pickle.loads(calls.get())
+    while True:
+        allowance, function, args = pickle.loads(calls.get())
+        limit_addresses(allowance)
+        write_message(out, answer(partial(function, *args)))
+
+
+def take_calls(calls: "queue.SimpleQueue[bytes]") -> NoReturn:
+    """Take calls as they come; when the other side has ended, end at once."""
+    while message := read_message(sys.stdin.buffer):
+        calls.put(message)
+    os._exit(1)
+
+
+# ---------------------------------------------------------------- a whole command
+
+
+def go_on_within(allowance: Allowance) -> None:
+    """Go on in a child process, which this one watches; where that is possible.
+
+    This process returns no more: it ends as the child does, and hands on signals that end it.
+    Raises Exceeded here, when the child was ended at a limit.
+    """
+    if not WATCHES_FORKS:
+        return
+    (watched, ours), (over, theirs) = os.pipe(), os.pipe()
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    pid = os.fork()
+    if not pid:
+        os.close(ours)
+        os.close(over)
+        os.setpgid(0, 0)  # Ctrl-C comes from the one that watches, and once
+        signal.signal(signal.SIGTTOU, signal.SIG_IGN)  # it may write to the terminal all the same
+        limit_addresses(allowance)
+        HELD.append(allowance)
+        threading.Thread(target=follow, args=(watched,), daemon=True).start()
+        return
+    os.close(watched)
+    os.close(theirs)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, lambda number, _: os.kill(pid, number))
+    os._exit(wait_for(pid, over, Watch(pid, allowance)))
+
+
+def wait_for(pid: int, over: int, watch: Watch) -> int:
+    """Return the exit status of a child when `over` is at its end; raises Exceeded at a limit."""
+    while not select.select([over], [], [], LOOK_SECONDS)[0]:
+        if why := watch.look():
+            os.kill(pid, signal.SIGTERM)  # it may still put away what it holds
+            select.select([over], [], [], SECONDS_TO_END)
+            end_family(pid)
+            os.waitpid(pid, 0)
+            raise Exceeded(why)
+    status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+    return status if status >= 0 else 128 - status
+
+
+def follow(watched: int) -> NoReturn:
+    """End with the process that watches."""
+    os.read(watched, 1)
+    os._exit(1)
+
+
+if __name__ == "__main__":
+    serve(sys.argv[1])
