@@ -20,7 +20,7 @@ from grader.intake import archives
 from grader.intake.found import CannotTake, Found
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
-from grader.intake.packing import open_submission, pack
+from grader.intake.packing import open_submission, pack, read_package
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge import submission
@@ -429,7 +429,8 @@ def test_many_archives_have_the_bounds_of_one(classroom, monkeypatch):
     real = archives.open_archive
     monkeypatch.setattr(archives, "open_archive", lambda *args: opened.append(1) or real(*args))
     with pytest.raises(CannotTake, match="more than 3 archives in one submission"):
-        read_package(handed_in(classroom, zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})))
+        many = zipped({f"{n}.zip": zipped({"a.txt": ""}) for n in range(40)})
+        read_package(handed_in(classroom, many))
     assert len(opened) == 3
     monkeypatch.setattr(archives, "MAX_ARCHIVES", 40)
     many = zipped({f"{n}.zip": zipped({f"{m}.txt": "" for m in range(20)}) for n in range(30)})

@@ -40,7 +40,8 @@ def started(place: Path, *arguments: str) -> "subprocess.Popen[str]":
         preexec_fn=hear_all_signals,
     )
     for _ in range(60_000):
-        if any(place.glob(f"{PREFIX}*/tmp*")):  # a child has been asked for
+        work = f"{PREFIX}*/tmp*"  # a child has been asked for; of a class, one folder deeper
+        if any(place.glob(work)) or any(place.glob(f"{PREFIX}*/{work}")):
             return process
         if process.poll() is not None:
             break
