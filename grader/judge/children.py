@@ -63,6 +63,7 @@ answer_decoder = msgspec.msgpack.Decoder(Answered)
 
 BOOT = """
 import runpy, sys
+sys.orig_argv[:] = ["python"]
 sys.path.insert(0, {root!r})
 sys.argv[1:] = {args!r}
 runpy.run_module({module!r}, run_name="__main__")
@@ -288,8 +289,35 @@ class Worker(Protocol):
 
 def command(module: str, *args: str) -> list[str]:
     """Python in isolated mode: no folder of a submission, no variable of a student is looked at."""
+    return [sys.executable, "-I", "-c", program(module, *args)]
+
+
+def program(module: str, *args: str) -> str:
     root = str(Path(__file__).parents[2])
-    return [sys.executable, "-I", "-c", BOOT.format(root=root, args=list(args), module=module)]
+    return BOOT.format(root=root, args=list(args), module=module)
+
+
+def start_clean(
+    module: str, theirs: socket.socket, without: Sequence[str], out: int | None = None
+) -> "subprocess.Popen[bytes]":
+    """Start Python anew with one end of a channel, and nothing of ours in its arguments.
+
+    A child finds the arguments and variables of its process in memory. So what is to be run comes
+    by standard input. `out`: for what it prints, as of Popen.
+    """
+    process = subprocess.Popen(
+        [sys.executable, "-I", "-"],
+        pass_fds=[theirs.fileno()],
+        stdin=subprocess.PIPE,
+        stdout=out,
+        stderr=out,
+        start_new_session=True,
+        env=clean_environment(),
+    )
+    assert process.stdin is not None
+    with suppress(OSError), process.stdin as boot:  # it is gone already: to be missed later
+        boot.write(program(module, str(theirs.fileno()), *without).encode())
+    return process
 
 
 def explain(cpu_seconds: int, code: int | None) -> str:
@@ -320,13 +348,7 @@ class WarmWorker:
     def _start(self) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
-            self.process = subprocess.Popen(
-                command("grader.worker.warm", str(theirs.fileno()), *self.without),
-                pass_fds=[theirs.fileno()],
-                stdin=subprocess.DEVNULL,
-                start_new_session=True,
-                env=clean_environment(),
-            )
+            self.process = start_clean("grader.worker.warm", theirs, self.without)
         self.control = Channel(ours)
         self.loading = True
         self.layers: list[str] = []  # what shuts all children in, once one was opened
@@ -471,15 +493,7 @@ class SpawnWorker:
             process.stdin.write(theirs.share(process.pid))
             process.stdin.close()
             return process
-        return subprocess.Popen(
-            command("grader.worker.spawned", str(theirs.fileno()), *self.without),
-            pass_fds=[theirs.fileno()],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-            env=clean_environment(),
-        )
+        return start_clean("grader.worker.spawned", theirs, self.without, subprocess.DEVNULL)
 
     def pid_of(self, child: Child) -> int:
         return child.ready.pid
@@ -527,8 +541,11 @@ def reaped_seconds() -> float:
 
 
 def clean_environment() -> dict[str, str]:
-    """Return an environment without the instructor's tokens, paths and Python settings."""
-    kept = ("PATH", "SYSTEMROOT", "LD_LIBRARY_PATH")
+    """Return an environment without the instructor's tokens, paths and Python settings.
+
+    Python may need the path of libraries to start; the warm process wipes it out of its memory.
+    """
+    kept = ("PATH", "SYSTEMROOT") if sys.platform == "win32" else ("LD_LIBRARY_PATH",)
     return {name: os.environ[name] for name in kept if name in os.environ} | ENVIRONMENT
 
 

@@ -9,6 +9,7 @@ calls in filter.py.
 """
 
 import ctypes
+import itertools
 import os
 import platform
 import re
@@ -20,7 +21,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from grader.protocol import ChildSetup, Limits
+from grader.protocol import ENVIRONMENT, ChildSetup, Limits
 from grader.worker.filter import packed
 from grader.worker.root import (
     CLONE_NEWNS,
@@ -42,7 +43,7 @@ PR_SET_NO_NEW_PRIVS = 38
 PR_SET_CHILD_SUBREAPER = 36
 KEYCTL, KEYCTL_JOIN_SESSION_KEYRING = {"x86_64": 250, "aarch64": 219}, 1
 CLONE_NEWIPC, CLONE_NEWUSER = 0x08000000, 0x10000000
-CLONE_NEWPID, CLONE_NEWNET = 0x20000000, 0x40000000
+CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWUTS = 0x20000000, 0x40000000, 0x04000000
 
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
@@ -91,6 +92,7 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
         libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET)
     ):
         layers.append("network-namespace")
+        forget_host_name()
     if "pid-namespace" not in without and libc().unshare(CLONE_NEWPID) == 0:
         layers.append("pid-namespace")
         first = os.fork()
@@ -100,6 +102,24 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
         bound_namespace()
     return layers
+
+
+def forget_host_name() -> None:
+    """Give this process and its children another host name than the machine's, where allowed."""
+    if libc().unshare(CLONE_NEWUTS) == 0:
+        libc().sethostname(b"check", 5)
+        libc().setdomainname(b"", 0)
+
+
+def wipe_variables() -> None:
+    """Overwrite the values of variables that are not the kit's, where they lie in memory."""
+    if not sys.platform.startswith("linux"):
+        return
+    places = ctypes.POINTER(ctypes.c_void_p).in_dll(libc(), "environ")
+    for place in itertools.takewhile(bool, map(places.__getitem__, itertools.count())):
+        name, _, value = ctypes.string_at(place).partition(b"=")
+        if name.decode("ascii", "replace") not in ENVIRONMENT:
+            ctypes.memset(place + len(name) + 1, ord("x"), len(value))
 
 
 def bound_namespace() -> None:

@@ -11,6 +11,7 @@ import msgspec
 
 from grader.protocol import Channel, ChildSetup
 from grader.worker.child import serve
+from grader.worker.confinement import wipe_variables
 
 
 def connect() -> Channel:
@@ -23,5 +24,6 @@ def connect() -> Channel:
 
 
 if __name__ == "__main__":
+    wipe_variables()
     channel = connect()
     serve(channel, msgspec.msgpack.decode(channel.receive(), type=ChildSetup), sys.argv[2:])

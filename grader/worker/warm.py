@@ -22,7 +22,7 @@ import pymunk
 
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve, tidy_environment
-from grader.worker.confinement import isolate_server, prepare, write
+from grader.worker.confinement import isolate_server, prepare, wipe_variables, write
 from grader.worker.imports import at_hand, put_away
 
 YOUNG = 10_000  # new objects, after which a child looks for garbage: seldom, for most end before
@@ -37,6 +37,7 @@ def main(control_fd: int, without: list[str]) -> None:
     The first message says which layers of isolation all children are in already. Those in `without`
     are left out, there and in the children.
     """
+    wipe_variables()
     layers = isolate_server(control_fd, without)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")

@@ -79,6 +79,14 @@ def capabilities():
     sets = ctypes.create_string_buffer(24)
     libc.capget((0x20080522).to_bytes(4, "little") + bytes(4), sets)
     return sum(sets.raw)
+def host(): return " ".join(os.uname()[1:2]) + libc_name()
+def libc_name():
+    name = ctypes.create_string_buffer(64)
+    libc.gethostname(name, 64)
+    return " " + name.value.decode()
+def arguments():
+    import sys
+    return " ".join([*sys.orig_argv, *sys.argv[1:]])
 def signal_all():
     os.kill(-1, 0)
     return True
@@ -376,6 +384,47 @@ def test_no_port_can_be_opened(probe: Prober):
 
 
 # ---------------------------------------------------------------- without
+
+
+@pytest.mark.parametrize("spawn", [False, True], ids=["fork", "spawn"])
+def test_no_argument_or_variable_of_the_instructor_is_in_a_child(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, spawn: bool
+):
+    monkeypatch.setenv("PATH", f"{os.environ['PATH']}:/canary-of-paths")
+    monkeypatch.setenv("TOKEN", "canary-of-tokens")
+    monkeypatch.setenv("LD_LIBRARY_PATH", "/canary-of-libraries")
+    worker = start_worker(spawn)
+    try:
+        prober = Prober(tmp_path, worker)
+        said = prober("arguments")
+        assert said.split()[0] == "python" and str(KIT) not in said
+        pid = worker.pid_of(prober.children[-1])
+        arguments = Path(f"/proc/{pid}/cmdline").read_bytes()
+        assert str(KIT).encode() not in arguments.partition(b"\0")[2]
+        if os.geteuid() == 0:  # an ordinary user may not look into a child
+            assert b"canary" not in Path(f"/proc/{pid}/environ").read_bytes()
+            memory = read_memory(pid)
+            assert b"canary-of-paths" not in memory and b"canary-of-tokens" not in memory
+        prober.children[-1].end()
+    finally:
+        worker.close()
+
+
+def read_memory(pid: int) -> bytes:
+    """The stack and the heap of a process."""
+    found = b""
+    with open(f"/proc/{pid}/mem", "rb") as memory:
+        for line in Path(f"/proc/{pid}/maps").read_text("ascii").splitlines():
+            if "rw" in line and (line.endswith(("[stack]", "[heap]")) or line.split()[4] == "0"):
+                first, last = (int(each, 16) for each in line.split()[0].split("-"))
+                memory.seek(first)
+                found += memory.read(last - first)
+    return found
+
+
+@needs("network-namespace")
+def test_the_name_of_the_machine_is_not_told(probe: Prober):
+    assert probe("host") == "check check"
 
 
 def test_strict_refuses_where_files_or_network_are_open(monkeypatch: pytest.MonkeyPatch):
