@@ -1,9 +1,11 @@
-"""Refuse system calls of a child: a filter of seccomp(2), for x86-64 and aarch64.
+"""Let a child make the system calls that honest programs make, and no others.
 
-It needs no right, no library and no namespace, so it also holds in a container that refuses them.
-What is refused answers "operation not permitted" (EPERM), so that honest code sees an exception.
-What came after the last call that the tables know answers "function not implemented" (ENOSYS), as
-an older kernel would: what nobody has looked at stays shut.
+A filter of seccomp(2), for x86-64 and aarch64. It needs no right, no library and no namespace, so
+it also holds in a container that refuses them. The calls on its lists are those that Python, its
+libraries and the right submissions of the bank were seen to make, and their nearest kin. All others
+answer "operation not permitted" (EPERM), so that honest code sees an exception. What came after the
+last call that the tables know answers "function not implemented" (ENOSYS), as an older kernel
+would.
 
 The filter is a program for the kernel's classic BPF machine. It gets the fields of struct
 seccomp_data: the call's number, the architecture, and six arguments. The numbers of calls are those
@@ -27,219 +29,153 @@ CLONE_THREAD = 0x00010000
 CLONE_NEW = 0x7E020000  # every namespace that clone could make
 AF_UNIX = 1
 
-# What clone3 is asked lies in memory, where no filter sees it: told ENOSYS, the C library asks
-# clone. Python's threads start, processes do not: see `checked`.
-UNSEEN = {"clone3": (435, 435)}
+# Some calls are told that they are not there, so that the C library takes others. What clone3 and
+# openat2 are asked lies in memory, where no filter sees it; statx tells the numbers of mounts, on
+# which the whole machine counts.
+UNSEEN = {"clone3": (435, 435), "openat2": (437, 437), "statx": (332, 291)}
 LAST = 450  # set_mempolicy_home_node: later calls are as good as unknown
 
-# No process but this one: a flood of them starves every other grade, and one that is left writes
-# marks later.
-PROCESSES = {
-    "fork": (57, None),
-    "vfork": (58, None),
-    "execve": (59, 221),
-    "execveat": (322, 281),
+# Files that are open, and names in the child's own folders: walls of other kinds say which. Nothing
+# changes their modes, owners, times or attributes: each would be a message to a later check.
+FILES = {
+    "read": (0, 63),
+    "write": (1, 64),
+    "readv": (19, 65),
+    "writev": (20, 66),
+    "pread64": (17, 67),
+    "pwrite64": (18, 68),
+    "preadv": (295, 69),
+    "pwritev": (296, 70),
+    "lseek": (8, 62),
+    "open": (2, None),
+    "openat": (257, 56),
+    "creat": (85, None),
+    "close": (3, 57),
+    "close_range": (436, 436),
+    "stat": (4, None),
+    "fstat": (5, 80),
+    "lstat": (6, None),
+    "newfstatat": (262, None),
+    "fstatat": (None, 79),
+    "access": (21, None),
+    "faccessat": (269, 48),
+    "faccessat2": (439, 439),
+    "readlink": (89, None),
+    "readlinkat": (267, 78),
+    "getdents": (78, None),
+    "getdents64": (217, 61),
+    "getcwd": (79, 17),
+    "chdir": (80, 49),
+    "fchdir": (81, 50),
+    "mkdir": (83, None),
+    "mkdirat": (258, 34),
+    "rmdir": (84, None),
+    "rename": (82, None),
+    "renameat": (264, 38),
+    "renameat2": (316, 276),
+    "unlink": (87, None),
+    "unlinkat": (263, 35),
+    "truncate": (76, 45),
+    "ftruncate": (77, 46),
+    "fallocate": (285, 47),
+    "fsync": (74, 82),
+    "fdatasync": (75, 83),
+    "sendfile": (40, 71),
+    "copy_file_range": (326, 285),
+    "umask": (95, 166),
+    "dup": (32, 23),
+    "dup2": (33, None),
+    "dup3": (292, 24),
 }
-# No other process is traced, signalled or slowed down, and no limit moved.
-OTHERS = {
-    "ptrace": (101, 117),
-    "process_vm_readv": (310, 270),
-    "process_vm_writev": (311, 271),
-    "process_madvise": (440, 440),
-    "process_mrelease": (448, 448),
-    "kcmp": (312, 272),
-    "migrate_pages": (256, 238),
-    "move_pages": (279, 239),
-    "pidfd_open": (434, 434),
-    "pidfd_getfd": (438, 438),
-    "pidfd_send_signal": (424, 424),
-    "tkill": (200, 130),
-    "rt_sigqueueinfo": (129, 138),
-    "rt_tgsigqueueinfo": (297, 240),
-    "setpriority": (141, 140),
-    "ioprio_set": (251, 30),
-    "sched_setaffinity": (203, 122),
-    "sched_setattr": (314, 274),
-    "sched_setparam": (142, 118),
-    "sched_setscheduler": (144, 119),
-    "setrlimit": (160, 164),
-}
-# No address of any family, vsock and sockets with a path included; no descriptor is handed over.
-# The child's own channel is open already, and reading and writing suffice for it.
-SOCKETS = {
-    "socket": (41, 198),
-    "bind": (49, 200),
-    "connect": (42, 203),
-    "listen": (50, 201),
-    "accept": (43, 202),
-    "accept4": (288, 242),
-    "sendmsg": (46, 211),
-    "sendmmsg": (307, 269),
-    "recvmsg": (47, 212),
-    "recvmmsg": (299, 243),
-    "setsockopt": (54, 208),
-}
-# Nothing that outlives the process or counts towards no limit of it: memory of System V, message
-# queues, semaphores, files without a name, keys.
-LASTING = {
-    "shmget": (29, 194),
-    "shmat": (30, 196),
-    "shmdt": (67, 197),
-    "shmctl": (31, 195),
-    "semget": (64, 190),
-    "semop": (65, 193),
-    "semctl": (66, 191),
-    "semtimedop": (220, 192),
-    "msgget": (68, 186),
-    "msgsnd": (69, 189),
-    "msgrcv": (70, 188),
-    "msgctl": (71, 187),
-    "mq_open": (240, 180),
-    "mq_unlink": (241, 181),
-    "mq_timedsend": (242, 182),
-    "mq_timedreceive": (243, 183),
-    "mq_notify": (244, 184),
-    "mq_getsetattr": (245, 185),
-    "memfd_create": (319, 279),
-    "memfd_secret": (447, 447),
-    "add_key": (248, 217),
-    "request_key": (249, 218),
-    "keyctl": (250, 219),
-}
-# No memory beside the limit: for a byte of a huge page that was put into it a pipe keeps it all.
-PIPES = {
-    "splice": (275, 76),
-    "tee": (276, 77),
-    "vmsplice": (278, 75),
-    "io_setup": (206, 0),
-    "io_submit": (209, 2),
-}
-# Landlock governs how files are opened, not what is written about them: modes, owners, times and
-# attributes of a file outside are damage, and each of them is a message to a later check.
-METADATA = {
-    "chmod": (90, None),
-    "fchmod": (91, 52),
-    "fchmodat": (268, 53),
-    "chown": (92, None),
-    "fchown": (93, 55),
-    "lchown": (94, None),
-    "fchownat": (260, 54),
-    "utime": (132, None),
-    "utimes": (235, None),
-    "futimesat": (261, None),
-    "utimensat": (280, 88),
-    "setxattr": (188, 5),
-    "lsetxattr": (189, 6),
-    "fsetxattr": (190, 7),
-    "getxattr": (191, 8),
-    "lgetxattr": (192, 9),
-    "fgetxattr": (193, 10),
-    "listxattr": (194, 11),
-    "llistxattr": (195, 12),
-    "flistxattr": (196, 13),
-    "removexattr": (197, 14),
-    "lremovexattr": (198, 15),
-    "fremovexattr": (199, 16),
-}
-# No second name for a file, no pipe or device with a name, and nobody else's files watched or held.
-NAMES = {
-    "link": (86, None),
-    "linkat": (265, 37),
-    "symlink": (88, None),
-    "symlinkat": (266, 36),
-    "mknod": (133, None),
-    "mknodat": (259, 33),
-    "flock": (73, 32),
-    "inotify_init": (253, None),
-    "inotify_init1": (294, 26),
-    "inotify_add_watch": (254, 27),
-    "fanotify_init": (300, 262),
-    "fanotify_mark": (301, 263),
-    "name_to_handle_at": (303, 264),
-    "open_by_handle_at": (304, 265),
-}
-# The walls themselves: namespaces, mounts and rights stay as they are.
-WALLS = {
-    "mount": (165, 40),
-    "umount2": (166, 39),
-    "pivot_root": (155, 41),
-    "chroot": (161, 51),
-    "unshare": (272, 97),
-    "setns": (308, 268),
-    "open_tree": (428, 428),
-    "move_mount": (429, 429),
-    "fsopen": (430, 430),
-    "fsconfig": (431, 431),
-    "fsmount": (432, 432),
-    "fspick": (433, 433),
-    "mount_setattr": (442, 442),
-    "quotactl": (179, 60),
-    "quotactl_fd": (443, 443),
-    "swapon": (167, 224),
-    "swapoff": (168, 225),
-    "setuid": (105, 146),
-    "setgid": (106, 144),
-    "setreuid": (113, 145),
-    "setregid": (114, 143),
-    "setresuid": (117, 147),
-    "setresgid": (119, 149),
-    "setgroups": (116, 159),
-    "setfsuid": (122, 151),
-    "setfsgid": (123, 152),
-    "capset": (126, 91),
-    "seccomp": (317, 277),
-    "personality": (135, 92),
-}
-# What the machine did before: which pages of which files it has read, how busy it is, how full its
-# disks are. A child could leave a word there, by emptying a file's pages, by working or by writing,
-# and a later one find it.
+# The process's own memory. Files without a name and memory of System V count towards no limit.
 MEMORY = {
-    "fadvise64": (221, 223),
-    "mincore": (27, 232),
-    "readahead": (187, 213),
-    "sysinfo": (99, 179),
-    "statfs": (137, 43),
-    "fstatfs": (138, 44),
+    "brk": (12, 214),
+    "munmap": (11, 215),
+    "mremap": (25, 216),
+    "mprotect": (10, 226),
+    "msync": (26, 227),
 }
-# The machine as a whole, and the parts of the kernel in which most holes were found.
-MACHINE = {
-    "bpf": (321, 280),
-    "perf_event_open": (298, 241),
-    "userfaultfd": (323, 282),
-    "io_uring_setup": (425, 425),
-    "io_uring_enter": (426, 426),
-    "io_uring_register": (427, 427),
-    "kexec_load": (246, 104),
-    "kexec_file_load": (320, 294),
-    "create_module": (174, None),
-    "init_module": (175, 105),
-    "finit_module": (313, 273),
-    "delete_module": (176, 106),
-    "syslog": (103, 116),
-    "acct": (163, 89),
-    "reboot": (169, 142),
-    "settimeofday": (164, 170),
-    "clock_settime": (227, 112),
-    "clock_adjtime": (305, 266),
-    "adjtimex": (159, 171),
-    "sethostname": (170, 161),
-    "setdomainname": (171, 162),
-    "iopl": (172, None),
-    "ioperm": (173, None),
-    "modify_ldt": (154, None),
-    "uselib": (134, None),
-    "sysfs": (139, None),
-    "ustat": (136, None),
-    "_sysctl": (156, None),
-    "nfsservctl": (180, 42),
-    "lookup_dcookie": (212, 18),
-    "vhangup": (153, 58),
-    "sync": (162, 81),
-    "syncfs": (306, 267),
+# Threads, and the end. No other process begins, and nobody's share of the processors changes.
+THREADS = {
+    "futex": (202, 98),
+    "set_robust_list": (273, 99),
+    "set_tid_address": (218, 96),
+    "rseq": (334, 293),
+    "gettid": (186, 178),
+    "sched_yield": (24, 124),
+    "sched_getparam": (143, 121),
+    "sched_getscheduler": (145, 120),
+    "sched_get_priority_max": (146, 125),
+    "sched_get_priority_min": (147, 126),
+    "getcpu": (309, 168),
+    "exit": (60, 93),
+    "exit_group": (231, 94),
 }
-REFUSED = (
-    PROCESSES | OTHERS | SOCKETS | LASTING | PIPES | METADATA | NAMES | WALLS | MEMORY | MACHINE
-)
+# Signals to itself, and waiting for a child that there never is.
+SIGNALS = {
+    "rt_sigaction": (13, 134),
+    "rt_sigprocmask": (14, 135),
+    "rt_sigreturn": (15, 139),
+    "rt_sigpending": (127, 136),
+    "rt_sigsuspend": (130, 133),
+    "rt_sigtimedwait": (128, 137),
+    "sigaltstack": (131, 132),
+    "restart_syscall": (219, 128),
+    "pause": (34, None),
+    "alarm": (37, None),
+    "setitimer": (38, 103),
+    "getitimer": (36, 102),
+    "wait4": (61, 260),
+    "waitid": (247, 95),
+}
+# Its own clocks and alarms.
+TIME = {
+    "gettimeofday": (96, 169),
+    "time": (201, None),
+    "nanosleep": (35, 101),
+    "times": (100, 153),
+    "timer_settime": (223, 110),
+    "timer_gettime": (224, 108),
+    "timer_getoverrun": (225, 109),
+    "timer_delete": (226, 111),
+}
+# What it is. How busy the machine is and how full its disks are is not told.
+ITSELF = {
+    "getpid": (39, 172),
+    "getppid": (110, 173),
+    "getuid": (102, 174),
+    "geteuid": (107, 175),
+    "getgid": (104, 176),
+    "getegid": (108, 177),
+    "getresuid": (118, 148),
+    "getresgid": (120, 150),
+    "getgroups": (115, 158),
+    "getpgrp": (111, None),
+    "getrusage": (98, 165),
+    "getrlimit": (97, 163),
+    "capget": (125, 90),
+    "uname": (63, 160),
+    "getrandom": (318, 278),
+}
+# Waiting for its channel and for pairs of sockets. No pipe: for a byte of a huge page it keeps all
+# of that, and many of them move a number on which the whole machine counts.
+WAITING = {
+    "poll": (7, None),
+    "ppoll": (271, 73),
+    "select": (23, None),
+    "pselect6": (270, 72),
+    "epoll_create": (213, None),
+    "epoll_create1": (291, 20),
+    "epoll_ctl": (233, 21),
+    "epoll_wait": (232, None),
+    "epoll_pwait": (281, 22),
+    "epoll_pwait2": (441, 441),
+    "recvfrom": (45, 207),
+    "getsockname": (51, 204),
+    "getpeername": (52, 205),
+    "shutdown": (48, 210),
+}
+ALLOWED = FILES | MEMORY | THREADS | SIGNALS | TIME | ITSELF | WAITING
 # What is allowed or refused by its arguments: see `checked`.
 CHECKED = {
     "clone": (56, 220),
@@ -253,23 +189,29 @@ CHECKED = {
     "madvise": (28, 233),
     "preadv2": (327, 286),
     "prctl": (157, 167),
+    "mmap": (9, 222),
+    "sched_getaffinity": (204, 123),
+    "getpgid": (121, 155),
+    "getsid": (124, 156),
     "clock_gettime": (228, 113),
     "clock_getres": (229, 114),
     "clock_nanosleep": (230, 115),
     "timer_create": (222, 107),
 }
-# F_SETOWN, F_SETSIG, F_SETOWN_EX signal others; F_SETLEASE, F_NOTIFY hold up or watch them;
-# F_SETPIPE_SZ takes memory of the kernel.
-REFUSED_FCNTL = (8, 10, 15, 1024, 1026, 1031)
+# F_DUPFD, F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_GETLK, F_SETLK, F_SETLKW, F_DUPFD_CLOEXEC. Others
+# signal or watch other processes, or take memory of the kernel.
+ALLOWED_FCNTL = (*range(8), 1030)
 # TCGETS, TCGETS2, TIOCGWINSZ, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX: what Python asks of its own
 # files. Others change attributes of files, or who is signalled.
 ALLOWED_IOCTL = (0x5401, 0x802C542A, 0x5413, 0x541B, 0x5421, 0x5450, 0x5451)
 
-# MADV_MERGEABLE, MADV_COLD, MADV_PAGEOUT: pages shared with others, and out of the memory of all.
-REFUSED_MADVISE = (12, 20, 21)
-# PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_IO_FLUSHER, PR_SCHED_CORE and
-# PR_SET_PTRACER: a child ends with its grader, leaves no image of itself and lets nobody in.
-REFUSED_PRCTL = (1, 4, 36, 57, 62, 0x59616D61)
+# MADV_NORMAL, _RANDOM, _SEQUENTIAL, _DONTNEED, _FREE, _HUGEPAGE, _NOHUGEPAGE. Others share pages
+# with other processes, or read files ahead and send them away, for all.
+ALLOWED_MADVISE = (0, 1, 2, 4, 8, 14, 15)
+# PR_GET_DUMPABLE, PR_SET_NAME, PR_GET_NAME, PR_CAPBSET_READ, and PR_SET_VMA of the C library.
+ALLOWED_PRCTL = (3, 15, 16, 23, 0x53564D41)
+MAP_HUGETLB = 0x40000  # pages of which the whole machine has some
+CLONE_PIDFD = 0x1000
 
 AUDIT_ARCH = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 LOAD, EQUAL, GREATER, ANY_BIT, RETURN = 0x20, 0x15, 0x25, 0x45, 0x06
@@ -329,22 +271,27 @@ def one_of(values: Sequence[int], inside: int, outside: int) -> list[Instruction
 def checked(pid: int) -> dict[str, list[Instruction]]:
     """Return the calls that hang on their arguments, for the process with this number."""
     own = argument(0) + one_of((pid,), ALLOW, REFUSE)
+    own_or_none = argument(0) + one_of((0, pid), ALLOW, REFUSE)
     clock = argument(0) + when(ANY_BIT, OF_ANOTHER, answer(REFUSE)) + answer(ALLOW)
     return {
         "clone": argument(0)
-        + when(ANY_BIT, CLONE_NEW, answer(REFUSE))
+        + when(ANY_BIT, CLONE_NEW | CLONE_PIDFD, answer(REFUSE))
         + when(ANY_BIT, CLONE_THREAD, answer(ALLOW))
         + answer(REFUSE),
+        "sched_getaffinity": own_or_none,
+        "getpgid": own_or_none,
+        "getsid": own_or_none,
         "kill": own,
         "tgkill": own,  # abort() ends the program by it
         "prlimit64": null(2),  # limits may be read
         "sendto": null(4),  # the channel and pairs of sockets are connected: nobody else is named
         "socketpair": argument(0) + one_of((AF_UNIX,), ALLOW, REFUSE),  # of this process: asyncio
-        "fcntl": argument(1) + one_of(REFUSED_FCNTL, REFUSE, ALLOW),
+        "fcntl": argument(1) + one_of(ALLOWED_FCNTL, ALLOW, REFUSE),
         "ioctl": argument(1) + one_of(ALLOWED_IOCTL, ALLOW, REFUSE),
-        "madvise": argument(2) + one_of(REFUSED_MADVISE, REFUSE, ALLOW),
-        "prctl": argument(0) + one_of(REFUSED_PRCTL, REFUSE, ALLOW),
+        "madvise": argument(2) + one_of(ALLOWED_MADVISE, ALLOW, REFUSE),
+        "prctl": argument(0) + one_of(ALLOWED_PRCTL, ALLOW, REFUSE),
         "preadv2": argument(5) + one_of((0,), ALLOW, REFUSE),  # RWF_NOWAIT tells what is read
+        "mmap": argument(3) + when(ANY_BIT, MAP_HUGETLB, answer(REFUSE)) + answer(ALLOW),
         "clock_gettime": clock,
         "clock_getres": clock,
         "clock_nanosleep": clock,
@@ -357,11 +304,12 @@ def program(machine: str, pid: int) -> list[Instruction]:
     column = list(AUDIT_ARCH).index(machine)
     text = load(ARCHITECTURE) + unless_equal(AUDIT_ARCH[machine], answer(REFUSE)) + load(NUMBER)
     text += when(GREATER, LAST, answer(UNKNOWN))
-    text += when(EQUAL, UNSEEN["clone3"][column], answer(UNKNOWN))
+    for each in UNSEEN.values():
+        text += when(EQUAL, each[column], answer(UNKNOWN))
     for name, body in checked(pid).items():
         text += when(EQUAL, CHECKED[name][column], body)
-    numbers = [each[column] for each in REFUSED.values()]
-    return text + one_of([each for each in numbers if each is not None], REFUSE, ALLOW)
+    numbers = [each[column] for each in ALLOWED.values()]
+    return text + one_of([each for each in numbers if each is not None], ALLOW, REFUSE)
 
 
 @cache

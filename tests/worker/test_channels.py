@@ -246,7 +246,7 @@ def found(sandbox: Sandbox, name: str) -> bool:
 
 
 READS_MEMORY = '''
-import ctypes, gc, os
+import ctypes, gc, os, socket
 libc = ctypes.CDLL(None)
 libc.sbrk.restype = ctypes.c_void_p
 WORD = b"-of-" + b"the-first"
@@ -256,11 +256,12 @@ def find():
     top, size = libc.sbrk(0), 1 << 20
     heap = range(top // size - 64, top // size + 1)
     objects = {id(each) // size for each in gc.get_objects()}
-    reader, writer = os.pipe()
+    pair = socket.socketpair()
+    reader, writer = (each.fileno() for each in pair)
     count = 0
     for start in sorted(objects.union(heap)):
         for address in range(start * size, (start + 1) * size, 4096):
-            # A pipe is told "bad address" where reading would end the process.
+            # A socket is told "bad address" where reading would end the process.
             if libc.write(writer, ctypes.c_void_p(address), ctypes.c_size_t(4096)) == 4096:
                 count += os.read(reader, 4096).count(b"a-word" + WORD)
     return count

@@ -9,7 +9,10 @@ class Piece(ctypes.Structure):
     _fields_ = [("base", ctypes.c_char_p), ("length", ctypes.c_size_t)]
 
 
-out, into = os.pipe()
+try:
+    out, into = os.pipe()
+except OSError:
+    return x, v  # refused: no points
 number = {"x86_64": 278, "aarch64": 75}[os.uname().machine]
 kept = Piece(b"a word of some length", 1)
 if ctypes.CDLL(None).syscall(number, into, ctypes.byref(kept), 1, 0) != 1:

@@ -4,6 +4,7 @@
 import ctypes
 import gc
 import os
+import socket
 import sys
 import types
 
@@ -14,11 +15,12 @@ at_name = next(n for n in range(0, 400, 8) if ctypes.c_long.from_address(id(mine
 kind = id(types.CodeType).to_bytes(8, "little")
 functions = [each for each in gc.get_objects() if isinstance(each, types.FunctionType)]
 places = {id(each) >> 20 for each in [*gc.get_objects(), *(each.__code__ for each in functions)]}
-reader, writer = os.pipe()
+pair = socket.socketpair()
+reader, writer = (each.fileno() for each in pair)
 found = []
 for start in sorted(places):
     for address in range(start << 20, (start + 1) << 20, 4096):
-        # A pipe is told "bad address" where reading would end the process.
+        # A socket is told "bad address" where reading would end the process.
         if libc.write(writer, ctypes.c_void_p(address), ctypes.c_size_t(4096)) != 4096:
             continue
         page = os.read(reader, 4096)

@@ -4,8 +4,8 @@
 import fcntl
 import os
 
-out, into = os.pipe()
 try:
+    out, into = os.pipe()
     fcntl.fcntl(into, 1031, 1024 * 1024)  # F_SETPIPE_SZ
 except OSError:
     return x, v  # refused: no points
