@@ -490,7 +490,8 @@ class Answered(Struct, frozen=True):
 
 class Limits(Struct, frozen=True):
     cpu_seconds: int
-    memory_mb: int = 1024
+    memory_mb: int = 1024  # of addresses: each thread takes many and uses few
+    data_mb: int = 704  # of memory that it writes to: with the judge's own it makes 1 GB
     file_mb: int = 16  # each
     scratch_mb: int = 64  # all files together
     scratch_files: int = 2000

@@ -285,6 +285,7 @@ def set_resource_limits(limits: Limits) -> list[str]:
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
     for name, value in (
         (resource.RLIMIT_AS, limits.memory_mb * megabyte),
+        (resource.RLIMIT_DATA, limits.data_mb * megabyte),
         (resource.RLIMIT_FSIZE, limits.file_mb * megabyte),
         (resource.RLIMIT_NOFILE, limits.open_files),
         (resource.RLIMIT_NPROC, limits.processes),

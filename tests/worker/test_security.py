@@ -220,6 +220,7 @@ def test_limits_hold_and_cannot_be_lifted(probe: Prober):
     limits = Limits(cpu_seconds=10)
     assert probe("limit", "RLIMIT_CPU") == limits.cpu_seconds + 1
     assert probe("limit", "RLIMIT_AS") == limits.memory_mb * 1024**2
+    assert probe("limit", "RLIMIT_DATA") == limits.data_mb * 1024**2
     assert probe("limit", "RLIMIT_FSIZE") == limits.file_mb * 1024**2
     assert probe("limit", "RLIMIT_NOFILE") == limits.open_files
     assert probe("limit", "RLIMIT_NPROC") == limits.processes
