@@ -6,9 +6,9 @@ whatever they are.
 
 import statistics
 from collections.abc import Iterator
-from contextlib import closing, suppress
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from urllib.parse import quote
 
@@ -21,10 +21,11 @@ from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
 from grader.intake.found import Intake
 from grader.intake.packing import pack
-from grader.judge.children import start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
+from grader.judge.outer import WHOLE, Failed, Lost, call_within
 from grader.judge.result import Result, State, TodoResult
+from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.player.page import clean_line, fill_template
@@ -140,16 +141,16 @@ def add_replays(
         name = next((e.outcome.name for e in mistake.entries if e.outcome.name in found), None)
         if name and not mistake.replay:
             wanted.setdefault(name, set()).add(mistake.todo)
-    with closing(start_worker()) as worker:
-        for entry in entries:
-            name = entry.outcome.name
-            if entry.result is not None and name in wanted:
-                again = replace(options, only=frozenset(wanted[name]))
-                with suppress(Stop), work_folder() as work:
-                    package = pack(found[name], options.course.modules)
-                    result = grade_with_replays(package.unpack(work), again, folder / name, worker)
-                    entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
-            yield entry
+    for entry in entries:
+        name = entry.outcome.name
+        if entry.result is not None and name in wanted:
+            again = replace(options, only=frozenset(wanted[name]))
+            with suppress(Stop, Failed, Lost), work_folder() as work:
+                tree = pack(found[name], options.course.modules).unpack(work)
+                replaying = partial(grade_with_replays, tree, again, folder / name)
+                result = call_within(WHOLE, Result, replaying, (CannotGrade,))
+                entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
+        yield entry
 
 
 def replace_todos(result: Result, todos: list[TodoResult]) -> Result:

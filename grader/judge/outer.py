@@ -9,6 +9,7 @@ manual review; the rest of its class goes on.
 import os
 import pickle
 import queue
+import re
 import select
 import signal
 import struct
@@ -115,7 +116,8 @@ class Watch:
         allowance, family = self.allowance, measure_family(self.pid)
         if sum(cpu for cpu, _ in family.values()) - self.before > allowance.cpu:
             return say_limit(allowance, f"{allowance.cpu:g} s of processor time")
-        if sum(memory for _, memory in family.values()) > allowance.memory * MEGABYTE:
+        most = allowance.memory * MEGABYTE
+        if sum(memory for _, memory in family.values()) > most and add_shares(family) > most:
             return say_limit(allowance, f"{allowance.memory} MB of memory")
         if time.monotonic() - self.began > allowance.seconds:
             return say_limit(allowance, f"{allowance.seconds:g} s")
@@ -129,8 +131,7 @@ def say_limit(allowance: Allowance, limit: str) -> str:
 def measure_family(pid: int) -> Family:
     """Return the processor seconds and the bytes of a process and of all that it started.
 
-    Those that have ended count with the process that waited for them. Pages that a process shares
-    with others are not its own.
+    Those that have ended count with the process that waited for them. Pages of files do not count.
     """
     if TELLS_CHILDREN:
         return dict(read_family(pid))
@@ -156,6 +157,21 @@ def read_family(pid: int) -> Iterator[tuple[int, tuple[float, int]]]:
             for task in os.listdir(process / "task"):
                 children = (process / "task" / task / "children").read_bytes()
                 waiting += map(int, children.split())
+
+
+def add_shares(family: Family) -> int:
+    """Return the bytes of these processes where a page that some of them share counts once.
+
+    To tell takes the kernel longer. Where it does not, each page counts as often as it is used.
+    """
+    total = 0
+    for pid, (_, memory) in family.items():
+        with suppress(OSError):
+            about = Path(f"/proc/{pid}/smaps_rollup").read_text("ascii")
+            if found := re.search(r"^Pss:\s+(\d+) kB$", about, re.MULTILINE):
+                memory = min(memory, int(found[1]) * 1024)
+        total += memory
+    return total
 
 
 def end_family(pid: int) -> None:
@@ -193,6 +209,7 @@ def call_within(
         return work()
     with work_folder() as place:
         ours, theirs = os.pipe()
+        flush()
         pid = os.fork()
         if not pid:
             try:
@@ -200,6 +217,7 @@ def call_within(
                 limit_addresses(allowance)
                 with open(theirs, "wb") as out:
                     out.write(answer(work))
+                flush()
             finally:
                 os._exit(0)
         os.close(theirs)
@@ -224,6 +242,12 @@ def hear(descriptor: int, watch: Watch) -> bytes:
             heard += part
         else:
             return bytes(heard)
+
+
+def flush() -> None:
+    """Write what was printed before a fork, or it would be written twice."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
 
 
 def answer(work: Callable[[], object]) -> bytes:
@@ -383,8 +407,7 @@ def go_on_within(allowance: Allowance) -> None:
     if not WATCHES_FORKS:
         return
     (watched, ours), (over, theirs) = os.pipe(), os.pipe()
-    for stream in (sys.stdout, sys.stderr):
-        stream.flush()
+    flush()
     pid = os.fork()
     if not pid:
         os.close(ours)

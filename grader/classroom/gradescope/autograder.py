@@ -6,6 +6,7 @@ of 0, and say why. What is printed is for the instructor alone.
 
 import sys
 import traceback
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -13,11 +14,13 @@ from msgspec import Struct
 from rich.console import Console
 
 from grader.errors import Stop
-from grader.intake.found import Found
+from grader.intake.found import CannotTake, Found
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.isolation import Isolation
+from grader.judge.outer import WHOLE, call_within
+from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
@@ -45,7 +48,8 @@ def main(top: Path) -> int:
     """Grade `top`/submission into `top`/results; exit status 1 is a fault of the grader."""
     place, status = top / "results" / "results.json", 0
     try:
-        write_whole(grade_submission(top / "submission"), place)
+        work = partial(grade_submission, top / "submission")
+        write_whole(call_within(WHOLE, bytes, work, (CannotTake, CannotGrade, Stop)), place)
         return status
     except Stop as error:
         print(f"cannot grade: {clean(str(error))}")
