@@ -8,7 +8,6 @@ import math
 import shutil
 import stat
 import subprocess
-import sys
 import unicodedata
 import zipfile
 from collections.abc import Iterator
@@ -21,7 +20,7 @@ from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
 from grader.intake.places import SIGNS, is_system_file
-from grader.judge.children import reaped_seconds
+from grader.judge.children import command, reaped_seconds
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
 from grader.text import plural
@@ -139,7 +138,7 @@ def repack_as_zip(path: Path, target: Path, bounds: Bounds) -> list[str]:
     if bounds.seconds <= 0:
         raise CannotTake("the archives of the submission take too long to unpack")
     seconds, began = math.ceil(bounds.seconds), reaped_seconds()
-    script = [sys.executable, "-I", "-B", repack.__file__, str(path), str(target), str(seconds)]
+    script = command("grader.intake.repack", str(path.resolve()), str(target), str(seconds))
     try:
         done = subprocess.run(
             script,

@@ -1,8 +1,8 @@
 """Make a plain zip of a .tar, .7z or .rar, so that all archives are then read by the same rules.
 
-It is run as a script, in a process with limits on memory, time and disk: here alone the libraries
-for these formats meet a stranger's bytes. It prints the names of files that are too large, a line
-each, or why there is no zip.
+It is run in a process with limits on memory, time and disk, shut in as a child is: here alone the
+libraries for these formats meet a stranger's bytes. It prints the names of files that are too
+large, a line each, or why there is no zip.
 """
 
 import bz2
@@ -10,8 +10,10 @@ import gzip
 import importlib
 import io
 import lzma
+import os
 import sys
 import tarfile
+import tempfile
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,6 +31,7 @@ MEMORY = 768 * 1024**2  # bytes
 SECONDS = 12  # of the processor
 PEEK = 8  # bytes that tell a format
 PART = "this .rar is one part of several: ask for one zip"
+RAR = b"Rar!\x1a\x07"
 REFUSED = 3  # exit status: what is printed is a sentence for people
 
 Files = Iterator[tuple[str, bytes | None]]  # None: too large
@@ -70,6 +73,19 @@ def say(words: str) -> None:
     print(" ".join(words.split())[:300])
 
 
+def shut_in(source: str, folder: str) -> None:
+    """Let this process reach the archive, the zip and its libraries, and the unpackers of a .rar.
+
+    As far as this machine can see to that; what it cannot, the process does without.
+    """
+    from grader.worker.confinement import shut_in_reader  # here: the judge imports this file, too
+
+    tempfile.tempdir = os.environ["TMPDIR"] = folder
+    with open(source, "rb") as file:
+        unpacked_by_others = file.read(len(RAR)) == RAR
+    shut_in_reader(source, folder, os.get_exec_path() if unpacked_by_others else ())
+
+
 def set_limits(seconds: int) -> None:
     if resource is not None:
         wanted = (
@@ -92,7 +108,7 @@ def read_files(source: str) -> Files:
         head = file.read(PEEK)
     if head.startswith(b"7z\xbc\xaf\x27\x1c"):
         return read_7z(source)
-    if head.startswith(b"Rar!\x1a\x07"):
+    if head.startswith(RAR):
         return read_rar(source)
     return read_tar(source)
 
@@ -210,4 +226,5 @@ def load_library(name: str, format: str) -> Any:
 
 
 if __name__ == "__main__":
+    shut_in(sys.argv[1], str(Path(sys.argv[2]).parent))
     sys.exit(main(sys.argv[1], sys.argv[2], int(sys.argv[3])))

@@ -16,13 +16,13 @@ import re
 import signal
 import sys
 import sysconfig
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
 from grader.protocol import ENVIRONMENT, ChildSetup, Limits
-from grader.worker.filter import packed
+from grader.worker.filter import packed, refuse_system_calls
 from grader.worker.root import (
     CLONE_NEWNS,
     MS_REC,
@@ -47,6 +47,7 @@ CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWUTS = 0x20000000, 0x40000000, 0x04000000
 
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
+EVERY_RIGHT = (1 << 16) - 1
 # How many file rights each version of the interface knows.
 FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
 ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule on a plain file takes
@@ -88,9 +89,7 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
         return []
     libc().prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # stray grandchildren come back here
     layers = []
-    if "network-namespace" not in without and (
-        libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET)
-    ):
+    if "network-namespace" not in without and leave_network():
         layers.append("network-namespace")
         forget_host_name()
     if "pid-namespace" not in without and libc().unshare(CLONE_NEWPID) == 0:
@@ -102,6 +101,31 @@ def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
         bound_namespace()
     return layers
+
+
+def leave_network() -> bool:
+    return libc().unshare(CLONE_NEWNET) == 0 or enter_user_namespace(CLONE_NEWNET)
+
+
+def shut_in_reader(source: str, folder: str, programs: Iterable[str]) -> list[str]:
+    """Shut in a process that reads one file for us; returns the layers that hold.
+
+    It reads that file, Python and its packages, writes into one folder, and runs these programs or
+    those in these folders; without any it starts no process.
+    """
+    if not sys.platform.startswith("linux"):
+        return []
+    programs = [each for each in programs if os.path.exists(each)]
+    layers = ["network-namespace"] if leave_network() else []
+    allowed = [
+        (path, READ_ONLY if is_folder else READ_ONLY & ON_FILES)
+        for path, is_folder in kinds_of_paths(())
+    ]
+    allowed += [(each, READ_ONLY) for each in programs]
+    allowed += [(source, READ_FILE), (folder, EVERY_RIGHT), (os.devnull, READ_FILE | WRITE_FILE)]
+    allowed += [("/proc/meminfo", READ_FILE)]  # a reader of .7z takes less where there is little
+    layers += restrict_to(allowed)
+    return layers if programs else layers + refuse_system_calls()
 
 
 def forget_host_name() -> None:
@@ -349,8 +373,26 @@ def landlock_version() -> int:
 def restrict_with_landlock(setup: ChildSetup) -> list[str]:
     """Allow reading Python and the submission, writing the scratch folder, no TCP, no signals out.
 
-    This is what keeps the kit, the solution, other submissions and home folders unreadable. Only
-    rights that the ruleset handles are denied, so it handles all that this kernel's version knows.
+    This is what keeps the kit, the solution, other submissions and home folders unreadable.
+    """
+    allowed = [
+        (path, READ_ONLY if folder else READ_ONLY & ON_FILES)
+        for path, folder in kinds_of_paths(tuple(setup.hidden))
+    ]
+    allowed += [
+        (setup.submission, READ_ONLY),
+        (setup.bytecode, EVERY_RIGHT if setup.compiles else READ_ONLY),
+        (setup.scratch, EVERY_RIGHT),
+        (os.devnull, READ_FILE | WRITE_FILE),
+    ]
+    return restrict_to(allowed)
+
+
+def restrict_to(allowed: Iterable[tuple[str, int]]) -> list[str]:
+    """Allow these rights on these paths and nothing else for good; returns the layers that hold.
+
+    Only rights that the ruleset handles are denied, so it handles all that this kernel's version
+    knows.
     """
     version = landlock_version()
     if version < 1:
@@ -365,16 +407,6 @@ def restrict_with_landlock(setup: ChildSetup) -> list[str]:
     ruleset = libc().syscall(LANDLOCK_CREATE_RULESET, ctypes.byref(attr), size, 0)
     if ruleset < 0:
         return []
-    allowed = [
-        (path, READ_ONLY if folder else READ_ONLY & ON_FILES)
-        for path, folder in kinds_of_paths(tuple(setup.hidden))
-    ]
-    allowed += [
-        (setup.submission, READ_ONLY),
-        (setup.bytecode, every_right if setup.compiles else READ_ONLY),
-        (setup.scratch, every_right),
-        (os.devnull, READ_FILE | WRITE_FILE),
-    ]
     for path, rights in allowed:
         allow_beneath(ruleset, path, rights & every_right)
     libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)

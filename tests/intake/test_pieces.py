@@ -1,7 +1,9 @@
 """What is of the lab in what was handed in: in archives of all kinds, anywhere, under any name."""
 
 import bz2
+import re
 import subprocess
+import sys
 import tarfile
 from pathlib import Path
 
@@ -13,7 +15,7 @@ from grader.errors import Stop
 from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Found, Package
 from grader.intake.listing import open_class
-from grader.intake.packing import open_submission, pack
+from grader.intake.packing import open_submission, pack, read_package
 from grader.intake.pieces import strip_additions
 from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, plain_files
@@ -153,7 +155,7 @@ def test_all_archives_of_a_submission_share_the_seconds_of_one(tmp_path, monkeyp
     given, used = [], iter([0.0, 2.5, 2.5, 3.5, 3.5, 9.0])
 
     def run(script, **options):
-        given.append((int(script[-1]), options["timeout"]))
+        given.append((int(re.findall(r"'(\d+)'\]", script[-1])[0]), options["timeout"]))
         return subprocess.CompletedProcess(script, repack.REFUSED, "it is broken", "")
 
     monkeypatch.setattr(archives, "MAX_SECONDS", 5)
@@ -162,7 +164,7 @@ def test_all_archives_of_a_submission_share_the_seconds_of_one(tmp_path, monkeyp
     for number in range(9):
         (tmp_path / f"{number}.tar.bz2").write_bytes(bz2.compress(b""))
     with pytest.raises(CannotTake, match="archives of the submission take too long"):
-        pack(Found("ann", (tmp_path,)))
+        read_package(Found("ann", (tmp_path,)))
     assert given == [(5, 20), (3, 12), (2, 8)]
 
 
@@ -325,3 +327,40 @@ def test_one_folder_is_laid_out_as_one_of_a_class_is(tmp_path):
     assert said == ["work/integrators (1).py is taken as integrators.py"]
     with pytest.raises(Stop, match="more than one"), open_submission(tmp_path / "two"):
         pass
+
+
+SHUT_IN = """
+import os, socket, sys
+sys.path.insert(0, sys.argv[1])
+from grader.intake import repack
+from grader.worker.confinement import shut_in_reader
+source, folder, *programs = sys.argv[2:]
+layers = shut_in_reader(source, folder, programs)
+def refused(act, *args):
+    try:
+        act(*args)
+    except OSError:
+        return True
+    return False
+assert open(source).read() == "x"
+open(os.path.join(folder, "out"), "w").close()
+refusals = [refused(open, "/etc/passwd"), refused(open, folder + "-beside", "w")]
+if "system-calls" in layers:
+    refusals.append(refused(socket.socket))
+    refusals.append(refused(os.fork))
+print(",".join(layers), all(refusals))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the walls are Linux's")
+@pytest.mark.parametrize("programs", [(), ("/usr/bin",)], ids=["alone", "with unpackers"])
+def test_who_reads_an_archive_reaches_that_alone(tmp_path, programs):
+    (tmp_path / "archive").write_text("x", encoding="utf-8")
+    (tmp_path / "folder").mkdir()
+    places = [str(KIT), str(tmp_path / "archive"), str(tmp_path / "folder"), *programs]
+    done = subprocess.run([sys.executable, "-c", SHUT_IN, *places], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    layers, refused = done.stdout.split()
+    if "landlock-files" in layers:
+        assert refused == "True"
+    assert not (programs and "system-calls" in layers)
