@@ -290,7 +290,6 @@ class WatchedProcess:
     def __init__(self) -> None:
         self.process: subprocess.Popen[bytes] | None = None
         self.stack = ExitStack()
-        self.why = ""  # it was ended
         self.closed = False
 
     def start(self) -> "subprocess.Popen[bytes]":
@@ -319,9 +318,9 @@ class WatchedProcess:
         if self.closed:
             raise Failed("stopped before the end")
         self.process = self.process or self.start()
-        process, done = self.process, threading.Event()
+        process, done, reasons = self.process, threading.Event(), list[str]()
         watch = Watch(process.pid, allowance)
-        threading.Thread(target=self.end_at_limit, args=(watch, done), daemon=True).start()
+        threading.Thread(target=end_at_limit, args=(watch, done, reasons), daemon=True).start()
         try:
             with suppress(OSError):  # it is gone, and gives no reply
                 self.send(process, (allowance, function, args))
@@ -331,17 +330,9 @@ class WatchedProcess:
             done.set()
         if not reply:
             self.end()
-            raise Exceeded(self.why) if self.why else Lost
+            raise Exceeded(reasons[0]) if reasons else Lost
         returned: Reply = read_reply(reply, allowance, kind)
         return returned
-
-    def end_at_limit(self, watch: Watch, done: threading.Event) -> None:
-        """Look at the process until the call has ended, and end it at a limit."""
-        while not done.wait(LOOK_SECONDS):
-            if why := watch.look():
-                self.why = why
-                end_family(watch.pid)
-                return
 
     def close(self) -> None:
         """End it for good: a call that is under way ends, too."""
@@ -358,6 +349,15 @@ class WatchedProcess:
                 with suppress(OSError):
                     pipe.close() if pipe else None
         self.stack.close()
+
+
+def end_at_limit(watch: Watch, done: threading.Event, reasons: list[str]) -> None:
+    """Look at a process until a call is done; at a limit note the reason, and end it."""
+    while not done.wait(LOOK_SECONDS):
+        if why := watch.look():
+            reasons.append(why)
+            end_family(watch.pid)
+            return
 
 
 def write_message(pipe: IO[bytes], message: bytes) -> None:

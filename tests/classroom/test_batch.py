@@ -318,6 +318,13 @@ def test_a_judge_that_reaches_a_limit_leaves_the_others_as_they_were(classroom, 
         assert run.book.locate_result(name).read_bytes() == content
 
 
+def test_a_limit_that_one_reached_is_not_said_of_the_next():
+    with FragilePool(Options(), 1) as pool:
+        words = [str(pool.submit(Package(name, [])).exception()) for name in ("looper", "killer")]
+        assert "2 s of processor" in words[0] and "twice" in words[1]
+        assert pool.submit(Package("ann", [])).exception() is None
+
+
 def test_so_does_one_that_waits_for_ever():
     with ImpatientPool(Options(), 1) as pool:
         future = pool.submit(Package("sleeper", []))
