@@ -1,24 +1,10 @@
-"""Processes that grade side by side: how each begins, and how all of them end."""
+"""Prepare the processes that grade side by side."""
 
 import multiprocessing
 import os
 import signal
 import threading
-import time
-from multiprocessing.process import BaseProcess
 from typing import NoReturn
-
-SECONDS_TO_END = 5  # s that a process has to put away what it grades
-
-
-def end_all(processes: list[BaseProcess]) -> None:
-    """End them when they have put away what they grade; those that do not are killed."""
-    for process in processes:
-        process.terminate()
-    until = time.monotonic() + SECONDS_TO_END
-    for process in processes:
-        process.join(max(0.0, until - time.monotonic()))
-        process.kill()
 
 
 def stop_grading(number: int, _: object) -> NoReturn:
