@@ -4,7 +4,8 @@ Each imports what it needs itself: all of it together would add a tenth of a sec
 of the grader, `check` included.
 """
 
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -19,13 +20,14 @@ from grader.cli.shared import (
     SecretSeed,
     console,
     course_option,
+    list_missing,
     print_note,
     print_notes,
     refuse_ignored,
     require_checkout,
 )
 from grader.errors import Stop
-from grader.judge.course import read_course
+from grader.judge.course import WrongCourse, read_course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.text import clean
 
@@ -212,8 +214,24 @@ def course_check_command(
         roster = roster or find_file(submissions, "roster.csv")
         adjust = adjust or find_file(submissions, "adjustments.toml")
     problems = list(find_problems(Files(roster, key, adjust, settings, submissions), course))
+    problems += find_release_problems(course)
     print_notes(problems or ["No problems found."])
     raise typer.Exit(1 if problems else 0)
+
+
+def find_release_problems(path: Path | None) -> Iterator[str]:
+    """Yield why a release of the course would be refused; nothing of a course that is invalid."""
+    if list_missing():
+        return
+    from grader.release.build import prove_cut
+
+    with suppress(WrongCourse):
+        course = read_course(path)
+        try:
+            with console.status("trying the students' copy (ten seconds or so)"):
+                prove_cut(course)
+        except Stop as error:
+            yield f"this course cannot be released: {error}"
 
 
 @app.command("alike")

@@ -39,10 +39,14 @@ Jobs = Annotated[int, typer.Option(help="Submissions at a time; 0 for one per co
 ResultsFolder = Annotated[Path, typer.Argument(help="The results of a class, a folder.")]
 
 
+def list_missing() -> list[str]:
+    """List the folders of a checkout of the kit that are not here."""
+    return [name for name in CHECKOUT if not (KIT / name).is_dir()]
+
+
 def require_checkout(command: str, instead: str = "") -> None:
     """Stop where the grader is installed without the kit around it."""
-    missing = [name for name in CHECKOUT if not (KIT / name).is_dir()]
-    if missing:
+    if missing := list_missing():
         raise Stop(
             f"`grader {command}` works on the whole kit, and {KIT} holds no {', '.join(missing)}: "
             f"run python -m grader {command} in a checkout of the kit{instead}"

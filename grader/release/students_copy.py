@@ -8,9 +8,9 @@ numbers for practice: see questions/practice.py.
 import json
 import shutil
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import closing, contextmanager
-from functools import wraps
+from functools import cache, wraps
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,8 @@ from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric, visible
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
 from grader.release.practice import make_practice
-from grader.source.cut import asked_of, pruned, with_bodies
+from grader.source.cut import prune_modules, with_bodies
+from grader.source.regions import read_source
 
 NOT_FOR_STUDENTS = (
     *("bank", "bench", "classroom", "intake", "release", "__pycache__"),
@@ -39,8 +40,8 @@ NOT_FOR_STUDENTS = (
     *(f"questions/{name}.py" for name in ("moodle", "notebook")),
     *("questions/templates/bank.html", "questions/templates/moodle.xml"),
 )  # below the package
-# Of the checks; each uses only those after it.
-HELPERS = ("whole.lab_scene", "whole.lesson_rules", "pacing", "strategies", "telling", "exact")
+PACKAGE = "grader.checks"
+PLUGIN = "pytest_plugin.py"  # for authors of checks; no check leads to it
 Tree = tuple[Path, frozenset[str]]  # a submission, and the TODOs to ask it about; empty for all
 
 
@@ -57,27 +58,45 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     The next question of a check may depend on an answer. So wrong submissions are asked as well:
     the more there are, the more often a student's copy can name a mistake.
     """
-    package = folder / "grader"
-    shutil.copytree(KIT / "grader", package, ignore=skip_files)
-    checks = package / "checks"
+    checks = write_code(folder, course)
     # First, while nothing notes what the closed forms are asked: it asks hidden checks as well.
     (checks / PRACTICE).write_bytes(make_practice(course))
+    table = record_answers(wrong, visible(course.rubric))
+    exacts = checks / "exact.py"
+    text = read_source(exacts) if exacts.exists() else ""
+    asked = {name: each for name, each in table.oracles.items() if f"def {name}(" in text}
+    noted = msgspec.to_builtins(msgspec.structs.replace(table, oracles=asked))
+    write_file(checks / "recorded.json", json.dumps(noted, separators=(",", ":"), sort_keys=True))
+
+
+def write_code(folder: Path, course: Course = FULL, whole: bool = False) -> Path:
+    """Write the package without what is recorded; `whole`, oracles answer by themselves.
+
+    Returns the folder of its checks.
+    """
+    checks = folder / "grader" / "checks"
+    shutil.copytree(KIT / "grader", checks.parent, ignore=skip_files)
     rubric = visible(course.rubric)
-    texts = cut_checks(rubric)
-    for todo in load_rubric().todos:
-        if f"{todo.folder}/checks.py" not in texts:
-            shutil.rmtree(checks / todo.folder, ignore_errors=True)
+    texts = cut_checks(rubric, read_checks() if whole else replace_oracles(read_checks()))
+    remove_unneeded(checks, texts)
     texts["rubric.toml"] = write_rubric(rubric)
-    texts |= cut_course_files(course)
-    table = record_answers(wrong, rubric)
-    asked = {
-        name: each for name, each in table.oracles.items() if f"def {name}(" in texts["exact.py"]
-    }
-    table = msgspec.structs.replace(table, oracles=asked)
-    recorded = msgspec.to_builtins(table)
-    texts["recorded.json"] = json.dumps(recorded, separators=(",", ":"), sort_keys=True)
-    for name, text in texts.items():
-        (checks / name).write_text(text, encoding="utf-8", newline="\n")
+    for name, text in (texts | cut_course_files(course)).items():
+        write_file(checks / name, text)
+    return checks
+
+
+def write_file(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def remove_unneeded(checks: Path, needed: Collection[str]) -> None:
+    """Remove the files of checks that are not needed, and folders that then hold none."""
+    for module in read_checks():
+        if (name := write_name(module)) not in {*needed, PLUGIN}:
+            (checks / name).unlink()
+    for folder in {checks / todo.folder for todo in load_rubric().todos}:
+        if {each.name for each in folder.iterdir()} <= {"__init__.py"}:
+            shutil.rmtree(folder)
 
 
 def skip_files(folder: str, names: list[str]) -> set[str]:
@@ -129,33 +148,39 @@ def cut_course_files(course: Course) -> dict[str, str]:
     }
 
 
-def cut_checks(rubric: Rubric) -> dict[str, str]:
+def cut_checks(rubric: Rubric, sources: dict[str, str] | None = None) -> dict[str, str]:
+    """Return the files of the checks that a rubric needs, and of each what it leads to."""
     shown: dict[str, set[str]] = {}
     for todo in rubric.todos:
-        name = f"{todo.folder}.checks"
-        shown.setdefault(name, set()).update(check.id for check in todo.checks)
-    texts = {name: pruned(read_check(name), roots) for name, roots in shown.items()}
-    for helper in HELPERS:
-        source = read_check(helper)
-        if helper == "exact":
-            source = replace_oracles(source)
-        roots = set().union(*(asked_of(text, helper) for text in texts.values()))
-        texts[helper] = pruned(source, roots)
-    return {f"{name.replace('.', '/')}.py": text for name, text in texts.items()}
+        module = f"{PACKAGE}.{todo.folder}.checks"
+        shown.setdefault(module, set()).update(check.id for check in todo.checks)
+    texts = prune_modules(sources or replace_oracles(read_checks()), shown)
+    return {write_name(module): text for module, text in texts.items()}
 
 
-def read_check(name: str) -> str:
-    return (CHECKS / f"{name.replace('.', '/')}.py").read_text(encoding="utf-8")
+@cache
+def read_checks() -> dict[str, str]:
+    """Return the sources of all checks by their modules, without those of known mistakes."""
+    return {
+        ".".join([PACKAGE, *path.relative_to(CHECKS).with_suffix("").parts]): read_source(path)
+        for path in CHECKS.rglob("*.py")
+        if path.name not in ("mistakes.py", "__init__.py")
+    }
 
 
-def replace_oracles(source: str) -> str:
+def write_name(module: str) -> str:
+    """Return the name of a module's file below the checks."""
+    return f"{module.removeprefix(f'{PACKAGE}.').replace('.', '/')}.py"
+
+
+def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
     """Keep the names and inputs of the oracles; let each look its answer up."""
     bodies = {}
     for name in oracles:
         code = getattr(exact, name).__code__
         inputs = ", ".join(code.co_varnames[: code.co_argcount])
         bodies[name] = f'return recorded.answer("{name}", {inputs})'
-    return with_bodies(source, bodies)
+    return sources | {exact.__name__: with_bodies(sources[exact.__name__], bodies)}
 
 
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:

@@ -4,7 +4,7 @@ A property draws its examples from its own source text, so the text of a check m
 """
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 
 def pruned(source: str, roots: Iterable[str]) -> str:
@@ -90,15 +90,39 @@ def used(node: ast.AST) -> set[str]:
     }
 
 
-def asked_of(source: str, module: str) -> set[str]:
-    """Return the names of `grader.checks.<module>` that a file uses, imported or as attributes."""
-    names: set[str] = set()
-    if module not in source:
-        return names
-    for node in ast.walk(ast.parse(source)):
+def prune_modules(sources: dict[str, str], roots: dict[str, set[str]]) -> dict[str, str]:
+    """Return the modules that the roots lead to, each without what nothing there leads to.
+
+    `sources` are texts by the modules' full names, and `roots` names in some of them.
+    """
+    wanted = {module: set(names) for module, names in roots.items()}
+    texts: dict[str, str] = {}
+    grown = set(wanted)
+    while grown:
+        texts |= {module: pruned(sources[module], wanted[module]) for module in grown}
+        uses = [each for module in grown for each in list_uses(texts[module], sources)]
+        grown = {module for module, name in uses if name not in wanted.get(module, ())}
+        for module, name in uses:
+            wanted.setdefault(module, set()).add(name)
+    return texts
+
+
+def list_uses(source: str, modules: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Yield the names that a file takes from these modules, each with its module.
+
+    A module that is imported itself has the empty name, and what is asked of it as an attribute.
+    """
+    tree = ast.parse(source)
+    bound: dict[str, str] = {}  # names of modules in the file
+    for node in ast.walk(tree):
         match node:
-            case ast.ImportFrom(module=name) if name == f"grader.checks.{module}":
-                names.update(each.name for each in node.names)
-            case ast.Attribute(value=ast.Name(id=owner), attr=name) if owner == module:
-                names.add(name)
-    return names
+            case ast.ImportFrom(module=str(module), names=names) if module in modules:
+                yield from ((module, each.name) for each in names)
+            case ast.ImportFrom(module=module, names=names):
+                whole = {bound_by(each): f"{module}.{each.name}" for each in names}
+                bound |= {name: each for name, each in whole.items() if each in modules}
+    yield from ((module, "") for module in bound.values())
+    for node in ast.walk(tree):
+        match node:
+            case ast.Attribute(value=ast.Name(id=owner), attr=name) if owner in bound:
+                yield bound[owner], name

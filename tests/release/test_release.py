@@ -269,11 +269,11 @@ def test_the_wheel_has_the_visible_rubric(released: Released):
     assert msgspec.toml.decode(text, type=Rubric) == visible(load_rubric())
 
 
-def test_a_copy_that_marks_wrongly_is_refused(released: Released, tmp_path: Path, monkeypatch):
+def test_a_copy_that_marks_wrongly_is_refused(released: Released, monkeypatch):
     (none,) = released.check([(KIT / "starter", frozenset())])
     monkeypatch.setattr(releases, "grade_with", lambda *_: none)
     with pytest.raises(Refused, match=rf"the solution 0 / \d+ instead of {none.max_points} / "):
-        prove(released.wheel, tmp_path / "installed")
+        prove(released.installed)
 
 
 def test_a_release_is_proved_by_the_course_in_it(released: Released, monkeypatch):

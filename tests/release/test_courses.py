@@ -1,0 +1,86 @@
+"""Any choice of TODOs can be released: the students' copy has all that its checks lead to."""
+
+import ast
+import random
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from command_line import run_grader
+
+from grader.judge.course import Course, faults_between
+from grader.judge.rubric import load_rubric, visible
+from grader.release import build as releases
+from grader.release.build import Refused, prove_cut
+from grader.release.students_copy import cut_checks
+from grader.source.cut import defined, list_uses
+
+
+def draw_courses(count: int, seed: int = 1) -> Iterator[Course]:
+    """Draw courses of any TODOs, with the bonus in any form, that may be taken."""
+    draw = random.Random(seed)
+    ids = [todo.id for todo in load_rubric().todos]
+    while count:
+        todos = tuple(draw.sample(ids, draw.randint(1, len(ids))))
+        course = Course(todos=todos, bonus=draw.choice(["apart", "left out", 3]))
+        if not any(faults_between(course)):
+            count -= 1
+            yield course
+
+
+def find_missing(texts: dict[str, str]) -> list[str]:
+    """Return what the files of checks import from each other, and is not there."""
+    modules = {f"grader.checks.{name[:-3].replace('/', '.')}": name for name in texts}
+    every = [*modules, *(f"grader.checks.{name}" for name in ("exact", "pacing", "todo_7.checks"))]
+    here = {
+        (module, defined_name)
+        for module, name in modules.items()
+        for node in ast.parse(texts[name]).body
+        for defined_name in defined(node)
+    } | {(module, "") for module in modules}
+    return [
+        f"{name} takes {part or 'all'} of {module}"
+        for name, text in texts.items()
+        for module, part in list_uses(text, every)
+        if (module, part) not in here
+    ]
+
+
+@pytest.mark.parametrize("todos", [("1", "B4"), ("4", "B2"), ("3", "7c", "B2")], ids=",".join)
+def test_a_bonus_task_keeps_what_it_takes_from_another_file(todos):
+    texts = cut_checks(visible(Course(todos=todos).rubric))
+    assert find_missing(texts) == []
+    assert ("todo_7/checks.py" in texts) == ("B4" in todos or "7c" in todos)
+
+
+def test_what_drawn_courses_import_is_there():
+    for course in draw_courses(5):
+        assert find_missing(cut_checks(visible(course.rubric))) == [], course
+
+
+def test_the_copy_of_an_odd_course_grades(tmp_path: Path, monkeypatch):
+    course = Course(todos=("1", "B4"))
+    prove_cut(course, tmp_path)
+    (note,) = tmp_path.iterdir()
+    monkeypatch.setattr(releases, "prove", lambda *_: pytest.fail("it was proven"))
+    prove_cut(course, tmp_path)
+    assert list(tmp_path.iterdir()) == [note]
+
+
+def test_a_course_that_cannot_be_released_is_a_problem_of_it(monkeypatch, tmp_path: Path):
+    def refuse(course: Course) -> None:
+        raise Refused(f"{len(course.rubric.todos)} TODO gives the starter 1 / 2")
+
+    monkeypatch.setattr(releases, "prove_cut", refuse)
+    (tmp_path / "course.toml").write_text('todos = ["8c"]', encoding="utf-8")
+    done = run_grader("course-check", "--course", str(tmp_path / "course.toml"))
+    assert done.exit_code == 1
+    assert "this course cannot be released: 1 TODO gives the starter 1 / 2" in done.output
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("number", range(200))
+def test_each_of_many_courses_can_be_released(number: int, tmp_path: Path):
+    (course,) = draw_courses(1, number)
+    assert find_missing(cut_checks(visible(course.rubric))) == []
+    prove_cut(course, tmp_path)
