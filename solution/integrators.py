@@ -1,4 +1,4 @@
-"""Four integrators on a spring. TODO 8a, 8b and 8c live in the three functions named after them.
+"""Four integrators on a spring.
 
 Each takes a position x (px), a velocity v (px/s), a time step dt (s) and a function accel(x)
 (px/s²), and returns the new (x, v). Run this file to compare them.

@@ -1,4 +1,4 @@
-"""The lab scene in pymunk, with a stack of boxes. TODO 7a to 7d and B4 live here.
+"""The lab scene in pymunk, with a stack of boxes.
 
 Lengths are in px, times in s, angles in rad. pymunk has no "up": y grows down, as on the screen.
 """

@@ -224,9 +224,11 @@ def find_release_problems(path: Path | None) -> Iterator[str]:
     if list_missing():
         return
     from grader.release.build import prove_cut
+    from grader.release.leaks import find_given_answers
 
     with suppress(WrongCourse):
         course = read_course(path)
+        yield from find_given_answers(KIT, course)
         try:
             with console.status("trying the students' copy (ten seconds or so)"):
                 prove_cut(course)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from grader.bank.sync import list_students_files
 from grader.judge.course import Course
-from grader.release.handouts import cut_readme
+from grader.release.handouts import choose_examples, cut_readme
 from grader.source.regions import RegionError, read_source, regions_in
 
 GIVEN = "# Given in this course: what TODO {} asks for elsewhere is done here."
@@ -21,6 +21,8 @@ def fill_given(path: Path, solution: Path, course: Course) -> bytes:
     """Return a file's content, with the solution's code and a note where it is given."""
     if path.suffix == ".md":
         return cut_readme(path.read_text(encoding="utf-8"), course).encode()
+    if path.name == "Makefile":
+        return choose_examples(path.read_text(encoding="utf-8"), course).encode()
     if path.suffix != ".py":
         return path.read_bytes()
     given = {todo.id for todo in course.given}

@@ -21,6 +21,7 @@ from typing import Any
 from grader.bank.sync import is_laid_in
 from grader.judge.course import FULL, Course
 from grader.judge.rubric import CHECKS, Rubric, visible
+from grader.release.notebooks import is_in_course
 from grader.release.students_copy import cut_checks, list_hidden_checks
 from grader.source.definitions import statements
 from grader.source.regions import python_files, read_source, regions_in, replaced
@@ -131,7 +132,7 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
     everything = Row("\n".join(text for _, text in given))
     found: dict[str, list[Secret]] = {}
     for known, searched in (
-        (everything, find_notebook_secrets(solution / "notebooks")),
+        (everything, find_notebook_secrets(solution / "notebooks", course)),
         (programs, find_region_secrets(solution, asked)),  # what is laid in must not hold any of it
     ):
         for candidates in searched:
@@ -146,6 +147,20 @@ def find_secrets(kit: Path, course: Course = FULL) -> list[Secret]:
     return [*merged, *find_hidden_secrets(course.rubric)]
 
 
+def find_given_answers(kit: Path, course: Course) -> Iterator[str]:
+    """Yield the lines of asked TODOs that stand in given ones too: a teacher should know."""
+    asked = {todo.id for todo in course.rubric.todos}
+    for secret in find_secrets(kit):
+        shared = [each for each in secret.what.split(" and ") if each.startswith("TODO ")]
+        tasks = [each for each in shared if each.removeprefix("TODO ") in asked]
+        given = [each for each in shared if each not in tasks]
+        if tasks and given:
+            yield (
+                f"{' and '.join(given)} is given, and has a line that {' and '.join(tasks)} asks "
+                f"for, {secret.text}: ask for both or for neither"
+            )
+
+
 def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
     """Return what students get anyway: files without the asked regions, notebooks, stubs."""
     found = []
@@ -154,7 +169,7 @@ def read_given(solution: Path, asked: set[str]) -> list[tuple[str, str]]:
         around = replaced(text, {each.id: () for each in regions_in(text) if each.id in asked})
         found.append((path.relative_to(solution).as_posix(), around))
     for path in list_notebooks(solution / "notebooks"):
-        found += [(path.name, MARKED.sub("", cell)) for cell in read_cells(path)]
+        found += [(path.name, MARKED.sub("", text)) for _, text in read_cells(path)]
     stubs = json.loads((CHECKS / "stubs.json").read_bytes())
     return [*found, *stubs.items()]
 
@@ -180,16 +195,18 @@ def list_notebooks(folder: Path) -> list[Path]:
     return sorted(folder.glob("*.ipynb"))
 
 
-def read_cells(path: Path) -> list[str]:
-    """Return the sources of a notebook's cells of code."""
+def read_cells(path: Path) -> list[tuple[Any, str]]:
+    """Return a notebook's cells of code, each with its source."""
     cells = json.loads(path.read_bytes())["cells"]
-    return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    return [(cell, "".join(cell["source"])) for cell in cells if cell["cell_type"] == "code"]
 
 
-def find_notebook_secrets(folder: Path) -> Iterator[list[Secret]]:
+def find_notebook_secrets(folder: Path, course: Course) -> Iterator[list[Secret]]:
     """Yield the lines that nbgrader takes out of the students' notebooks."""
     for path in list_notebooks(folder):
-        for source in read_cells(path):
+        for cell, source in read_cells(path):
+            if not is_in_course(cell, course):
+                continue
             whole = ast.Module(statements(source), [])
             for marked in MARKED.finditer(source):
                 first, last = (source.count("\n", 0, place) for place in marked.span())

@@ -2,8 +2,9 @@
 
 The questions for practice in `quiz` are those of the page handouts/quiz.md.
 
-A cell that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It is left out
-where a course has none of them, and so is a notebook without any task.
+A cell or a notebook that belongs to some TODOs names them in its metadata, as `"todos": ["5"]`. It
+is left out where a course has none of them, and so is a notebook without any task. A cell that is
+also `"given": true` is needed all the same, and has the answer then.
 """
 
 import json
@@ -12,8 +13,10 @@ from pathlib import Path
 from typing import Any
 
 from grader.judge.course import Course
+from grader.judge.grade import KIT
 from grader.judge.rubric import Rubric
 from grader.questions.notebook import (
+    PLAIN,
     TASK,
     Cell,
     encode_notebook,
@@ -24,6 +27,8 @@ from grader.questions.notebook import (
 from grader.text import plural
 
 ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
+SOLVED = KIT / "solution" / "notebooks"
+GIVEN = "# Given in this course.\n"
 PRACTICE = "practice-"  # and a number: the questions of the page
 QUESTION = re.compile(r"<!--% if asked\((.*?)\) %-->\n(.*?)\n<!--% endif %-->", re.S)
 
@@ -98,12 +103,30 @@ def make_notebooks(folder: Path, course: Course) -> dict[str, bytes]:
             make_engine_notebook(course.rubric)
         ):
             notebook = make_engine_notebook(course.rubric)
-        cells = [cell for cell in notebook["cells"] if is_in_course(cell, course)]
+        cells = choose_cells(notebook, read(SOLVED / path.name), course)
         if cells == read(path)["cells"]:
             found[path.name] = path.read_bytes()
         elif any(map(has_task, cells)):
             found[path.name] = encode_notebook(notebook | {"cells": cells}).encode()
     return found
+
+
+def choose_cells(notebook: Cell, solved: Cell, course: Course) -> list[Cell]:
+    """Return a notebook's cells for a course: what it asks for, and what that needs, answered."""
+    answers = {cell["id"]: cell for cell in solved["cells"]}
+    if not is_in_course(notebook, course):
+        return []
+    return [
+        cell if is_in_course(cell, course) else make_given(answers[cell["id"]])
+        for cell in notebook["cells"]
+        if is_in_course(cell, course) or cell["metadata"].get("given")
+    ]
+
+
+def make_given(cell: Cell) -> Cell:
+    """Return a cell of the solution as one that nobody is asked to fill in."""
+    text = GIVEN + re.sub(r" *### (BEGIN|END) SOLUTION\n?", "", "".join(cell["source"]))
+    return make_marked(cell["id"], cell["cell_type"], text, PLAIN)
 
 
 def read_points(notebook: Cell) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The window: time, events, drawing. TODO 6 lives in advance."""
+"""The window: time, events, drawing."""
 
 import random
 

@@ -1,4 +1,4 @@
-"""A rod between two bodies. TODO 3 lives in DistanceJoint.solve."""
+"""A rod between two bodies."""
 
 from pygame import Vector2
 

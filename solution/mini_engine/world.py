@@ -1,4 +1,4 @@
-"""The world and its step. TODO 5 lives in World.apply_damping."""
+"""The world and its step."""
 
 import math
 from itertools import combinations

@@ -1,4 +1,4 @@
-"""Finding out where two bodies touch. TODO 1 lives in circle_box."""
+"""Finding out where two bodies touch."""
 
 from pygame import Vector2
 

@@ -1,4 +1,4 @@
-"""Impulses at contacts. TODO 2 lives in effective_mass, TODO 4 in solve_friction.
+"""Impulses at contacts.
 
 ra and rb are the arms: from each body's centre to the contact point, in px.
 """

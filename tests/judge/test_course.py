@@ -9,6 +9,7 @@ import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -41,7 +42,7 @@ from grader.release.handed_out import make_students_tree, write_tree
 from grader.release.handouts import make_handouts
 from grader.release.leaks import find_leaks_in_text, find_secrets
 from grader.release.nbgrader_course import make_course
-from grader.release.notebooks import make_notebooks
+from grader.release.notebooks import has_task, make_notebooks
 from grader.release.pages import make_anchor
 from grader.report.sinks.gradescope import write_gradescope
 from grader.source.regions import regions_in
@@ -493,6 +494,30 @@ def test_notebooks_ask_what_the_course_has():
     few = make_notebooks(folder, COURSES[CHEAP])
     assert {"integrators.ipynb", "accuracy.ipynb"} <= few.keys()
     assert b'"quiz-3"' in few["quiz.ipynb"] and b'"quiz-5"' not in few["quiz.ipynb"]
+
+
+def test_a_notebook_asks_for_no_integrator_that_is_given_and_has_it_solved():
+    course = Course(todos=("8c",))
+    for tree in ("solution", "starter"):
+        (cells,) = [
+            {cell["id"]: cell for cell in json.loads(content)["cells"]}
+            for name, content in make_notebooks(KIT / tree / "notebooks", course).items()
+            if name == "integrators.ipynb"
+        ]
+        assert "about-8a" not in cells and "one-step-8b" not in cells and "swing-8a" not in cells
+        graded = [cell for cell in cells.values() if has_task(cell) and is_graded(cell)]
+        assert {cell["id"] for cell in graded} == {"one-step-8c", "swing-8c"}
+        text = "".join(cells["answer-8b"]["source"])
+        assert text.startswith("# Given in this course.\ndef velocity_verlet(")
+        assert "a_end = accel(x)" in text and "SOLUTION" not in text
+        assert not has_task(cells["answer-8b"]) and has_task(cells["answer-8c"])
+    assert "accuracy.ipynb" not in make_notebooks(
+        KIT / "solution" / "notebooks", Course(todos=("2",))
+    )
+
+
+def is_graded(cell: dict[str, Any]) -> bool:
+    return bool(cell["metadata"]["nbgrader"]["grade"])
 
 
 def test_an_nbgrader_course_holds_what_the_course_has(tmp_path: Path):

@@ -2,6 +2,7 @@
 
 import ast
 import random
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,10 +10,15 @@ import pytest
 from command_line import run_grader
 
 from grader.judge.course import Course, faults_between
+from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric, visible
 from grader.release import build as releases
 from grader.release.build import Refused, prove_cut
-from grader.release.students_copy import cut_checks
+from grader.release.handed_out import make_students_tree
+from grader.release.handouts import make_handouts
+from grader.release.leaks import find_given_answers, read_texts
+from grader.release.notebooks import make_notebooks
+from grader.release.students_copy import cut_checks, cut_course_files
 from grader.source.cut import defined, list_uses
 
 
@@ -76,6 +82,39 @@ def test_a_course_that_cannot_be_released_is_a_problem_of_it(monkeypatch, tmp_pa
     done = run_grader("course-check", "--course", str(tmp_path / "course.toml"))
     assert done.exit_code == 1
     assert "this course cannot be released: 1 TODO gives the starter 1 / 2" in done.output
+
+
+ODD = ("8c", "3,7c,B2", "8a,7d")
+ODDER = ("1,B4", "7b", "6,whole", "2", "4,5,B1,B6", "7a,8b,whole", "5,B3")
+
+
+@pytest.mark.parametrize(
+    "names", [*ODD, *(pytest.param(each, marks=pytest.mark.soak) for each in ODDER)]
+)
+def test_nothing_asks_for_what_a_course_leaves_out(names: str):
+    """Nor names it, but where it says that it is given, and the program of the measured effects."""
+    course = Course(todos=tuple(names.split(",")))
+    left = [todo.id for todo in course.given]
+    about = re.compile(rf"(?<!what )(?:TODOs? |TODO=|--todo )({'|'.join(left)})\b")
+    for file, text in write_artefacts(course):
+        found = [line for line in text.splitlines() if about.search(line)]
+        assert not found, (file, found)
+
+
+def write_artefacts(course: Course) -> Iterator[tuple[str, str]]:
+    """Yield what students and nbgrader get of a course, but the code of the checks."""
+    files = make_students_tree(KIT, course)
+    files |= make_notebooks(KIT / "solution" / "notebooks", course)
+    for name, content in files.items():
+        yield from read_texts(name, content)
+    yield from make_handouts(KIT / "handouts", course).items()
+    yield from cut_course_files(course).items()
+
+
+def test_a_given_todo_that_answers_an_asked_one_is_a_problem():
+    (words,) = find_given_answers(KIT, Course(todos=("7d",)))
+    assert words.startswith("TODO 6 is given, and has a line that TODO 7d asks for, accumulator +=")
+    assert not list(find_given_answers(KIT, Course(todos=("6", "7d"))))
 
 
 @pytest.mark.soak

@@ -1,4 +1,4 @@
-"""Which pairs of bodies are near enough to look at. TODO B3 lives in near_pairs."""
+"""Which pairs of bodies are near enough to look at."""
 
 from itertools import combinations
 

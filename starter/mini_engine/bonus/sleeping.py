@@ -1,4 +1,4 @@
-"""Bodies at rest sleep, and cost next to nothing. TODO B1 lives in update_sleep.
+"""Bodies at rest sleep, and cost next to nothing.
 
 A sleeper keeps its mass. While body.asleep is true, BonusWorld lets no force and no contact move
 it, and looks for no contact between sleepers.

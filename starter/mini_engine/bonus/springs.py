@@ -1,4 +1,4 @@
-"""A spring between two bodies. TODO B2 lives in SpringJoint.apply."""
+"""A spring between two bodies."""
 
 import math
 

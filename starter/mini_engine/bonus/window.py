@@ -1,4 +1,4 @@
-"""The window with the bonus tasks. TODO B5 lives in between, B6 in heaviness."""
+"""The window with the bonus tasks."""
 
 import pygame
 
