@@ -193,8 +193,8 @@ def grade_in_ci(path: Path, folder: Path, output: Output, options: Options) -> N
 
     if not is_free_folder(folder):
         raise Stop(f"{folder} is there already, and reports need a folder of their own: remove it")
-    with stop_commands(os.environ):
-        result = grade_and_show(path, options, folder / "replays")
+    with stop_commands(os.environ), open_path(path, options.course.modules) as tree:
+        result = grade_and_show(tree, options, folder / "replays")
     result = name_after_repository(result, os.environ)
     write_reports(result, folder)
     tell_github(result, path, os.environ)

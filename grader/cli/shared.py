@@ -93,7 +93,7 @@ def grade_one(path: Path, options: Options, replays: Path | None = None) -> Resu
 
 @contextmanager
 def open_path(path: Path, programs: Collection[str] = ()) -> Iterator[Path]:
-    """Open a submission: the instructor's grader unpacks a zip.
+    """Open a submission: the instructor's grader reads it as one of a class.
 
     Two files for one program matter only if it is one of `programs`, those of the course.
     """

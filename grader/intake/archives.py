@@ -207,13 +207,15 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
 
 
 def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; of two with one name the last counts, as always."""
+    """Return the files and their names; raises CannotTake where two differ that have one name."""
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
         name = PurePosixPath(check_name(decode_name(member)))
-        other, _ = found.get(fold(name.as_posix()), (name, member))
+        other, first = found.get(fold(name.as_posix()), (name, member))
         if other != name:
             raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
+        if (first.CRC, first.file_size) != (member.CRC, member.file_size):
+            raise CannotTake(f"the archive holds two different files {name}: ask for one of them")
         found[fold(name.as_posix())] = name, member
     return list(found.values())
 

@@ -8,13 +8,11 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.errors import Stop
+from grader.judge.submission import CannotGrade
 
 
-class CannotTake(Stop):
-    """A submission that cannot be read; the others of its class can."""
-
-    cannot = "grade"
+class CannotTake(CannotGrade):
+    """A submission that cannot be read and needs manual review; the others of its class can."""
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ from grader.judge.outer import READING, Exceeded, Failed, Lost, call_within
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import CannotGrade, module_of, plain_files, unreadable
 from grader.judge.workplace import work_folder
+from grader.source.flaws import find_bad_bytes
 
 COPY = re.compile(r"-\d+(?=\.\w+$)")  # what an LMS adds to the name of a file that comes again
 
@@ -47,15 +48,16 @@ def open_submission(
 ) -> Iterator[Path]:
     """Unpack the submission at `path` and put its files together, as the lab lays them out.
 
-    A folder with nothing of the lab is left as it is: whoever names one sees what is in it.
+    It is read as one of a class is. So what cannot be read there raises CannotTake here.
     """
-    if (path.is_file() and not is_archive(path)) or not path.exists() or is_laid_out(path, asked):
+    if not path.exists():  # the judge says so
         yield path
         return
+    real = path.resolve()
+    name = real.name if real.is_dir() else cut_suffix(real)
     with work_folder() as temporary:
         try:
-            real = path.resolve()
-            package = pack(Found(make_portable(cut_suffix(real)), (real,)), asked)
+            package = pack(Found(make_portable(name), (real,)), asked)
         except ManyPrograms as error:
             raise CannotTake(f"{path}: {error}, or grade each of them with --class") from error
         except CannotTake as error:
@@ -63,18 +65,6 @@ def open_submission(
         for note in package.notes:
             say(note)
         yield package.unpack(temporary)
-
-
-def is_laid_out(path: Path, asked: Collection[str] = ()) -> bool:
-    """Tell whether a folder can be graded as it lies, or has nothing to put together."""
-    if not path.is_dir():
-        return False
-    try:
-        laid = arrange(path, asked)
-    except ManyPrograms:
-        return False
-    as_it_is = laid.as_found and laid.root == path
-    return as_it_is or not (laid.files or list_archives(path))
 
 
 def pack(found: Found, asked: Collection[str] = ()) -> Package:
@@ -113,7 +103,7 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
 
 
 def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:
-    """Return notes on empty programs; raises CannotTake where one is no Python at all."""
+    """Return notes on empty programs; raises CannotTake where Python reads no text in one."""
     held = {name: content for name, content in files if module_of(PurePosixPath(name)) in asked}
     empty = {name for name, content in held.items() if name_type(content) == "empty"}
     if held and len(empty) == len(held):
@@ -121,6 +111,8 @@ def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) 
     for name, content in sorted(held.items()):
         if name.endswith(".py") and name not in empty and (words := name_type(content)):
             raise CannotTake(f"{name} is {words}: ask for the program itself")
+        if name.endswith(".py") and (flaw := find_bad_bytes(content)):
+            raise CannotTake(f"{name}, line {flaw.line}: {flaw.message}: ask for it in UTF-8")
     alone = (f"{name} is empty" for name in sorted(empty) if "/" not in name)
     return list(alone)
 

@@ -4,6 +4,7 @@ import io
 import tarfile
 import zipfile
 import zlib
+from collections.abc import Iterable
 from unittest.mock import patch
 
 import py7zr
@@ -16,9 +17,14 @@ def as_bytes(content: str | bytes) -> bytes:
 
 
 def as_zip(files: Files) -> bytes:
+    return as_zip_of(files.items())
+
+
+def as_zip_of(members: Iterable[tuple[str, str | bytes]]) -> bytes:
+    """A zip with these members, of which two may have one name."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in files.items():
+        for name, content in members:
             archive.writestr(name, content)
     return out.getvalue()
 

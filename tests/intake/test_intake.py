@@ -25,7 +25,7 @@ from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge import submission
 from grader.judge.grade import KIT
-from grader.judge.submission import MAX_BYTES, MAX_FILES
+from grader.judge.submission import MAX_BYTES, MAX_FILES, CannotGrade
 
 PROGRAM = {"mini_engine/__init__.py": "", "integrators.py": "x = 1\n"}
 
@@ -243,8 +243,8 @@ def test_one_zip_is_laid_out_as_one_of_a_class_is(tmp_path):
     path.write_bytes(zipped({"../up.py": ""}))
     with pytest.raises(Stop, match="reaches outside"), open_submission(path):
         pass
-    with open_submission(tmp_path) as folder:
-        assert folder == tmp_path
+    with pytest.raises(CannotGrade, match="reaches outside"), open_submission(tmp_path):
+        pass
 
 
 def test_taking_in_loads_the_judge_and_no_more_of_the_grader():

@@ -319,9 +319,10 @@ def test_one_folder_is_laid_out_as_one_of_a_class_is(tmp_path):
     write(tmp_path / "two", PROGRAM | {"integrators (1).py": "x = 2\n"})
     write(tmp_path / "none", {"notes.txt": ""})
     said: list[str] = []
-    for name in ("well", "none"):
-        with open_submission(tmp_path / name, said.append) as folder:
-            assert folder == tmp_path / name and not said
+    with open_submission(tmp_path / "well", said.append) as folder:
+        assert folder.name == "well" and said.pop().startswith("old/integrators.py was left out")
+    with pytest.raises(Stop, match="nothing of the lab"), open_submission(tmp_path / "none"):
+        pass
     with open_submission(tmp_path / "deep", said.append) as folder:
         assert folder.name == "deep" and (folder / "integrators.py").read_text() == "x = 1\n"
     assert said == ["work/integrators (1).py is taken as integrators.py"]
