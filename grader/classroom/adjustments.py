@@ -22,7 +22,8 @@ from msgspec import Meta, Struct, structs
 
 from grader.errors import Stop
 from grader.intake.found import Found
-from grader.intake.names import fold, split_login
+from grader.intake.names import fold, make_portable, split_login
+from grader.intake.roster import ClassList
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
 from grader.text import plural
 
@@ -158,15 +159,33 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         here = list(names)
         return [who for who in self.students if not any(is_same_student(who, n) for n in here)]
 
-    def refuse_doubts(self, names: Iterable[str]) -> None:
-        """Stop where one name of the file means two students."""
+    def resolve(self, names: Iterable[str], people: ClassList) -> "Adjustments":
+        """Return the decisions with students by their names in the class, `names`.
+
+        A student may be written as the class list has them: by address, login, number or full
+        name. Raises Stop where that means two students.
+        """
         here = list(dict.fromkeys(names))
-        for who in self.students:
-            meant = [name for name in here if is_same_student(who, name)]
-            if len(meant) > 1:
-                raise Stop(
-                    f"{who!r} in the adjustments could be {' or '.join(meant)}: write it whole"
-                )
+        known = {who: find_student(who, here, people) for who in self.students}
+        adjust = [
+            structs.replace(each, student=[known[who] for who in each.students])
+            for each in self.adjust
+        ]
+        if faults := list(find_set_twice(adjust)):
+            raise Stop(f"in the adjustments {faults[0]}")
+        return structs.replace(self, adjust=adjust)
+
+
+def find_student(who: str, names: list[str], people: ClassList) -> str:
+    """Return the name in the class of whom a decision names; as written, of nobody there."""
+    meant = [name for name in names if is_same_student(who, name)]
+    listed = [each for name in people.list_called(who) for each in (name, make_portable(name))]
+    meant = list(dict.fromkeys([*meant, *(name for name in listed if name in names)]))
+    if len(meant) > 1:
+        raise Stop(
+            f"{who!r} in the adjustments could be {' or '.join(meant)}: write one of these names"
+        )
+    return meant[0] if meant else who
 
 
 def is_same_student(who: str, name: str) -> bool:
@@ -264,9 +283,15 @@ def find_faults(adjustments: Adjustments, most: int) -> Iterator[str]:
     due = adjustments.late.due if adjustments.late else None
     if due is not None and due.tzinfo is None and not adjustments.zone:
         yield f"due = {due} needs its time zone, as in {due}+02:00, or zone at the top"
-    marked: set[str] = set()
     for each in adjustments.adjust:
         yield from find_faults_of_decision(each, adjustments, most)
+    yield from find_set_twice(adjustments.adjust)
+
+
+def find_set_twice(decisions: Iterable[Adjust]) -> Iterator[str]:
+    """Yield whose points two decisions set."""
+    marked: set[str] = set()
+    for each in decisions:
         if each.points is not None:
             twice = [name for name in each.students if fold(name) in marked]
             yield from (f"points of {name!r} are set twice" for name in twice)

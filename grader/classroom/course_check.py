@@ -66,7 +66,7 @@ def find_problems(files: Files, path: Path | None = None) -> Iterator[str]:
         except Stop as error:
             yield str(error)
             return
-    yield from check_names(adjustments, names, files.adjust)
+    yield from check_names(adjustments, names, people, files.adjust)
 
 
 def check_roster(roster: Roster, key: str) -> Iterator[str]:
@@ -129,10 +129,12 @@ def check_submissions(
         )
 
 
-def check_names(adjustments: Adjustments, names: list[str], path: Path | None) -> Iterator[str]:
+def check_names(
+    adjustments: Adjustments, names: list[str], people: ClassList, path: Path | None
+) -> Iterator[str]:
     """Return decisions about nobody, or about two."""
     try:
-        adjustments.refuse_doubts(names)
+        adjustments = adjustments.resolve(names, people)
     except Stop as error:
         yield str(error)
     if names:

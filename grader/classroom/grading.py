@@ -47,7 +47,7 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     with open_class(path, people) as intake, open_executor(wanted) as executor:
         names = intake.names
         absent = people.list_absent(names)
-        adjustments.refuse_doubts([*names, *absent])
+        adjustments = adjustments.resolve([*names, *absent], people)
         run = Run(intake, book, make_key(wanted.options), adjustments, course)
         others = absent if people.names else adjustments.find_unused(names)
         grade_class(run, executor, console, others)

@@ -152,6 +152,14 @@ class ClassList:
                         return next(iter(names))
         return None
 
+    def list_called(self, label: str) -> list[str]:
+        """Return all students whom any column that names people calls so, in the list's order."""
+        columns = [*KEYS, "ID", CALLED, "Student", "Full name", "name"]
+        spellings = {fold(label), strip_zeros(label)}
+        keys = [(column, spelled) for column in columns for spelled in spellings]
+        found = set().union(*(self._students.get(key, set()) for key in keys))
+        return [name for name in self.names if name in found]
+
     def find_anywhere(self, label: str) -> str | None:
         """Return the student whom any column calls so."""
         return self.find([*KEYS, "ID", CALLED, "name"], label)

@@ -8,6 +8,8 @@ import pytest
 from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.errors import Stop
 from grader.intake.found import Found
+from grader.intake.roster import ClassList
+from grader.intake.systems import read_roster
 
 DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)
 LATE = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = 10\nat_most = 25\n"
@@ -188,6 +190,39 @@ def test_one_decision_for_several_and_an_address_by_its_first_half(tmp_path):
     decided = loaded(tmp_path, text)
     assert decided.decide(Found("ben@x", ()), 5).points == 6
     assert decided.decide(Found("ann@y", ()), 5).points == 6
-    decided.refuse_doubts(["ann@y", "ben@x"])
-    with pytest.raises(Stop, match="could be ann@x or ann@y"):
-        decided.refuse_doubts(["ann@x", "ann@y"])
+    decided.resolve(["ann@y", "ben@x"], ClassList())
+    with pytest.raises(Stop, match="could be ann@x or ann@y: write one of these names"):
+        decided.resolve(["ann@x", "ann@y"], ClassList())
+
+
+ROSTER = (
+    "Identifier,Full name,ID number,Email address,Username\n"
+    "Participant 4711,Ann Bell,007,ann@x.edu,abell\n"
+    "Participant 4712,Ann Bell,008,bell@x.edu,ann2\n"
+    "Participant 4713,Cem Öz,009,cem@x.edu,coz\n"
+)
+
+
+@pytest.fixture
+def people(tmp_path: Path) -> ClassList:
+    (tmp_path / "list.csv").write_text(ROSTER, encoding="utf-8")
+    return ClassList(read_roster(tmp_path / "list.csv"))
+
+
+@pytest.mark.parametrize(
+    "who", ["cem@x.edu", "CEM", "Cem Öz", "009", "9", "coz", "4713", "Participant 4713"]
+)
+def test_a_student_is_known_by_every_name_of_the_class_list(tmp_path, people, who):
+    text = f"[[adjust]]\nstudent = {who!r}\nreason = 'ill'\npoints = 3\n"
+    decided = loaded(tmp_path, text).resolve(["ann@x.edu", "cem@x.edu"], people)
+    assert decided.students == ["cem@x.edu"]
+    assert decided.decide(Found("cem@x.edu", ()), None).points == 3
+
+
+def test_a_name_that_two_have_is_refused_with_both(tmp_path, people):
+    text = "[[adjust]]\nstudent = 'Ann Bell'\nreason = 'ill'\npoints = 3\n"
+    with pytest.raises(Stop, match="'Ann Bell' in the adjustments could be "):
+        loaded(tmp_path, text).resolve(["ann@x.edu", "bell@x.edu"], people)
+    twice = text.replace("Ann Bell", "cem") + text.replace("Ann Bell", "coz")
+    with pytest.raises(Stop, match=r"points of 'cem@x.edu' are set twice"):
+        loaded(tmp_path, twice).resolve(["cem@x.edu"], people)
