@@ -115,7 +115,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         free = f", {plural(days - costly, 'day')} free" if days > costly else ""
         reasons.append(f"{late_for}{free}: {'-' if loss else ''}{loss}")
         points -= loss
-        if late.cap is not None and costly and points > late.cap:
+        if isinstance(late.cap, int) and costly and points > late.cap:
             reasons.append(f"late work has {late.cap} at most")
             points = late.cap
         return points
@@ -221,13 +221,16 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
         document = tomllib.loads(path.read_text(encoding="utf-8-sig")) if path else {}
         convert_dates(document)
         adjustments = msgspec.convert(add_rules(course, document), Adjustments)
+        most = course.rubric.max_points
+        if adjustments.late is not None and not any(adjustments.late.find_faults(most)):
+            adjustments = structs.replace(adjustments, late=adjustments.late.in_points(most))
     except OSError as error:
         raise Stop(f"there are no adjustments at {path}") from error
     except msgspec.ValidationError as error:
         raise Stop(f"{path}: {name_value(str(error), document)}") from error
     except ValueError as error:  # no TOML, or no text
         raise Stop(f"{path}: {error}") from error
-    if faults := list(find_faults(adjustments, course.most)):
+    if faults := list(find_faults(adjustments, course)):
         raise Stop(f"{path}: " + "; ".join(faults))
     return adjustments
 
@@ -235,7 +238,7 @@ def load_adjustments(path: Path | None, course: Course = FULL) -> Adjustments:
 RULES = {  # by what msgspec says
     "Expected `int` >= 0": "must be a whole number, 0 or more",
     "Expected `int": "must be a whole number",
-    r"'^\\d+%$'": 'must be points, or a share as "10%"',
+    "%$'": 'must be points, or a share as "10%"',
     r"'\\S'": "must not be empty",
 }
 
@@ -273,8 +276,10 @@ def add_rules(course: Course, document: dict[str, Any]) -> dict[str, Any]:
     return document | ({"late": late} if late else {})
 
 
-def find_faults(adjustments: Adjustments, most: int) -> Iterator[str]:
+def find_faults(adjustments: Adjustments, course: Course) -> Iterator[str]:
     """Return all that cannot be meant, a sentence each."""
+    if adjustments.late is not None:
+        yield from adjustments.late.find_faults(course.rubric.max_points)
     try:
         ZoneInfo(adjustments.zone or "UTC")
     except (ZoneInfoNotFoundError, ValueError):
@@ -284,7 +289,7 @@ def find_faults(adjustments: Adjustments, most: int) -> Iterator[str]:
     if due is not None and due.tzinfo is None and not adjustments.zone:
         yield f"due = {due} needs its time zone, as in {due}+02:00, or zone at the top"
     for each in adjustments.adjust:
-        yield from find_faults_of_decision(each, adjustments, most)
+        yield from find_faults_of_decision(each, adjustments, course.most)
     yield from find_set_twice(adjustments.adjust)
 
 
@@ -303,8 +308,9 @@ def find_faults_of_decision(each: Adjust, adjustments: Adjustments, most: int) -
     given = [each.add, each.points, each.late, each.due, each.cap, each.bonus]
     if given.count(None) != len(given) - 1 or each.late:
         yield f"the decision about {who!r} needs one of {KINDS}"
-    if each.points is not None and each.points > most:
-        yield f"points = {each.points} of {who!r} is more than the {most} that there are"
+    for name, value in (("points", each.points), ("cap", each.cap)):
+        if value is not None and value > most:
+            yield f"{name} = {value} of {who!r} is more than the {most} that there are"
     if each.due is None:
         return
     if each.due.tzinfo is None and not adjustments.zone:

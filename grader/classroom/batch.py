@@ -18,7 +18,7 @@ from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop
 from grader.intake.found import CannotTake, Found, Intake, Package
-from grader.intake.names import shorten_list
+from grader.intake.names import list_names
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.outer import Exceeded, Failed
@@ -100,7 +100,7 @@ class Run:
         """Apply the course's and a person's rules to an outcome, and keep it."""
         decisions = self.adjustments
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
-        added = 0 if outcome.trouble else self.course.added(outcome.bonus)
+        added = 0 if outcome.trouble else self.course.added(outcome.bonus, outcome.points)
         final = decisions.decide(found, None if outcome.trouble else outcome.points + added)
         counted = [f"bonus: +{added}"] if added and not final.by_hand else []
         outcome = msgspec.structs.replace(
@@ -139,7 +139,7 @@ class Run:
         worth = {each.name: each.points for each in self.outcomes}
         for names in [list(each.values()) for each in self.same.values()]:
             if len(names) > 1 and worth[names[0]]:
-                yield f"the same files were handed in by {shorten_list(names)}"
+                yield f"the same files were handed in by {list_names(names)}"
 
 
 def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable[str] = ()) -> Run:
@@ -168,7 +168,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
     for student in run.adjustments.find_unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")
     if others := sorted({path.stem for path in book.folder.glob("[!.]*.json")} - set(names)):
-        words = f"also holds results of others than this class: {shorten_list(others)}"
+        words = f"also holds results of others than this class: {list_names(others)}"
         run.notes.append(f"{book.folder} {words}")
     return run
 

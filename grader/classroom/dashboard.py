@@ -17,6 +17,13 @@ from markupsafe import Markup
 
 from grader.classroom.adjustments import write_time
 from grader.classroom.book import Book, Outcome, make_outcome
+from grader.classroom.marks import (
+    ENGINE,
+    USUAL_TOTAL,
+    Marking,
+    compute_mark,
+    make_parts,
+)
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
 from grader.intake.found import Intake
@@ -202,17 +209,17 @@ def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) 
     for entry in entries:
         name = entry.outcome.name
         report = folder / f"{name}.html"
-        standing = make_standing(entry.outcome)
+        standing = make_standing(entry.outcome, course)
         if entry.result is None:
             write_standing(standing, report)
         else:
             write_report(withhold_reasons(entry.result, course), report, standing=standing)
     path = folder.with_name(f"{folder.name}.class.html")
-    write_whole(render_class(folder, entries).encode("utf-8"), path)
+    write_whole(render_class(folder, entries, course.title).encode("utf-8"), path)
     return path
 
 
-def make_standing(outcome: Outcome) -> Standing:
+def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
     """Return what a page says beside the checks: the mark, the dates, and all decisions."""
     lines = [
         ("Group", outcome.group_in_words.removeprefix("group ")),
@@ -226,12 +233,23 @@ def make_standing(outcome: Outcome) -> Standing:
         outcome.name,
         outcome.mark,
         outcome.max_points,
-        outcome.bonus,
+        outcome.bonus if course.bonus == "apart" else 0,
+        scale_mark(outcome, course),
         [(name, words) for name, words in lines if words],
     )
 
 
-def render_class(folder: Path, entries: list[Entry]) -> str:
+def scale_mark(outcome: Outcome, course: Course) -> str:
+    """Return a mark as `marks` writes it; empty where it counts the same points."""
+    total = course.out_of or USUAL_TOTAL
+    if outcome.mark is None or not outcome.max_points or total == outcome.max_points:
+        return ""
+    parts = make_parts([outcome])[outcome.name]
+    mark = compute_mark(parts, Marking(course.title, {ENGINE: 1}, total))
+    return f"{mark} of {total:g}"
+
+
+def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) -> str:
     """Return the page; its links to reports and replays lead into `folder`, beside it."""
     graded = [each for each in entries if each.result]
     marked = [each for each in entries if each.outcome.mark is not None]
@@ -242,7 +260,8 @@ def render_class(folder: Path, entries: list[Entry]) -> str:
         TEMPLATES / "dashboard.html",
         "dashboard.css",
         script,
-        title=folder.name,
+        title=title,
+        pages=folder.name,
         folder=f"./{quote(folder.name)}/",
         entries=entries,
         graded=graded,

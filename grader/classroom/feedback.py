@@ -20,6 +20,7 @@ from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
 from grader.judge.wording import reasons, withhold_reasons
 from grader.report.files import put_in
+from grader.report.html import list_failed_first
 from grader.text import clean, format_csv
 
 ASSIGNMENT = "physics-engine"
@@ -69,7 +70,8 @@ def answer_export(
             continue
         if entry.result is not None:
             entry = replace(entry, result=withhold_reasons(entry.result, graded.course))
-        page = make_page(found, entry, path.read_bytes(), people)
+        text = write_text(entry, graded.course)
+        page = make_page(found, path.read_bytes(), text, people)
         works.setdefault(found.sources, []).append(page)
     for sources, pages in works.items():
         files = dict(lms.name_pages(sources[0], pages))
@@ -97,21 +99,22 @@ def answer_absent(
             made.notes.append(f"{name}: left out, {why}")
 
 
-def make_page(found: Found, entry: Entry, content: bytes, people: ClassList) -> Page:
+def make_page(found: Found, content: bytes, text: str, people: ClassList) -> Page:
     """Return what goes back to one student; a group's others get it beside the first one's."""
     if not found.handed_in_by:
-        return Page(found.name, PAGE, content, write_text(entry))
+        return Page(found.name, PAGE, content, text)
     file = f"feedback-{make_portable(found.name)}.html"
     participant = people.participants.get(found.name, "")
-    return Page(found.name, file, content, write_text(entry), participant)
+    return Page(found.name, file, content, text, participant)
 
 
-def write_text(entry: Entry) -> str:
+def write_text(entry: Entry, course: Course) -> str:
     """Return the page in plain words, for where no page can be."""
-    standing = make_standing(entry.outcome)
+    standing = make_standing(entry.outcome, course)
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
+    mark += f", which is {standing.scaled} in the gradebook" if standing.scaled else ""
     lines = [f"Mark: {mark}", *(f"{name}: {clean(text)}" for name, text in standing.lines)]
-    for todo in entry.result.shown if entry.result else []:
+    for todo in list_failed_first(entry.result) if entry.result else []:
         points = f"{todo.points} / {todo.max_points}"
         lines += ["", f"TODO {todo.id} {todo.title}: {todo.state}, {points}"]
         for check in todo.failed:

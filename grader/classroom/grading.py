@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 
 from grader.classroom.adjustments import load_adjustments
 from grader.classroom.batch import Run, grade_class
@@ -16,12 +16,12 @@ from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import make_key
 from grader.classroom.similarity import find_pairs, write_pairs
 from grader.intake.listing import open_class
-from grader.intake.names import shorten_list
+from grader.intake.names import list_names
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
-from grader.text import clean
+from grader.text import clean, printable
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
 LONGEST_PAGE = 2000  # rows of the page: making it takes all results at once, 35 kB each
@@ -55,9 +55,9 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
             by_name = {each.name: each for each in intake.found}
             write_pairs(book.folder, find_pairs(run.prints), by_name)
         if absent:
-            run.notes.append(f"nothing was handed in by {shorten_list(absent)}")
+            run.notes.append(f"nothing was handed in by {list_names(absent)}")
         if unlisted := people.list_unlisted(names):
-            run.notes.append(f"not in the class list: {shorten_list(unlisted)}")
+            run.notes.append(f"not in the class list: {list_names(unlisted)}")
     show_class(run, console)
     console.print(write_page(run), soft_wrap=True)
     return run
@@ -84,8 +84,8 @@ def show_class(run: Run, console: Console) -> None:
     results = [each for each in run.outcomes if not each.trouble]
     if len(results) > 1:
         console.print(tabulate_rates(results, run.course))
-    for note in run.notes[:LONGEST]:
-        console.print(clean(note), soft_wrap=True)
+    for note in run.notes:
+        console.print(printable(note), soft_wrap=True)
     counts = ", ".join(f"{count} {how}" for how, count in run.counts.items())
     console.print(f"{len(run.outcomes)} submissions: {counts}")
     console.print(f"results: {run.book.folder}", soft_wrap=True)
@@ -93,12 +93,13 @@ def show_class(run: Run, console: Console) -> None:
 
 
 def tabulate_class(outcomes: list[Outcome]) -> Table:
-    table = Table("submission", "points", "not passed")
+    titles = ("submission", "points", "not passed")
+    table = Table(*(Column(title, overflow="fold") for title in titles))
     for each in outcomes:
         points = "none" if each.mark is None else f"{each.mark} / {each.max_points}"
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
         left = "all" if nothing and not each.trouble else ", ".join(each.left)
-        words = [clean(line) for line in (left, *list_notes(each)) if line]
+        words = [printable(line) for line in (left, *list_notes(each)) if line]
         table.add_row(clean(each.name), points, "\n".join(words))
     return table
 

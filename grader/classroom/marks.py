@@ -18,12 +18,13 @@ from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.owners import Owners, find_owners
 from grader.errors import Stop
 from grader.intake.lms import MarkColumn, Marked
-from grader.intake.names import shorten_list
+from grader.intake.names import list_names
 from grader.intake.roster import Roster, Row
 from grader.intake.systems import find_system
 from grader.judge.course import FULL, Course
 from grader.text import clean, format_csv
 
+USUAL_TOTAL = 100  # of marks, where a course does not say what they are out of
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
 
 
@@ -32,7 +33,7 @@ class Marking(Struct, frozen=True, forbid_unknown_fields=True):
 
     title: str
     shares: dict[str, Annotated[float, Meta(ge=0, lt=1e9)]]
-    total: Annotated[float, Meta(gt=0)] = 100
+    total: Annotated[float, Meta(gt=0)] = USUAL_TOTAL
     decimals: Annotated[int, Meta(ge=0, le=6)] = 1
     absent: int | float | str = 0
 
@@ -51,7 +52,7 @@ Parts = dict[str, Part]
 
 def load_marking(path: Path, course: Course = FULL) -> Marking:
     """Read the settings; a title and a total that they do not name are the course's."""
-    usual = {"title": course.title, "total": course.out_of or 100}
+    usual = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
         marking = msgspec.convert(usual | document, Marking)
@@ -137,12 +138,12 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
         made.notes.append(f"{student}: handed in, but is not in the class list under {key!r}")
     if made.unowned:
         made.notes.append(
-            f"{shorten_list(made.unowned)}: no mark, as that may be their work: say whose it is in "
+            f"{list_names(made.unowned)}: no mark, as that may be their work: say whose it is in "
             "a column Called, or with --others-known that it is nobody's here"
         )
     lms = find_system(roster)
     if above := [row[key] for row, mark, _ in made.rows if is_above(mark, marking.total)]:
-        made.notes.append(lms.warn_above(shorten_list(above), marking.total))
+        made.notes.append(lms.warn_above(list_names(above), marking.total))
     worth = read_total(roster, marking.title)
     if worth is not None and worth != marking.total:
         words = f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}"

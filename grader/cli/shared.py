@@ -14,7 +14,7 @@ from grader.judge.course import COURSE_FILE, FULL, Course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.isolation import Isolation
 from grader.judge.result import Result
-from grader.text import clean, plural
+from grader.text import plural, printable
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
@@ -115,7 +115,7 @@ def open_path(path: Path, programs: Collection[str] = ()) -> Iterator[Path]:
 
 
 def print_note(note: str) -> None:
-    console.print(clean(note), soft_wrap=True)
+    console.print(printable(note), soft_wrap=True)
 
 
 def print_notes(notes: Collection[str]) -> None:

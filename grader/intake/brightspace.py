@@ -8,12 +8,14 @@ from grader.intake.dates import read_moment
 from grader.intake.found import Upload
 from grader.intake.lms import Lms, MarkColumn, Page, pick
 from grader.intake.names import make_portable
-from grader.intake.roster import ClassList, Roster
+from grader.intake.roster import ClassList, Roster, Row
 
 NAME = re.compile(
     r"(?P<ids>\d+-\d+) - (?P<name>.+?) - (?P<when>(?:(?! - ).)*\d{4}(?:(?! - ).)*?)"
     r"(?: - (?P<file>.+))?"
 )
+OWN = ("OrgDefinedId", "Username")  # the identifiers that it takes back
+SIGN = "#"  # before an identifier, and in the last column
 END_OF_LINE = "End-of-Line Indicator"  # the last column, a # in each row
 
 
@@ -46,11 +48,20 @@ class Brightspace(Lms):
     def writes_gradebook(self, columns: set[str]) -> bool:
         return END_OF_LINE in columns or "OrgDefinedId" in columns
 
+    def read_row(self, row: Row) -> Row:
+        """Take the sign off that keeps spreadsheets from an identifier; see `make_table`."""
+        return (
+            row
+            | {f"{SIGN}{name}": row[name] for name in OWN if name in row}
+            | {name: row[name].removeprefix(SIGN) for name in OWN if name in row}
+        )
+
     def make_table(self, roster: Roster, marks: MarkColumn) -> list[list[str]]:
         """Return an identifier, the points, and a sign at the end of each row."""
-        own = [name for name in ("OrgDefinedId", "Username") if name in roster.columns]
+        own = [name for name in OWN if name in roster.columns]
+        written = [f"{SIGN}{name}" for name in own]  # as it was exported
         table = [[*own, f"{marks.title} Points Grade", END_OF_LINE]]
-        return [*table, *([*pick(each.row, own), each.mark, "#"] for each in marks.rows)]
+        return [*table, *([*pick(each.row, written), each.mark, SIGN] for each in marks.rows)]
 
     def name_pages(self, source: Path, pages: list[Page]) -> Iterator[tuple[str, bytes]]:
         """Return the folders of the download, with other files in them."""

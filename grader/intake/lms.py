@@ -89,6 +89,10 @@ class Lms:
     def is_student(self, row: Row) -> bool:
         return True
 
+    def read_row(self, row: Row) -> Row:
+        """Return a student's row with identifiers as the student knows them."""
+        return row
+
     def translate(self, titles: list[str]) -> list[str]:
         """Return the titles of columns in English, and those of `roster.KEYS` and SUBMITTED.
 

@@ -94,6 +94,8 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
                         files.append((name, file.read(length)))
     except OSError as error:
         raise CannotTake(unreadable(error, found.sources[0])) from error
+    except CannotTake:
+        raise
     except CannotGrade as error:
         raise CannotTake(str(error)) from error
     notes = [*notes, *find_empty_programs(files, asked), *laid.notes, *bounds.notes]

@@ -33,10 +33,10 @@ def find_system(roster: Roster) -> Lms:
 def read_roster(path: Path) -> Roster:
     """Read the gradebook of a learning system, or any CSV with a row of titles."""
     roster = read_table(path)
-    is_student = find_system(roster).is_student
+    system = find_system(roster)
     everything = roster.rows
-    roster.rows = [row for row in everything if is_student(row)]
-    roster.other_rows = [row for row in everything if not is_student(row)]
+    roster.rows = [system.read_row(row) for row in everything if system.is_student(row)]
+    roster.other_rows = [row for row in everything if not system.is_student(row)]
     for row in roster.rows:
         for column in (*KEYS, "ID"):
             if MANGLED.fullmatch(row.get(column, "").strip()):

@@ -31,7 +31,7 @@ ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day en
 Read = TypeVar("Read", bound=Struct)
 Kind = Literal["number", "film", "line", "why"]
 Count = Annotated[int, Meta(ge=0)]
-Share = Annotated[str, Meta(pattern=r"^\d+%$")]
+Share = Annotated[str, Meta(pattern=r"^(100|\d{1,2})%$")]
 Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
 
 
@@ -43,19 +43,41 @@ class Late(Struct, frozen=True, forbid_unknown_fields=True):
     """The cost of lateness, begun days counted as whole: in a course, and in decisions."""
 
     per_day: Count | Share = 0  # points, or a share of those earned, as "10%"
-    at_most: Count = 100  # points that lateness takes
+    at_most: Count | Share | None = None  # what lateness takes, in the same way
     grace: Count = 0  # minutes after the due date that cost nothing
     free_days: Count = 0  # late days that each student has
-    cap: Count | None = None  # the most that late work can have
+    cap: Count | Share | None = None  # the most that late work can have; a share of full marks
     closed_after: Count | None = None  # days, after which there are no points
     due: datetime | None = None  # in decisions alone: a course has a line of its own for it
 
     def loss(self, days: int, points: int) -> int:
         """Return the points that `days` late days take off; a begun point of a share is kept."""
         if isinstance(self.per_day, str):
-            share = min(days * int(self.per_day.removesuffix("%")), 100)
-            return min(points * share // 100, self.at_most)
-        return min(days * self.per_day, self.at_most)
+            loss = points * min(days * read_share(self.per_day), 100) // 100
+        else:
+            loss = days * self.per_day
+        if isinstance(self.at_most, str):
+            return min(loss, points * read_share(self.at_most) // 100)
+        return loss if self.at_most is None else min(loss, self.at_most)
+
+    def in_points(self, most: int) -> "Late":
+        """Return the same with the cap in points, where full marks are `most`."""
+        if not isinstance(self.cap, str):
+            return self
+        return structs.replace(self, cap=most * read_share(self.cap) // 100)
+
+    def find_faults(self, most: int) -> Iterator[str]:
+        """Yield what a course with `most` points cannot mean."""
+        for name in ("per_day", "at_most", "cap"):
+            value = getattr(self, name)
+            if isinstance(value, int) and value > most:
+                full = f"is more than the {most} points that there are"
+                yield f'late: {name} = {value} {full}: write fewer, or a share as "10%"'
+
+
+def read_share(share: str) -> int:
+    """Return the percents of `10%`."""
+    return int(share.removesuffix("%"))
 
 
 class Asked(Struct, frozen=True, forbid_unknown_fields=True):
@@ -81,7 +103,8 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     `todos`: the ids of its TODOs; None for all of them.
     `points`: what a TODO is worth where that is not what the rubric says.
     `out_of`: what gradebooks scale the points to; None for what the gradebook's own settings say.
-    `bonus`: whether the points of bonus tasks are shown apart, left out, or added up to this many.
+    `bonus`: whether the points of bonus tasks are shown apart, left out, added until full marks are
+    reached, or added up to this many.
     `due`, `late`: until when work is handed in, and what it costs to be late.
     `visible`: when students are shown why a hidden check failed; None for at once.
     `questions`: what is on the sheets about their own programs, whose points stand apart.
@@ -91,7 +114,7 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
     todos: tuple[str, ...] | None = None
     points: dict[str, Worth] = {}
     out_of: Annotated[float, Meta(gt=0, le=100_000)] | None = None
-    bonus: Literal["apart", "left out"] | Count = "apart"
+    bonus: Literal["apart", "left out", "fill up"] | Count = "apart"
     due: datetime | None = None
     late: Late | None = None
     visible: datetime | None = None
@@ -122,15 +145,17 @@ class Course(Struct, frozen=True, forbid_unknown_fields=True):
         """Return the same with the rubric's points, of which each check has at least one."""
         return structs.replace(self, points={})
 
-    def added(self, bonus: int) -> int:
-        """Return how many points of a bonus count with the others."""
+    def added(self, bonus: int, points: int) -> int:
+        """Return how many points of a bonus count with the others, which are `points`."""
+        if self.bonus == "fill up":
+            return min(bonus, max(self.rubric.max_points - points, 0))
         return 0 if isinstance(self.bonus, str) else min(bonus, self.bonus)
 
     @property
     def most(self) -> int:
         """Return the most points that a mark can have, with as much of the bonus as counts."""
         bonus = sum(todo.max_points for todo in self.rubric.todos if todo.bonus)
-        return self.rubric.max_points + self.added(bonus)
+        return self.rubric.max_points + self.added(bonus, self.rubric.max_points)
 
 
 FULL = Course()
@@ -242,11 +267,13 @@ MUST = {
     "points": "must be a table: write [points] on a line and 4 = 12 below it",
     "points.*": "must be a whole number from 1 to 1000",
     "out_of": "must be a number above 0, as in out_of = 100",
-    "bonus": 'must be "apart", "left out", or how many points count at most',
+    "bonus": 'must be "apart", "left out", "fill up", or how many points count at most',
     "due": f"must be a date without quotes, as in due = {EXAMPLE}",
     "visible": f"must be a date without quotes, as in visible = {EXAMPLE}",
     "late": "must be a table: write [late] on a line and per_day = 10 below it",
     "late.per_day": 'must be a whole number, 0 or more, or a share as "10%"',
+    "late.at_most": 'must be a whole number, 0 or more, or a share as "50%"',
+    "late.cap": 'must be a whole number, 0 or more, or a share as "80%"',
     "late.*": "must be a whole number, 0 or more",
     "questions": "must be a table: write [questions] and number = 3 below it",
     "questions.points": "must be as in points = { number = 2, why = 3 }",
@@ -334,6 +361,8 @@ def faults_between(course: Course) -> Iterator[str]:
                 "todos: none of the checks of the whole program needs one of these TODOs, so it "
                 'would be given away: leave "whole" out'
             )
+    if course.late is not None:
+        yield from course.late.find_faults(course.rubric.max_points)
     for name in course.points:
         if name not in (course.todos or todos):
             there = "is not among the todos" if name in todos else "is no TODO"

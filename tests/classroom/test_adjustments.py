@@ -10,6 +10,7 @@ from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
+from grader.judge.course import Course
 
 DUE = datetime(2026, 5, 4, 22, tzinfo=UTC)
 LATE = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = 10\nat_most = 25\n"
@@ -226,3 +227,27 @@ def test_a_name_that_two_have_is_refused_with_both(tmp_path, people):
     twice = text.replace("Ann Bell", "cem") + text.replace("Ann Bell", "coz")
     with pytest.raises(Stop, match=r"points of 'cem@x.edu' are set twice"):
         loaded(tmp_path, twice).resolve(["cem@x.edu"], people)
+
+
+SHARES = "[late]\ndue = 2026-05-04T22:00:00Z\nper_day = '10%'\nat_most = '50%'\ncap = '80%'\n"
+
+
+@pytest.mark.parametrize(
+    "days, earned, points", [(1, 100, 80), (1, 60, 54), (4, 60, 36), (9, 60, 30), (9, 20, 10)]
+)
+def test_lateness_in_shares_of_what_was_earned_and_of_full_marks(tmp_path, days, earned, points):
+    after = DUE + timedelta(days=days)
+    final = loaded(tmp_path, SHARES).decide(Found("ann", (), handed_in=after), earned)
+    assert final.points == points
+
+
+@pytest.mark.parametrize("line", ["per_day = 41", "cap = 80", "at_most = 100"])
+def test_more_points_than_a_course_has_are_refused(tmp_path, line):
+    (tmp_path / "a.toml").write_text(f"[late]\n{line}\n", encoding="utf-8")
+    with pytest.raises(Stop, match=rf"late: {line} is more than the \d+ points that there are"):
+        load_adjustments(tmp_path / "a.toml", Course(todos=("1", "2", "8a")))
+
+
+def test_a_cap_above_all_points_is_refused(tmp_path):
+    with pytest.raises(Stop, match="cap = 300 of 'Ann' is more than the 100 that there are"):
+        loaded(tmp_path, adjust(cap=300))

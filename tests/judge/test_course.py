@@ -132,8 +132,11 @@ def test_the_whole_program_has_the_checks_of_its_programs():
 
 def test_bonus_tasks_are_left_out_or_added():
     assert not any(todo.bonus for todo in Course(bonus="left out").rubric.todos)
-    assert [Course(bonus=5).added(points) for points in (0, 4, 9)] == [0, 4, 5]
-    assert Course().added(9) == 0
+    assert [Course(bonus=5).added(points, 100) for points in (0, 4, 9)] == [0, 4, 5]
+    fills = Course(bonus="fill up")
+    assert [fills.added(9, points) for points in (80, 95, 100)] == [9, 5, 0]
+    assert fills.most == fills.rubric.max_points == 100
+    assert Course().added(9, 0) == 0
 
 
 # ---------------------------------------------------------------- what is wrong in its file
@@ -167,6 +170,9 @@ WRONG = {
     "late = { per_day = 5, mercy = 1 }": "there is no key mercy",
     "late = { per_day = -5 }": "per_day = -5 must be a whole number",
     'late = { per_day = "5" }': 'or a share as "10%"',
+    "late = { cap = 500 }": "late: cap = 500 is more than the 100 points that there are: write",
+    "late = { per_day = 101 }": "late: per_day = 101 is more than the 100 points",
+    'late = { per_day = 5, at_most = "150%" }': "at_most = '150%' must be a whole number, 0",
     "late = { cap = 80.5 }": "cap = 80.5 must be a whole number",
     "late = { grace = 5 }": "must be a table",
     "[late]\nper_day = 5\ndue = 2027-05-04T12:00:00Z": "write it above that line",

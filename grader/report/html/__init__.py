@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.judge.isolation import unconfined
-from grader.judge.result import Result
+from grader.judge.result import Result, TodoResult
 from grader.judge.wording import named_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
@@ -21,7 +21,8 @@ class Standing:
     name: str
     mark: int | None  # None: it needs manual review
     max_points: int
-    bonus: int = 0
+    bonus: int = 0  # beside the mark, if it does not count in it
+    scaled: str = ""  # the mark as the gradebook has it, if that counts otherwise
     lines: list[tuple[str, str]] = field(default_factory=list)
 
 
@@ -45,12 +46,18 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         "report.css",
         has_replays=True,
         result=result,
+        todos=list_failed_first(result),
         replays=replays,
         standing=standing,
         unconfined=unconfined(result.isolation),
         clean=clean_line,
         reasons=named_reasons,
     )
+
+
+def list_failed_first(result: Result) -> list[TodoResult]:
+    """Return what people are shown: what is to be done before what is done."""
+    return sorted(result.shown, key=lambda todo: todo.state == "passed")
 
 
 def find_replays(result: Result, folder: Path) -> dict[str, str]:

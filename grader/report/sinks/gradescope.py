@@ -15,7 +15,7 @@ def write_gradescope(result: Result, course: Course = FULL) -> bytes:
 
     The score is without bonus, unless the course adds it; what was earned there is said beside it.
     """
-    score: float = result.points + course.added(result.bonus)
+    score: float = result.points + course.added(result.bonus, result.points)
     output = points_in_words(result)
     if course.out_of is not None and course.out_of != result.max_points:
         score = round(score * course.out_of / result.max_points, 2)
