@@ -18,8 +18,9 @@ from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop
 from grader.intake.found import CannotTake, Found, Intake, Package
-from grader.intake.names import list_names
+from grader.intake.names import list_names, make_portable
 from grader.intake.packing import pack
+from grader.intake.roster import ClassList
 from grader.judge.course import FULL, Course
 from grader.judge.outer import Exceeded, Failed
 from grader.judge.result import Result
@@ -45,6 +46,7 @@ class Run:
     key: str
     adjustments: Adjustments = NONE
     course: Course = FULL
+    people: ClassList = field(default_factory=ClassList)
     outcomes: list[Outcome] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=lambda: {"graded": 0, "kept": 0, "trouble": 0})
@@ -113,6 +115,7 @@ class Run:
             due=final.due,
             handed_in=decisions.add_zone(found.handed_in) if found.handed_in else None,
             group=list(found.group),
+            full_name=self.people.full_names.get(make_portable(found.name), ""),
             handed_in_by=found.handed_in_by,
         )
         self.counts[how] = self.counts.get(how, 0) + 1
@@ -161,7 +164,7 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
             counts = ", ".join(f"{count} {how}" for how, count in run.counts.items() if count)
             counter.reached(len(run.outcomes), counts)
         run.record_absent(absent)
-        run.outcomes = run.scale_by_hand(sorted(run.outcomes, key=lambda each: each.name))
+        run.outcomes = run.scale_by_hand(sorted(run.outcomes, key=lambda each: each.order))
         book.finish(run.outcomes, run.course)
     run.notes += run.find_copies()
     names = [each.name for each in run.outcomes]

@@ -17,6 +17,7 @@ import msgspec
 from msgspec import Struct
 
 from grader.classroom.adjustments import write_time
+from grader.intake.names import sort_key
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, is_bonus
 from grader.report.files import write_whole
@@ -49,6 +50,17 @@ class Outcome(Struct, frozen=True):
     broken: list[str] = []  # programs that cannot be imported, and why
     group: list[str] = []  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
+    full_name: str = ""  # as the class list has it
+
+    @property
+    def label(self) -> str:
+        """Return what people know a student by."""
+        return f"{self.full_name} ({self.name})" if self.full_name else self.name
+
+    @property
+    def order(self) -> tuple[object, str]:
+        """Return the key by which people sort students."""
+        return sort_key(self.full_name or self.name), self.name
 
     @property
     def group_in_words(self) -> str:
@@ -163,7 +175,18 @@ def read_book(path: Path) -> Iterator[Outcome]:
 def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """Return the class for a spreadsheet, the same whenever and however fast it was graded."""
     todos = [todo.id for todo in course.rubric.todos]
-    titles = ["name", "points", "found", "of", "bonus", "handed in", "due", "late", "adjusted"]
+    titles = [
+        "name",
+        "student",
+        "points",
+        "found",
+        "of",
+        "bonus",
+        "handed in",
+        "due",
+        "late",
+        "adjusted",
+    ]
     table: list[list[str | float]] = [[*titles, "trouble", "notes", "group", *todos]]
     for each in outcomes:
         mark = "" if each.mark is None else each.mark
@@ -173,5 +196,17 @@ def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
         late = "late" if each.late else ""
         words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
-        table.append([each.name, mark, *found, bonus, *times, *words, each.group_in_words, *points])
+        table.append(
+            [
+                each.name,
+                each.full_name,
+                mark,
+                *found,
+                bonus,
+                *times,
+                *words,
+                each.group_in_words,
+                *points,
+            ]
+        )
     return format_csv(table)

@@ -115,7 +115,7 @@ def read_class(results: Path) -> list[Entry]:
     if not outcomes:
         raise Stop(f"there are no results in {results}: grade a class first, with --class")
     entries = [read_entry(book, outcome) for outcome in outcomes]
-    return sorted(entries, key=lambda each: each.outcome.name)
+    return sorted(entries, key=lambda each: each.outcome.order)
 
 
 def read_results_alone(book: Book) -> Iterator[Outcome]:
@@ -230,7 +230,7 @@ def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
         *(("Note", words) for words in outcome.notes),
     ]
     return Standing(
-        outcome.name,
+        outcome.label,
         outcome.mark,
         outcome.max_points,
         outcome.bonus if course.bonus == "apart" else 0,

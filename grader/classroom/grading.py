@@ -21,7 +21,7 @@ from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
 from grader.judge.result import is_bonus
-from grader.text import clean, printable
+from grader.text import printable
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
 LONGEST_PAGE = 2000  # rows of the page: making it takes all results at once, 35 kB each
@@ -48,7 +48,7 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
         names = intake.names
         absent = people.list_absent(names)
         adjustments = adjustments.resolve([*names, *absent], people)
-        run = Run(intake, book, make_key(wanted.options), adjustments, course)
+        run = Run(intake, book, make_key(wanted.options), adjustments, course, people)
         others = absent if people.names else adjustments.find_unused(names)
         grade_class(run, executor, console, others)
         if len(run.outcomes) <= LONGEST_PAGE:
@@ -100,7 +100,7 @@ def tabulate_class(outcomes: list[Outcome]) -> Table:
         nothing = set(each.left) == {todo for todo in each.todos if not is_bonus(todo)}
         left = "all" if nothing and not each.trouble else ", ".join(each.left)
         words = [printable(line) for line in (left, *list_notes(each)) if line]
-        table.add_row(clean(each.name), points, "\n".join(words))
+        table.add_row(printable(each.label), points, "\n".join(words))
     return table
 
 

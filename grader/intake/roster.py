@@ -8,7 +8,7 @@ from pathlib import Path
 
 from grader.errors import Stop
 from grader.intake.dates import read_moment
-from grader.intake.names import fold, split_login, strip_zeros
+from grader.intake.names import fold, make_portable, split_login, strip_zeros
 
 Row = dict[str, str]
 
@@ -101,6 +101,14 @@ def list_full_names(row: Row) -> Iterator[str]:
         yield full
 
 
+def list_name(row: Row) -> str:
+    """Return a student's name as lists have it, last name first; empty where none is known."""
+    names = list(list_full_names(row))
+    last, _, first = row.get("Student", "").partition(", ")
+    last, first = pick_title(row, LAST, last), pick_title(row, FIRST, first)
+    return f"{last}, {first}" if first and last else "".join(names[:1])
+
+
 def read_number(row: Row) -> str:
     """Return the number of Moodle's Identifier, which has a word before it in any language."""
     match = re.search(r"\d+$", row.get("Identifier", "").strip())
@@ -118,6 +126,7 @@ class ClassList:
         self.names: list[str] = []
         self.groups: dict[str, list[str]] = {}  # students, by the group's name
         self.times: dict[str, datetime] = {}  # of handing in, without a zone, where the list has it
+        self.full_names: dict[str, str] = {}  # as lists have them, by the names of results
         self.participants: dict[str, str] = {}  # what Moodle calls students in names of files
         self._students: dict[tuple[str, str], set[str]] = {}  # by column and spelling
         self._columns = set(roster.columns) if roster else set()
@@ -132,6 +141,7 @@ class ClassList:
 
     def _add(self, name: str, row: Row) -> None:
         self.names.append(name)
+        self.full_names[make_portable(name)] = list_name(row)
         number = read_number(row)
         self._students.setdefault(("Identifier", number), set()).add(name)
         if number and (full := row.get("Full name", "").strip()):

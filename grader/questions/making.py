@@ -79,12 +79,13 @@ class Making:
         except Stop as error:
             raise CannotGrade(f"{error}: leave out --results") from error
 
-    def make(self, student: str, path: Path, worker: Worker) -> SheetResult:
+    def make(self, student: str, path: Path, worker: Worker, full_name: str = "") -> SheetResult:
         """Write the sheet of the submission at `path`."""
         result = self.result_of(student)
         with open_program(path, self.options, worker, result) as program:
             asked = self.options.course.questions
             sheet = make_sheet(program, student, self.seed, asked, MAKERS)
+        sheet = msgspec.structs.replace(sheet, full_name=full_name)
         self.write(sheet)
         left_out = f", {len(sheet.dropped)} not asked" if sheet.dropped else ""
         count = f"{plural(len(sheet.questions), 'question')}, {plural(sheet.points, 'point')}"
@@ -128,22 +129,24 @@ def make_class(
     making: Making, path: Path, roster: Path | None, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    opened = open_class(path, read_class_list(path, roster))
+    people = read_class_list(path, roster)
+    opened = open_class(path, people)
     with closing(start_worker()) as worker, opened as intake:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
         with Counter("making sheets", len(intake.found), console) as counter:
             for number, each in enumerate(intake.found, 1):
-                made.append(make_for(making, each, worker))
+                full_name = people.full_names.get(each.name, "")
+                made.append(make_for(making, each, worker, full_name))
                 counter.reached(number)
     making.finish()
     return made
 
 
-def make_for(making: Making, found: Found, worker: Worker) -> SheetResult:
+def make_for(making: Making, found: Found, worker: Worker, full_name: str) -> SheetResult:
     """Make the sheet of one student of a class; a failure does not stop the others."""
     try:
         package = pack(found, making.options.course.modules)
         with work_folder() as work:
-            return making.make(found.name, package.unpack(work), worker)
+            return making.make(found.name, package.unpack(work), worker, full_name)
     except (CannotTake, CannotGrade) as error:
         return SheetResult(found.name, None, f"{found.name}: {error}")

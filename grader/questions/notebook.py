@@ -39,7 +39,7 @@ TASK = PLAIN | {"task": True}
 
 
 def write_notebook(sheet: Sheet, title: str) -> bytes:
-    about = f"# {title}: {sheet.student}\n\nAbout your own program, as you handed it in."
+    about = f"# {title}: {sheet.label}\n\nAbout your own program, as you handed it in."
     cells = [make_marked("title", "markdown", about, PLAIN)]
     for number, question in enumerate(sheet.questions, 1):
         cells += make_cells(number, question)

@@ -66,6 +66,12 @@ class Sheet(Struct, frozen=True):
     seed: str  # with which it can be made again
     questions: tuple[Question, ...]
     dropped: tuple[str, ...] = ()  # a sentence for each question that could not be asked
+    full_name: str = ""  # of the student, as the class list has it
+
+    @property
+    def label(self) -> str:
+        """Return what people know the student by."""
+        return f"{self.full_name} ({self.student})" if self.full_name else self.student
 
     @property
     def points(self) -> int:
