@@ -1,6 +1,7 @@
 """A class from the export to the gradebook and back: nobody is silently 0, nobody is lost."""
 
 import csv
+import io
 import subprocess
 import sys
 import time
@@ -25,6 +26,7 @@ from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
 from grader.intake.systems import BY_NAME
 from grader.judge.children import start_worker
+from grader.judge.course import Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.submission import plain_files
 
@@ -87,6 +89,40 @@ def exported(place: Path, system: str) -> tuple[Path, Path, list[Student]]:
     decisions = classes.decisions(students, lambda each: name_in(system, each))
     (folder / "adjustments.toml").write_text(decisions, encoding="utf-8")
     return folder, roster, students
+
+
+def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_path, in_one_process):
+    """Brightspace's # is no part of an identifier, and no warning ends in the middle of a list."""
+    names = {"a10": "Öz,Cem", "a2": "Park,Ann", "b1": "Orr,Bob"}
+    absent = {f"c{number}": f"Zed,Student number {number}" for number in range(40)}
+    rows = [f"#{id},{name},#" for id, name in (names | absent).items()]
+    head = "OrgDefinedId,Last Name,First Name,End-of-Line Indicator"
+    folder = tmp_path / "class"
+    for id, points in zip(names, (5, 10, 20), strict=True):
+        classes.put(folder / f"{id}.zip", packed.as_zip(classes.work(points)))
+    (folder / "roster.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
+    course, said = Course(title="Lab 3", out_of=10), io.StringIO()
+    run = run_class(folder, ClassOptions(Options(course=course)), Console(file=said, width=60))
+    labels = ["Orr, Bob (b1)", "Öz, Cem (a10)", "Park, Ann (a2)"]
+    assert [each.label for each in run.outcomes] == labels
+    assert "c39" in said.getvalue() and "…" not in said.getvalue()
+    with open(run.book.table, encoding="utf-8-sig") as table:
+        assert [row["student"] for row in csv.DictReader(table)] == [
+            "Orr, Bob",
+            "Öz, Cem",
+            "Park, Ann",
+        ]
+    page = run.book.folder.with_name("class-results.class.html").read_text(encoding="utf-8")
+    assert "<h1>Lab 3</h1>" in page
+    assert sorted(labels, key=page.index) == labels
+    report = (run.book.folder / "a10.html").read_text(encoding="utf-8")
+    assert "<h1>Öz, Cem (a10)</h1>" in report
+    assert "Mark: <strong>5</strong> of 20 points, which is 2.5 of 10 in the gradebook" in report
+    (tmp_path / "course.toml").write_text('title = "Lab 3"\nout_of = 10\n', encoding="utf-8")
+    words = ["--results", run.book.folder, "--out", tmp_path / "m.csv"]
+    words += ["--course-file", tmp_path / "course.toml"]
+    assert run_grader("marks", folder / "roster.csv", *words).exit_code == 0
+    assert "#a10,2.5,#" in (tmp_path / "m.csv").read_text(encoding="utf-8")
 
 
 def test_there_is_a_class_of_every_system():

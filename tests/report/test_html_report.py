@@ -11,7 +11,7 @@ from grader.player.page import make_page
 from grader.player.pairing import pair_runs
 from grader.player.runs import Line, Run
 from grader.protocol import BodyLook, BodyRow, Moment, ShapeLook
-from grader.report.html import write_report
+from grader.report.html import render, write_report
 
 
 def result(name: str = "ada", words: str = "words", replay: str | None = None) -> Result:
@@ -68,6 +68,15 @@ def test_all_of_the_result_is_there(tmp_path: Path):
     assert "waiting for TODO 1" in text
     assert "A known mistake: words" in text
     assert "Not confined: files, network, other processes" in text
+
+
+def test_what_is_to_be_done_stands_before_what_is_done():
+    todos = [
+        TodoResult(id, f"Task {id}", state, 0, 1, None, [])
+        for id, state in (("1", "passed"), ("2", "not yet"), ("3", "passed"), ("4", "not started"))
+    ]
+    page = render(Result(1, "ada", 2, 4, 0, [], todos), {})
+    assert re.findall(r'<section id="todo-(\d)"', page) == ["2", "4", "1", "3"]
 
 
 def test_nothing_comes_from_outside(tmp_path: Path):
