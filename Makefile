@@ -46,6 +46,21 @@ for path in map(Path, sys.argv[1:]):
 endef
 export PLAIN_VERSIONS
 
+# A word of the call that no target knows would be passed over in silence.
+KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST SEED FRESH QUICK
+$(foreach each,$(.VARIABLES),$(if $(filter command,$(firstword $(origin $(each)))),\
+	$(if $(filter $(each),$(KNOWN)),,$(error make knows no $(each)=; it knows $(KNOWN)))))
+ifneq ($(and $(SUBMISSION),$(SUBMISSIONS)),)
+$(error SUBMISSION is one and SUBMISSIONS a class of them: name one of the two)
+endif
+NEEDED_BY_contained := SUBMISSIONS
+NEEDED_BY_course := COURSE
+NEEDED_BY_dashboard := RESULTS
+$(foreach goal,$(MAKECMDGOALS),$(foreach each,$(NEEDED_BY_$(goal)),\
+	$(if $($(each)),,$(error make $(goal) needs $(each)=folder))))
+# Exit status 1 says of a grade that points are missing, and of a check what it found: no error of make.
+FOUND := || test $$? -eq 1
+
 .PHONY: help setup grade contained run dials accuracy effects cases compiled wheels films handouts \
 	release dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
 
@@ -60,7 +75,7 @@ setup: $(CORE) ## Set up .venv for grading
 
 grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder (COURSE_FILE=path); alone, a demonstration
 	@$(PY) -m grader grade \
-		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)"))
+		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)")) $(FOUND)
 
 contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podman (SEED=number)
 	@test -d "$(SUBMISSIONS)" || { echo 'SUBMISSIONS="$(SUBMISSIONS)" is no folder of submissions.'; exit 2; }
@@ -123,7 +138,7 @@ handouts: $(SITE) ## Make the handouts as web pages in build/handouts
 
 course-check: $(CORE) ## Say what would go wrong with SUBMISSIONS, ROSTER, ADJUST, before it does
 	@$(PY) -m grader course-check $(if $(SUBMISSIONS),"$(SUBMISSIONS)") \
-		$(if $(ROSTER),--roster "$(ROSTER)") $(if $(ADJUST),--adjust "$(ADJUST)")
+		$(if $(ROSTER),--roster "$(ROSTER)") $(if $(ADJUST),--adjust "$(ADJUST)") $(FOUND)
 
 course: $(NOTEBOOKS) ## Make an nbgrader course in COURSE=folder
 	@$(PY) -m grader nbgrader course "$(COURSE)"

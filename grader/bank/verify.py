@@ -25,6 +25,7 @@ from grader.bank.ladders import Ladder, ladders
 from grader.bank.members import Entry, Member, members
 from grader.bank.sync import sync
 from grader.bank.traces import watch_traces
+from grader.errors import Stop
 from grader.judge.children import WarmWorker, Worker, count_cores, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
@@ -117,9 +118,12 @@ def verify(
         for each in [*list_trees(course), *members(KIT, course)]
         if only in f"{each.kind}/{each.name}"
     ]
+    states = list_halfway(only, course, report.complaints)
+    if not chosen and not states:
+        example = "wrong/4-against-the-slip"
+        raise Stop(f"nothing in the bank has {only!r} in its kind/name, such as {example}")
     verdicts = judge_members(chosen, jobs, StoredResults(RESULTS), fresh)
     report.verdicts = collect("grading the bank", verdicts, len(chosen), console)
-    states = list_halfway(only, course, report.complaints)
     judged = judge_states(states, jobs, StoredStates(RESULTS), fresh)
     report.halfway = collect("grading half-way states", judged, len(states), console)
     order = {(m.kind, m.name, m.form): number for number, m in enumerate(chosen)}

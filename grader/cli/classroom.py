@@ -4,10 +4,10 @@ Each imports what it needs itself: all of it together would add a tenth of a sec
 of the grader, `check` included.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import msgspec
 import typer
@@ -25,11 +25,16 @@ from grader.cli.shared import (
     print_notes,
     refuse_ignored,
     require_checkout,
+    require_file_target,
+    require_folder_target,
 )
 from grader.errors import Stop
 from grader.judge.course import WrongCourse, read_course
 from grader.judge.grade import KIT, Options, shipped_reference
-from grader.text import clean
+from grader.text import clean, listed
+
+if TYPE_CHECKING:
+    from grader.classroom.dashboard import Entry
 
 app = typer.Typer()
 course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
@@ -62,6 +67,7 @@ def course_command(
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     require_checkout("nbgrader course")
+    require_folder_target(course, "the course folder")
     from grader.classroom.nbgrader.submissions import ASSIGNMENT
     from grader.release.nbgrader_course import find_newest_release, make_course
 
@@ -159,6 +165,7 @@ def gradescope_command(
 ) -> None:
     """Make the autograder for Gradescope. It holds the solution: it is for you alone."""
     require_checkout("gradescope")
+    require_file_target(out, "--out")
     from grader.classroom.gradescope import write_autograder
     from grader.classroom.gradescope.autograder import Settings
 
@@ -189,6 +196,7 @@ def dashboard_command(
     if submissions is not None:
         options = Options(shipped_reference(), seed=seed, course=taken)
         with open_class(submissions, read_class_list(submissions, roster)) as intake:
+            require_same_class(entries, intake.names, results, submissions)
             entries = list(add_replays(entries, intake, options, results))
     print_note(f"made {write_dashboard(results, entries, taken)}")
 
@@ -213,8 +221,10 @@ def course_check_command(
     if submissions is not None:
         roster = roster or find_file(submissions, "roster.csv")
         adjust = adjust or find_file(submissions, "adjustments.toml")
+    if key and roster is None:
+        raise Stop(f"--key {key} would be ignored without a class list: name it with --roster")
     problems = list(find_problems(Files(roster, key, adjust, settings, submissions), course))
-    problems += find_release_problems(course)
+    problems = problems or list(find_release_problems(course))
     print_notes(problems or ["No problems found."])
     raise typer.Exit(1 if problems else 0)
 
@@ -234,6 +244,18 @@ def find_release_problems(path: Path | None) -> Iterator[str]:
                 prove_cut(course)
         except Stop as error:
             yield f"this course cannot be released: {error}"
+
+
+def require_same_class(
+    entries: "list[Entry]", names: Collection[str], results: Path, submissions: Path
+) -> None:
+    """Stop where results and submissions are of two classes."""
+    known = {entry.outcome.name for entry in entries}
+    if others := sorted(name for name in names if name not in known):
+        raise Stop(
+            f"{results} has no result of {listed(others)} in {submissions}: name the class as it "
+            "was graded, or grade it again"
+        )
 
 
 @app.command("alike")
@@ -260,6 +282,7 @@ def alike_command(
         people = read_class_list(submissions, roster)
         found, prints = read_prints(stack, submissions, people)
         here = {each.name for each in prints}
+        require_same_class(entries, here, results, submissions)
         for folder in also or []:
             people = read_class_list(folder, None)
             others, more = read_prints(stack, folder, people, folder.name)
@@ -298,6 +321,8 @@ def feedback_command(
     if for_ not in (*systems, *OTHER_RECIPIENTS):
         known = ", ".join((*systems, *OTHER_RECIPIENTS))
         raise typer.BadParameter(f"{for_!r} is not one of {known}", param_hint="--for")
+    check_target = require_folder_target if for_ in OTHER_RECIPIENTS else require_file_target
+    check_target(out, "--out")
     taken = read_course(course)
     entries = read_class(results)
     write_dashboard(results, entries, taken)
@@ -317,6 +342,7 @@ def feedback_command(
             raise Stop(f"{for_} knows files by the names it gave: name --submissions")
         people = read_class_list(submissions, roster)
         with open_class(submissions, people) as intake:
+            require_same_class(entries, intake.names, results, submissions)
             made = feedback.answer_export(BY_NAME[for_], intake, graded, people)
         target = results.with_name(f"{results.name}-{for_}.zip")
     target = out or target
@@ -351,6 +377,9 @@ def marks_command(
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
+    require_file_target(out, "--out")
+    if results is None and not (course or Path(".")).joinpath("gradebook.db").is_file():
+        raise Stop("name --results, the folder of a graded class, or --course, one of nbgrader")
     if settings is None and course is None:
         require_checkout("marks", ", or name marks.toml with --settings")
     from grader.classroom.dashboard import read_class

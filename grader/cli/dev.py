@@ -12,6 +12,7 @@ from grader.cli.shared import (
     console,
     print_note,
     require_checkout,
+    require_folder_target,
 )
 from grader.errors import Stop
 from grader.judge.course import read_course
@@ -19,6 +20,10 @@ from grader.judge.grade import KIT
 from grader.judge.rubric import load_rubric
 
 FRESH = "Grade every member of the bank, also those that build/verify holds a result of."
+
+MembersAtATime = Annotated[
+    int, typer.Option(min=0, help="Submissions graded at a time; 0 for one per core.")
+]
 
 app = typer.Typer()
 
@@ -43,7 +48,7 @@ def sync_command(
 
 @app.command("verify")
 def verify_command(
-    jobs: Annotated[int, typer.Option(help="Members graded at a time; 0 for one per core.")] = 0,
+    jobs: MembersAtATime = 0,
     only: Annotated[str, typer.Option(help="Only members whose kind/name contains this.")] = "",
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
     course: CourseFile = None,
@@ -64,7 +69,7 @@ def release_command(
     out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/release")] = KIT
     / "build"
     / "release",
-    jobs: Annotated[int, typer.Option(help="As for `verify`, which is run first.")] = 0,
+    jobs: MembersAtATime = 0,
     fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
     course: CourseFile = None,
 ) -> None:
@@ -75,6 +80,7 @@ def release_command(
     require_checkout("release")
     from grader.release.build import release
 
+    require_folder_target(out, "--out")
     for path in release(out, jobs, console, fresh, read_course(course)):
         print_note(f"made {path}")
 
@@ -83,7 +89,7 @@ def release_command(
 def mutants_command(
     count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
     seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
-    jobs: Annotated[int, typer.Option(help="Mutants graded at a time; 0 for one per core.")] = 0,
+    jobs: MembersAtATime = 0,
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
     operator: Annotated[
         list[str] | None, typer.Option(help="Only this kind of change; may be repeated.")

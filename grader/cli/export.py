@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from grader.cli.shared import require_file_target
 from grader.errors import Stop
 from grader.judge.result import Result
 from grader.report.files import read_result, write_whole
@@ -36,6 +37,7 @@ def export_command(
     out: Annotated[Path | None, typer.Option(help="Write this file instead of printing.")] = None,
 ) -> None:
     """Turn a result into a form that another system reads."""
+    require_file_target(out, "--out")
     tables = format in TABLES and result.is_dir()
     if result.is_dir() and not tables:
         several = " and ".join(TABLES)

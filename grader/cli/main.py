@@ -25,6 +25,8 @@ from grader.cli.shared import (
     open_path,
     refuse_ignored,
     require_checkout,
+    require_file_target,
+    require_folder_target,
 )
 from grader.errors import Stop
 from grader.judge.children import count_cores
@@ -53,7 +55,8 @@ class Commands(TyperGroup):
             say_why(error.cannot, str(error))
             raise typer.Exit(error.status) from error
         except OSError as error:  # exit status 1 would say that points are missing
-            say_why(Stop.cannot, f"{error}. Check free space and write permission.")
+            what = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+            say_why(Stop.cannot, f"{what}. Check free space and write permission.")
             raise typer.Exit(Stop.status) from error
 
 
@@ -92,7 +95,7 @@ def grade_command(
     ] = None,
     jobs: Annotated[
         int,
-        typer.Option(help="Checks, or submissions of a class, at a time; 0 for one per core."),
+        typer.Option(min=0, help="Checks, or submissions of a class, at a time; 0 for one per core."),
     ] = 0,
     isolation: Confinement = "auto",
     seed: SecretSeed = None,
@@ -125,6 +128,7 @@ def grade_command(
     todos = check_todos(todo, taken)
     options = Options(complete, isolation, todos, seed, trusted=own, course=taken)
     output = Output(out, json, at_least)
+    refuse_outputs(path, class_, output, options)
     jobs_of_one = jobs or count_cores()
     if path is not None and not class_ and not own and context.obj is not None:
         context.obj(replace(WHOLE, memory=MOST_MEMORY * jobs_of_one))
@@ -163,6 +167,21 @@ def refuse_what_is_ignored(
         refuse_ignored(context, ("jobs",), "with --cluster: its workers say how many at a time")
 
 
+def refuse_outputs(path: Path | None, class_: bool, output: Output, options: Options) -> None:
+    """Stop at files that cannot be written, and at points that cannot be reached."""
+    require_folder_target(output.out, "--out")
+    require_file_target(output.json, "--json")
+    if class_ and path is not None and output.out is not None:
+        folder, out = path.resolve(), output.out.resolve()
+        if out.is_relative_to(folder):
+            raise Stop(f"--out {output.out} is in the class, {path}: name a folder outside it")
+    wanted = [todo for todo in options.course.rubric.counted if options.wants(todo)]
+    most = sum(todo.max_points for todo in wanted)
+    if output.at_least is not None and output.at_least > most:
+        words = f"can never be reached: there are {most} points here"
+        raise Stop(f"--at-least {output.at_least} {words}")
+
+
 def grade_and_show(path: Path, options: Options, replays: Path | None) -> Result:
     result = grade_one(path, options, replays)
     Printer(console).print(result)
@@ -179,9 +198,7 @@ def finish(result: Result, output: Output) -> NoReturn:
 
         write_json(result, output.out / f"{result.submission}.json")
         write_report(result, output.out / f"{result.submission}.html")
-    most, at_least = result.max_points, output.at_least
-    if at_least is not None and at_least > most:
-        raise Stop(f"--at-least {at_least} can never be reached: there are {most} points here")
+    at_least = output.at_least
     enough = result.complete if at_least is None else result.points >= at_least
     raise typer.Exit(0 if enough else 1)
 

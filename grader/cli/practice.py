@@ -11,7 +11,13 @@ from typing import Annotated
 
 import typer
 
-from grader.cli.shared import CourseFile, console, print_note, print_notes
+from grader.cli.shared import (
+    CourseFile,
+    console,
+    print_note,
+    print_notes,
+    require_file_target,
+)
 from grader.cli.student import find_tree, make_options
 from grader.errors import Stop
 from grader.judge.course import read_course
@@ -42,6 +48,7 @@ def questions_command(
     It asks about TODOs that pass their checks, and its answers open with a click. Exit status 0:
     there are questions, 1: nothing to ask about yet, 2: no page could be made.
     """
+    require_file_target(out, "--out")
     practice = load_practice()
     if practice is None:
         raise Stop("this copy has no cases for practice")

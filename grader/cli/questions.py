@@ -13,6 +13,8 @@ from grader.cli.shared import (
     print_notes,
     refuse_ignored,
     require_checkout,
+    require_file_target,
+    require_folder_target,
 )
 from grader.errors import Stop
 from grader.judge.course import read_course
@@ -67,6 +69,10 @@ def questions_command(
         mark_class(mark, out, tally)
     if path is None:
         raise Stop("name a submission, or a class of them with --class")
+    require_folder_target(out, "--out")
+    require_file_target(tally, "--tally")
+    if results is not None and not results.is_dir():
+        raise Stop(f"there is no folder of results at {results}: leave out --results")
     ignored, when = (("student",), "with") if class_ else (("roster",), "without")
     refuse_ignored(context, ignored, f"{when} --class")
     # Imported here: all of it would add a tenth of a second to every start.

@@ -35,7 +35,7 @@ Confinement = Annotated[Isolation, typer.Option(help="Confinement to insist on."
 SecretSeed = Annotated[
     int | None, typer.Option(help="A secret seed: other numbers in every check.")
 ]
-Jobs = Annotated[int, typer.Option(help="Submissions at a time; 0 for one per core.")]
+Jobs = Annotated[int, typer.Option(min=0, help="Submissions at a time; 0 for one per core.")]
 ResultsFolder = Annotated[Path, typer.Argument(help="The results of a class, a folder.")]
 
 
@@ -67,6 +67,23 @@ def refuse_ignored(context: typer.Context, names: Collection[str], when: str) ->
 def was_given(context: typer.Context, name: str) -> bool:
     source = context.get_parameter_source(name)
     return source is not None and source.name == "COMMANDLINE"
+
+
+def require_file_target(path: Path | None, option: str) -> None:
+    """Stop before any work where no file can be written as the option says."""
+    if path is not None and path.is_dir():
+        raise Stop(f"{option} {path} is a folder: name a file")
+    if path is not None:
+        require_folder_target(path.absolute().parent, f"{option} {path} needs")
+
+
+def require_folder_target(path: Path | None, option: str) -> None:
+    """Stop before any work where no folder can be made as the option says."""
+    if path is None:
+        return
+    there = next(each for each in (path.absolute(), *path.absolute().parents) if each.exists())
+    if not there.is_dir():
+        raise Stop(f"{option} {path}: {there} is a file: name a folder")
 
 
 def check_todos(todos: list[str] | None, course: Course = FULL) -> frozenset[str]:

@@ -8,7 +8,7 @@ import typer
 
 from grader.cli.hand_in import find_missing, pack_tree
 from grader.cli.restore import list_notes, restore
-from grader.cli.shared import CourseFile, check_todos, console, grade_one
+from grader.cli.shared import CourseFile, check_todos, console, grade_one, require_file_target
 from grader.errors import Stop
 from grader.judge.children import count_cores
 from grader.judge.course import Course, read_course
@@ -92,6 +92,7 @@ def hand_in_command(
     course: CourseFile = None,
 ) -> None:
     """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
+    require_file_target(out, "--out")
     taken = read_course(course)
     packed, names = pack_tree(find_tree(path, taken), taken, out)
     for name in names:

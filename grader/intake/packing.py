@@ -50,9 +50,8 @@ def open_submission(
 
     It is read as one of a class is. So what cannot be read there raises CannotTake here.
     """
-    if not path.exists():  # the judge says so
-        yield path
-        return
+    if not path.exists():
+        raise CannotTake(f"there is no submission at {path}: name a folder or a Python file")
     real = path.resolve()
     name = real.name if real.is_dir() else cut_suffix(real)
     with work_folder() as temporary:

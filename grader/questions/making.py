@@ -119,7 +119,7 @@ def make_one(making: Making, path: Path, student: str) -> SheetResult:
     """Make the sheet of one submission; `student` is its author, where that is not its name."""
     notes: list[str] = []
     opened = open_submission(path, notes.append, making.options.course.modules)
-    with closing(start_worker()) as worker, opened as folder:
+    with opened as folder, closing(start_worker()) as worker:
         made = making.make(printable(student or folder.resolve().name), folder, worker)
     making.finish()
     return replace(made, words="\n".join([*notes, made.words]))
@@ -131,7 +131,7 @@ def make_class(
     """Make a sheet for each submission of a class, and for each member of a group."""
     people = read_class_list(path, roster)
     opened = open_class(path, people)
-    with closing(start_worker()) as worker, opened as intake:
+    with opened as intake, closing(start_worker()) as worker:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
         with Counter("making sheets", len(intake.found), console) as counter:
             for number, each in enumerate(intake.found, 1):

@@ -66,7 +66,9 @@ def read_release(release: Path, taken: Course) -> dict[str, bytes]:
                 _, _, name = member.filename.partition("/")
                 if name and not name.startswith((".", f"{NOTEBOOKS}/")):
                     files[name] = archive.read(member)
-    except (OSError, zipfile.BadZipFile) as error:
+    except OSError as error:
+        raise Stop(f"there is no release at {release} ({error.strerror}): make one") from error
+    except zipfile.BadZipFile as error:
         raise Stop(f"{release} is no archive of a release ({error}): make one") from error
     if MANIFEST in files:
         files[MANIFEST] = cut_manifest(files[MANIFEST], files)

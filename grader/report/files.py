@@ -26,7 +26,9 @@ def read_result(path: Path) -> Result:
     """Read a result; raises Stop where the file is none."""
     try:
         return msgspec.json.decode(path.read_bytes(), type=Result)
-    except (OSError, msgspec.MsgspecError) as error:
+    except OSError as error:
+        raise Stop(f"there is no result at {path} ({error.strerror})") from error
+    except msgspec.MsgspecError as error:
         raise Stop(f"{path} is no result of the grader ({error})") from error
 
 
@@ -34,9 +36,13 @@ def write_whole(content: bytes, path: Path) -> None:
     """Write a file whole or not at all: nobody reads half a file, and no link is followed."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.urandom(8).hex()}")
-    with open(part, "xb") as file:
-        file.write(content)
-    os.replace(part, path)
+    try:
+        with open(part, "xb") as file:
+            file.write(content)
+        os.replace(part, path)
+    except OSError:
+        part.unlink(missing_ok=True)
+        raise
 
 
 def put_in(archive: zipfile.ZipFile, name: str, content: bytes, mode: int = PLAIN) -> None:

@@ -1,0 +1,222 @@
+"""Each wrong call ends in a sentence before any work begins: no traceback, no silence, no file."""
+
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+import classes
+import packed
+import pytest
+from command_line import run_grader
+from conftest import KIT
+from points_pool import Inline
+from rich.console import Console
+
+from grader.bank import mutants, verify
+from grader.classroom import dashboard, executor, grading
+from grader.classroom.grading import ClassOptions, run_class
+from grader.judge import grade
+from grader.judge.grade import Options
+from grader.questions import making
+
+WRONG = """
+grade nosuch
+grade --class
+grade --class nosuch
+grade --class empty
+grade --class list.csv
+grade class
+grade empty
+grade list.csv
+grade class/ann class/ben
+grade submission=class/ann
+grade class/ann --class
+grade class/ann --jobs -3
+grade --class class --jobs -3
+grade --class class --jobs many
+grade --class class --out class/results
+grade --class class --out class
+grade --class class --out list.csv
+grade --class class --out list.csv/results
+grade --class class --at-least 5
+grade --class class --json x.json
+grade --class class --ci x
+grade --class class --cluster nonsense
+grade --class class --cluster localhost:1 --jobs 2
+grade --class class --roster nosuch.csv
+grade --class class --roster class
+grade --class class --roster course.toml
+grade --class class --adjust nosuch.toml
+grade --class class --adjust list.csv
+grade class/ann --at-least 200
+grade class/ann --at-least 41 --course course.toml
+grade class/ann --at-least -1
+grade class/ann --todo 99
+grade class/ann --todo 4 --course course.toml
+grade class/ann --course nosuch.toml
+grade class/ann --course bad.toml
+grade class/ann --course empty
+grade class/ann --isolation nosuch
+grade class/ann --seed abc
+grade class/ann --reference nosuch
+grade class/ann --reference empty
+grade class/ann --roster list.csv
+grade class/ann --adjust list.csv
+grade class/ann --cluster localhost:1
+grade class/ann --json class
+grade class/ann --json list.csv/x.json
+grade class/ann --out list.csv
+grade class/ann --ci class
+grade class/ann --ci new --json class
+grade --out new
+grade --nosuchoption
+verify --only nosuch
+verify --jobs -1
+verify --course bad.toml
+release --jobs -1
+release --out list.csv
+release --course nosuch.toml
+mutants --todo 99
+mutants --count -1
+mutants --jobs -2
+bench --rounds 0
+sync now
+alike nosuch --submissions class
+alike results --submissions nosuch
+alike results --submissions other
+alike results --submissions class --also nosuch
+alike results --submissions class --least 7
+dashboard nosuch
+dashboard class
+dashboard results --roster list.csv
+dashboard results --seed 3
+dashboard results --submissions other
+feedback nosuch --for moodle --submissions class
+feedback results --for nosuch
+feedback results --for moodle
+feedback results --for moodle --submissions other
+feedback results --for email
+feedback results --for email --roster list.csv
+feedback results --for email --roster list.csv --key Nope
+feedback results --for email --roster list.csv --out list.csv
+marks nosuch.csv --results results
+marks list.csv
+marks list.csv --course nosuch
+marks list.csv --results nosuch
+marks list.csv --results class
+marks list.csv --results results --key Nope
+marks list.csv --results results --settings nosuch.toml
+marks list.csv --results results --out class
+gradescope --out class
+gradescope --seed x
+course-check class --key Nope
+course-check --course bad.toml
+course-check --adjust nosuch.toml
+questions
+questions nosuch
+questions --class nosuch
+questions class/ann --roster list.csv
+questions class/ann --results nosuch
+questions class/ann --tally class
+questions class/ann --out list.csv
+questions --class class --id x
+questions --mark nosuch.csv
+questions --mark list.csv class/ann
+nbgrader course list.csv --without-checks
+nbgrader course new --release list.csv
+nbgrader collect class --course nosuch
+nbgrader bridge --course nosuch
+nbgrader bridge results --jobs 2
+export nosuch list.csv
+export html nosuch.json
+export html results
+export csv empty
+export junit list.csv
+export html results/ann.json --out class
+check --todo 99
+hand-in --out class
+hint
+hint --todo 99
+hint --todo 4 --level 9
+nosuchcommand
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with two classes, the results of one of them, and files that are of no use."""
+    folder = tmp_path_factory.mktemp("calls")
+    for name in ("class/ann", "class/ben", "other/zoe"):
+        classes.put(folder / f"{name}.zip", packed.as_zip(classes.work(3)))
+        shutil.unpack_archive(folder / f"{name}.zip", folder / name)
+        (folder / f"{name}.zip").unlink()
+    (folder / "empty").mkdir()
+    (folder / "list.csv").write_text("Email address\nann\nben\n", encoding="utf-8")
+    (folder / "course.toml").write_text('todos = ["8c"]\n', encoding="utf-8")
+    (folder / "bad.toml").write_text("todos = [\n", encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(grading, "open_executor", lambda wanted: Inline())
+        wanted = ClassOptions(Options(), out=folder / "results")
+        run_class(folder / "class", wanted, Console(quiet=True))
+    return folder
+
+
+needs_make = pytest.mark.skipif(shutil.which("make") is None, reason="there is no make here")
+
+
+class Begun(Exception):
+    """Work was begun."""
+
+
+@pytest.fixture(autouse=True)
+def without_work(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
+    def begin(*_: object, **__: object) -> None:
+        raise Begun
+
+    monkeypatch.chdir(place)
+    for module in (grade, executor, making, dashboard, verify):
+        monkeypatch.setattr(module, "start_worker", begin)
+    for module in (verify, mutants):
+        monkeypatch.setattr(module, "run_in_processes", begin)
+    monkeypatch.setattr(executor.Pool, "_start", begin)
+
+
+def list_all(folder: Path) -> dict[Path, bytes]:
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize("call", WRONG.strip().splitlines())
+def test_a_wrong_call_ends_in_a_sentence_before_any_work(call: str, place: Path):
+    before = list_all(place)
+    done = run_grader(*shlex.split(call))
+    assert isinstance(done.exception, SystemExit), done.exception
+    assert done.exit_code == (1 if call.startswith("course-check --") else 2)
+    said = " ".join(done.output.split())
+    assert 20 < len(said) < 900 and "Traceback" not in said and "Errno" not in said
+    assert list_all(place) == before
+
+
+@needs_make
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        ("grade submission=x", "make knows no submission="),
+        ("grade SUBMISION=x", "make knows no SUBMISION="),
+        ("grade SUBMISSION=a SUBMISSIONS=b", "name one of the two"),
+        ("dashboard", "make dashboard needs RESULTS=folder"),
+        ("course", "make course needs COURSE=folder"),
+        ("contained", "make contained needs SUBMISSIONS=folder"),
+    ],
+)
+def test_make_does_not_pass_over_what_it_does_not_know(call: str, words: str):
+    command = ["make", "--dry-run", *call.split()]
+    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+    assert done.returncode == 2 and words in done.stderr and not done.stdout
+
+
+@needs_make
+def test_less_than_full_marks_is_no_error_of_make():
+    command = ["make", "--dry-run", "grade", "SUBMISSION=x"]
+    done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+    assert done.stdout.rstrip().endswith('"x" || test $? -eq 1')
