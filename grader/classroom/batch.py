@@ -91,8 +91,9 @@ class Run:
         for found in task.members:
             own = as_json(msgspec.structs.replace(result, submission=found.name))
             outcome = make_outcome(found.name, own, graded[1], task.key)
+            outcome = self.decide(found, self.book.compare(outcome, own))
             self.book.write(outcome, own)
-            self.record("graded", found, outcome)
+            self.count("graded", outcome)
 
     def record_trouble(self, found: Found, words: str) -> None:
         self.book.forget(found.name)
@@ -100,6 +101,14 @@ class Run:
 
     def record(self, how: str, found: Found, outcome: Outcome) -> None:
         """Apply the course's and a person's rules to an outcome, and keep it."""
+        self.count(how, self.decide(found, outcome))
+
+    def count(self, how: str, outcome: Outcome) -> None:
+        self.counts[how] = self.counts.get(how, 0) + 1
+        self.outcomes.append(outcome)
+
+    def decide(self, found: Found, outcome: Outcome) -> Outcome:
+        """Return an outcome with all that counts beside the checks, and what was before."""
         decisions = self.adjustments
         outcome = msgspec.structs.replace(outcome, bonus_by_hand=decisions.sum_bonus(found))
         added = 0 if outcome.trouble else self.course.added(outcome.bonus, outcome.points)
@@ -118,8 +127,7 @@ class Run:
             full_name=self.people.full_names.get(make_portable(found.name), ""),
             handed_in_by=found.handed_in_by,
         )
-        self.counts[how] = self.counts.get(how, 0) + 1
-        self.outcomes.append(outcome)
+        return self.book.compare_marks(outcome)
 
     def record_absent(self, names: Iterable[str]) -> None:
         """Record those whose points are set by hand though they handed in nothing."""
@@ -135,6 +143,16 @@ class Run:
         return [
             msgspec.structs.replace(each, max_points=most) if each.by_hand else each
             for each in outcomes
+        ]
+
+    @property
+    def changed(self) -> list[Outcome]:
+        """Return those whose mark this run has changed."""
+        old = self.book.outcomes
+        return [
+            each
+            for each in self.outcomes
+            if each.name in old and not each.has_mark_of(old[each.name])
         ]
 
     def find_copies(self) -> Iterator[str]:
@@ -167,6 +185,9 @@ def grade_class(run: Run, executor: Executor, console: Console, absent: Iterable
         run.outcomes = run.scale_by_hand(sorted(run.outcomes, key=lambda each: each.order))
         book.finish(run.outcomes, run.course)
     run.notes += run.find_copies()
+    changed = [f"{each.label} ({each.before} → {each.mark_in_words})" for each in run.changed]
+    if changed:
+        run.notes.append(f"other marks than in the run before: {list_names(changed)}")
     names = [each.name for each in run.outcomes]
     for student in run.adjustments.find_unused(names):
         run.notes.append(f"adjusted, but nothing was handed in: {student}")

@@ -4,6 +4,7 @@
 - `DIR.class.jsonl`: the class book, a line for each submission. A line is added as soon as a result
   is written, so a run that was killed goes on where it stopped.
 - `DIR.class.csv`: the table, for people.
+- `DIR.earlier/NAME/`: the results that a later grade replaced.
 """
 
 import hashlib
@@ -51,6 +52,8 @@ class Outcome(Struct, frozen=True):
     group: list[str] = []  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
     full_name: str = ""  # as the class list has it
+    before: str = ""  # the mark of an earlier run, where that was another one
+    changed: list[str] = []  # the checks that give other points than in that run
 
     @property
     def label(self) -> str:
@@ -73,6 +76,20 @@ class Outcome(Struct, frozen=True):
         return "; ".join(filter(None, [self.group_in_words, self.trouble, *self.reasons]))
 
     @property
+    def mark_in_words(self) -> str:
+        return "none" if self.mark is None else f"{self.mark} / {self.max_points}"
+
+    def has_mark_of(self, old: "Outcome") -> bool:
+        """Tell whether the mark is that of another outcome, out of as many points."""
+        alone = self.by_hand or self.mark is None  # what it is out of is known later
+        return self.mark == old.mark and (alone or self.max_points == old.max_points)
+
+    @property
+    def change_in_words(self) -> str:
+        """Return the mark before and the checks that changed; empty if it is the same."""
+        return "; ".join([f"before: {self.before}", *self.changed]) if self.before else ""
+
+    @property
     def mark(self) -> int | None:
         """The points that count; None where it needs manual review."""
         return self.final if self.by_hand or not self.trouble else None
@@ -91,6 +108,7 @@ class Book:
         self.folder = folder.resolve()
         self.path = self.folder.with_name(f"{self.folder.name}.class.jsonl")
         self.table = self.path.with_suffix(".csv")
+        self.earlier = self.folder.with_name(f"{self.folder.name}.earlier")
         self.outcomes = {each.name: each for each in read_book(self.path)}
 
     def __enter__(self) -> Self:
@@ -118,14 +136,45 @@ class Book:
                 return outcome
         return None
 
+    def compare(self, outcome: Outcome, result: bytes) -> Outcome:
+        """Return the outcome with the checks that changed since an earlier run."""
+        with suppress(OSError, msgspec.MsgspecError):
+            old = msgspec.json.decode(self.locate_result(outcome.name).read_bytes(), type=Result)
+            new = msgspec.json.decode(result, type=Result)
+            return msgspec.structs.replace(outcome, changed=list(compare_results(old, new)))
+        return outcome
+
+    def compare_marks(self, outcome: Outcome) -> Outcome:
+        """Return the outcome with the mark of an earlier run, if that was another one."""
+        old = self.outcomes.get(outcome.name)
+        if old is None or outcome.has_mark_of(old):
+            return outcome
+        fresh = outcome.content != old.content
+        changed = outcome.changed if fresh else []
+        return msgspec.structs.replace(outcome, before=old.mark_in_words, changed=changed)
+
+    def keep_earlier(self, name: str) -> None:
+        """Move a result out of the way of a new one; the same content is kept once."""
+        path = self.locate_result(name)
+        if not path.exists():
+            return
+        old = self.outcomes.get(name)
+        when = old.graded if old else None
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()[:8]
+        title = f"{when:%Y-%m-%dT%H%M%S}-{digest}" if when else digest
+        target = self.earlier / name / f"{title}.json"
+        target.parent.mkdir(parents=True, exist_ok=True)
+        path.replace(target)
+
     def write(self, outcome: Outcome, result: bytes) -> None:
         """Write the result first: a line in the book promises that it is there."""
+        self.keep_earlier(outcome.name)
         write_whole(result, self.locate_result(outcome.name))
         self.file.write(encode_lines([outcome]))
 
     def forget(self, name: str) -> None:
-        """Remove the result of a submission that is not there any more."""
-        self.locate_result(name).unlink(missing_ok=True)
+        """Take away the result of a submission that is not there any more."""
+        self.keep_earlier(name)
 
     def finish(self, outcomes: list[Outcome], course: Course = FULL) -> None:
         write_whole(encode_lines(outcomes), self.path)
@@ -148,6 +197,17 @@ def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
         content=hashlib.sha256(result).hexdigest(),
         broken=list_broken(decoded),
     )
+
+
+def compare_results(old: Result, new: Result) -> Iterator[str]:
+    """Yield the checks that give other points than before, a line each."""
+    before = {(todo.id, check.id): check for todo in old.todos for check in todo.checks}
+    for todo in new.todos:
+        for check in todo.checks:
+            was = before.get((todo.id, check.id))
+            if was is not None and was.points != check.points:
+                points = f"{was.points} → {check.points} of {check.max_points}"
+                yield f"TODO {todo.id}, {check.title}: {points}"
 
 
 def list_broken(result: Result) -> list[str]:
@@ -175,19 +235,9 @@ def read_book(path: Path) -> Iterator[Outcome]:
 def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
     """Return the class for a spreadsheet, the same whenever and however fast it was graded."""
     todos = [todo.id for todo in course.rubric.todos]
-    titles = [
-        "name",
-        "student",
-        "points",
-        "found",
-        "of",
-        "bonus",
-        "handed in",
-        "due",
-        "late",
-        "adjusted",
-    ]
-    table: list[list[str | float]] = [[*titles, "trouble", "notes", "group", *todos]]
+    titles = ["name", "student", "points", "before", "found", "of", "bonus", "handed in", "due"]
+    titles += ["late", "adjusted", "trouble", "notes", "group"]
+    table: list[list[str | float]] = [[*titles, *todos]]
     for each in outcomes:
         mark = "" if each.mark is None else each.mark
         found = ["", each.max_points or ""] if each.trouble else [each.points, each.max_points]
@@ -196,17 +246,6 @@ def make_table(outcomes: Iterable[Outcome], course: Course) -> str:
         late = "late" if each.late else ""
         words = [late, "; ".join(each.reasons), each.trouble, "; ".join(each.notes)]
         points = [str(each.todos.get(todo, "")) for todo in todos]
-        table.append(
-            [
-                each.name,
-                each.full_name,
-                mark,
-                *found,
-                bonus,
-                *times,
-                *words,
-                each.group_in_words,
-                *points,
-            ]
-        )
+        who = [each.name, each.full_name, mark, each.before]
+        table.append([*who, *found, bonus, *times, *words, each.group_in_words, *points])
     return format_csv(table)

@@ -226,6 +226,8 @@ def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
         ("Handed in", write_time(outcome.handed_in)),
         ("Due", write_time(outcome.due)),
         ("Not graded", outcome.trouble),
+        ("Before", outcome.before),
+        *(("Changed", words) for words in outcome.changed if outcome.before),
         *(("Decided", words) for words in outcome.reasons),
         *(("Note", words) for words in outcome.notes),
     ]
@@ -289,4 +291,5 @@ def list_notes(outcome: Outcome) -> list[str]:
     decided = ["; ".join([*decided, *outcome.reasons])]
     late = ["late"] if outcome.late and not outcome.reasons else []
     notes = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
+    notes.append(outcome.change_in_words)
     return [words for words in notes if words]

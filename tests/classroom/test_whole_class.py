@@ -29,6 +29,7 @@ from grader.judge.children import start_worker
 from grader.judge.course import Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
 from grader.judge.submission import plain_files
+from grader.report.files import read_result
 
 QUIET = Console(quiet=True)
 SYSTEMS = list(classes.SYSTEMS)
@@ -123,6 +124,37 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
     words += ["--course-file", tmp_path / "course.toml"]
     assert run_grader("marks", folder / "roster.csv", *words).exit_code == 0
     assert "#a10,2.5,#" in (tmp_path / "m.csv").read_text(encoding="utf-8")
+
+
+def test_grading_again_shows_what_changed_and_keeps_what_was(tmp_path, in_one_process):
+    folder, said = tmp_path / "class", io.StringIO()
+
+    def grade_again(points: int) -> Run:
+        classes.put(folder / "ann.zip", packed.as_zip(classes.work(points)))
+        classes.put(folder / "ben.zip", packed.as_zip(classes.work(3)))
+        return run_class(folder, ClassOptions(Options()), Console(file=said, width=200))
+
+    first = grade_again(5)
+    assert not any(each.before or each.changed for each in first.outcomes)
+    for _ in range(2):  # the second time nothing is graded, and it is still said
+        run = grade_again(9)
+        ann, ben = run.outcomes
+        assert ann.before == "5 / 20" and ann.changed == ["TODO 8a, A title: 5 → 9 of 20"]
+        assert not ben.before
+    assert said.getvalue().count("other marks than in the run before: ann (5 / 20 → 9 / 20)") == 1
+    (earlier,) = (tmp_path / "class-results.earlier" / "ann").iterdir()
+    assert (
+        read_result(earlier).points == 5 and read_result(run.book.locate_result("ann")).points == 9
+    )
+    page = (run.book.folder / "ann.html").read_text(encoding="utf-8")
+    assert "<dt>Before</dt><dd>5 / 20</dd>" in page
+    assert "<dt>Changed</dt><dd>TODO 8a, A title: 5 → 9 of 20</dd>" in page
+    table = run.book.folder.with_name("class-results.class.html").read_text(encoding="utf-8")
+    assert "before: 5 / 20; TODO 8a, A title: 5 → 9 of 20" in table
+    (folder / "ann.zip").write_bytes(b"PK\3\4")
+    (ann, _) = run_class(folder, ClassOptions(Options()), QUIET).outcomes
+    assert ann.mark is None and ann.before == "9 / 20" and not ann.changed
+    assert len(list((tmp_path / "class-results.earlier" / "ann").iterdir())) == 2
 
 
 def test_there_is_a_class_of_every_system():
