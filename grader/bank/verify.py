@@ -10,7 +10,7 @@ import time
 from collections import Counter as Count
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from multiprocessing import active_children, get_context
 from pathlib import Path
@@ -104,17 +104,23 @@ class Report:
 
 
 def verify(
-    jobs: int, only: str, console: Console, fresh: bool = False, course: Course = FULL
+    jobs: int,
+    only: str,
+    console: Console,
+    fresh: bool = False,
+    course: Course = FULL,
+    by: Course | None = None,
 ) -> Report:
     """Grade the bank of a course, as far as its names contain `only`; print a table.
 
     Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are
     those of the rubric: a course may give a check none, and it must still tell right from wrong.
+    `by`: the course to grade by, where that is another one, whose results may be there already.
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))
     chosen = [
-        each
+        replace(each, course=by or each.course)
         for each in [*list_trees(course), *members(KIT, course)]
         if only in f"{each.kind}/{each.name}"
     ]

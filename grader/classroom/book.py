@@ -85,9 +85,9 @@ class Outcome(Struct, frozen=True):
         return self.mark == old.mark and (alone or self.max_points == old.max_points)
 
     @property
-    def change_in_words(self) -> str:
-        """Return the mark before and the checks that changed; empty if it is the same."""
-        return "; ".join([f"before: {self.before}", *self.changed]) if self.before else ""
+    def changes(self) -> list[str]:
+        """Return the mark before and the checks that changed, a line each."""
+        return [f"before: {self.before}", *self.changed] if self.before else []
 
     @property
     def mark(self) -> int | None:

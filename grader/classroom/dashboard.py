@@ -291,5 +291,4 @@ def list_notes(outcome: Outcome) -> list[str]:
     decided = ["; ".join([*decided, *outcome.reasons])]
     late = ["late"] if outcome.late and not outcome.reasons else []
     notes = [outcome.trouble, outcome.group_in_words, *late, *decided, *outcome.notes]
-    notes.append(outcome.change_in_words)
-    return [words for words in notes if words]
+    return [words for words in [*notes, *outcome.changes] if words]

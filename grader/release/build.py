@@ -54,9 +54,10 @@ def release(
     """Verify the kit and build the release of a course into `out`; returns what was written.
 
     Members that an earlier `verify` found sound, and that are unchanged, are graded again only if
-    `fresh`.
+    `fresh`. They are graded by the whole rubric, so one `verify` serves every course: what a course
+    leaves out is proven by its own copy of the grader, see `prove`.
     """
-    if not verify(jobs, "", console, fresh, course).sound:
+    if not verify(jobs, "", console, fresh, course, FULL).sound:
         raise Refused("`grader verify` has complaints, see above")
     with tempfile.TemporaryDirectory(prefix="release-") as folder:
         work = Path(folder)

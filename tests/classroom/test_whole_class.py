@@ -150,7 +150,7 @@ def test_grading_again_shows_what_changed_and_keeps_what_was(tmp_path, in_one_pr
     assert "<dt>Before</dt><dd>5 / 20</dd>" in page
     assert "<dt>Changed</dt><dd>TODO 8a, A title: 5 → 9 of 20</dd>" in page
     table = run.book.folder.with_name("class-results.class.html").read_text(encoding="utf-8")
-    assert "before: 5 / 20; TODO 8a, A title: 5 → 9 of 20" in table
+    assert "before: 5 / 20<br>TODO 8a, A title: 5 → 9 of 20" in table
     (folder / "ann.zip").write_bytes(b"PK\3\4")
     (ann, _) = run_class(folder, ClassOptions(Options()), QUIET).outcomes
     assert ann.mark is None and ann.before == "9 / 20" and not ann.changed

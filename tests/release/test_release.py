@@ -19,11 +19,13 @@ from page_readers import barriers, chromium
 from rich.console import Console
 from whole_bank import bank
 
+from grader.bank import verify
 from grader.bank.members import Member
 from grader.bank.sync import list_students_files
 from grader.bank.verify import Report, shared_worker
 from grader.checks import exact
 from grader.judge import misconceptions, recorded
+from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT, Options, grade
 from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import CHECKS, Rubric, load_rubric, visible
@@ -421,6 +423,21 @@ def test_planted_leaks_stop_the_release(
     assert re.search(rf"{top}/handouts/lesson.html, line \d+, gives away TODO 5: math.exp", told)
     assert re.search(r"whl/grader/help.py, line 2, gives away TODO 7a: space.gravity", told)
     assert re.search(r"more.toml, line 1, gives away a hidden check: rk4_weighs_four", told)
+
+
+def test_one_verify_serves_every_course(monkeypatch):
+    """What a course's members are made of and graded by is what `make verify` has kept."""
+    found: dict[str, list[Member]] = {}
+    for name, course in (("full", FULL), ("few", Course(todos=("8c",)))):
+        monkeypatch.setattr(
+            verify, "judge_members", lambda each, *_, n=name: found.update({n: each}) or ()
+        )
+        monkeypatch.setattr(verify, "judge_states", lambda *_: ())
+        monkeypatch.setattr(verify, "show", lambda *_: None)
+        verify.verify(1, "", Console(file=io.StringIO()), course=course, by=FULL)
+    assert 20 < len(found["few"]) < len(found["full"]) / 2
+    assert set(found["few"]) <= set(found["full"])
+    assert all(each.course == FULL for each in found["few"])
 
 
 def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
