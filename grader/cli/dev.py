@@ -26,9 +26,10 @@ MembersAtATime = Annotated[
 ]
 
 app = typer.Typer()
+maintainers = typer.Typer(help="For maintainers of the kit.", no_args_is_help=True)
 
 
-@app.command("sync")
+@maintainers.command("sync")
 def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
@@ -85,7 +86,7 @@ def release_command(
         print_note(f"made {path}")
 
 
-@app.command("mutants")
+@maintainers.command("mutants")
 def mutants_command(
     count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
     seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
@@ -118,7 +119,7 @@ def mutants_command(
     raise typer.Exit(1 if any(each.complaint for each in outcomes) else 0)
 
 
-@app.command("bench")
+@maintainers.command("bench")
 def bench_command(
     rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
     size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,

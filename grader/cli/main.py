@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import threading
+from copy import copy
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 from rich.console import Console
 from typer.core import TyperGroup
+from typer.models import CommandInfo
 
 from grader.cli import export, student
 from grader.cli.shared import (
@@ -292,6 +294,8 @@ def make_app() -> typer.Typer:
         from grader.cli import classroom, dev, questions
 
         apps += [classroom.app, dev.app, questions.app]
+        whole.add_typer(dev.maintainers, name="dev")
+        whole.registered_commands += map(hide, dev.maintainers.registered_commands)
     else:
         from grader.cli import practice
 
@@ -299,6 +303,13 @@ def make_app() -> typer.Typer:
     for each in apps:
         whole.add_typer(each)
     return whole
+
+
+def hide(command: CommandInfo) -> CommandInfo:
+    """Return a command that also works by itself, and that `--help` does not list."""
+    hidden = copy(command)
+    hidden.hidden = True
+    return hidden
 
 
 def main() -> None:

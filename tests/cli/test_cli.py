@@ -247,3 +247,11 @@ def test_an_installed_grader_grades_and_needs_a_checkout_for_the_rest(tmp_path: 
     done = installed("grade", KIT / "solution", "--todo", "8a")
     assert done.returncode == 0 and "solution: 2 / 2" in done.stdout, done.stderr
     assert installed("hint", "--todo", "4").returncode == 0
+
+
+def test_help_lists_no_command_of_maintainers_and_each_works_both_ways():
+    listed = run_grader("--help").output
+    for name in ("sync", "mutants", "bench"):
+        assert f" {name} " not in listed and f" {name} " in run_grader("dev", "--help").output
+        ways = [run_grader(name, "--help"), run_grader("dev", name, "--help")]
+        assert [done.exit_code for done in ways] == [0, 0]
