@@ -127,9 +127,8 @@ def grade_command(
     taken = read_course(course)
     complete = reference or shipped_reference()
     own = complete is None  # a student's copy: there is nothing but their own work
-    todos = check_todos(todo, taken)
-    options = Options(complete, isolation, todos, seed, trusted=own, course=taken)
-    output = Output(out, json, at_least)
+    only, output = check_todos(todo, taken), Output(out, json, at_least)
+    options = Options(complete, isolation, only, seed, trusted=own, course=taken)
     refuse_outputs(path, class_, output, options)
     jobs_of_one = jobs or count_cores()
     if path is not None and not class_ and not own and context.obj is not None:

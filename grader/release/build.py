@@ -218,7 +218,8 @@ def grade_with(package: Path, tree: Path) -> Result:
     students = {name: value for name, value in os.environ.items() if name != COURSE_FILE}
     said = run_command(make_command(package, code), package, students, statuses=(0, 1))
     if not target.exists():
-        raise Refused(f"the students' copy of the grader does not run:\n{said}")
+        why = said.strip().splitlines()[-1]
+        raise Refused(f"the students' copy of the grader does not run: {why}")
     return msgspec.json.decode(target.read_bytes(), type=Result)
 
 
