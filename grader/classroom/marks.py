@@ -5,7 +5,7 @@ so that a spreadsheet would run them.
 """
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from decimal import ROUND_HALF_UP, Decimal
 from pathlib import Path
@@ -63,6 +63,14 @@ def load_marking(path: Path, course: Course = FULL) -> Marking:
     if not sum(marking.shares.values()):
         raise Stop(f"{path}: all shares are 0: give one part a share above 0")
     return marking
+
+
+def compare_totals(marking: Marking, course: Course) -> Iterator[str]:
+    """Yield a note where students' pages, made by the course, give other marks than these."""
+    total = course.out_of or USUAL_TOTAL
+    if marking.total != total:
+        pages = f"the students' pages count to {total:g}"
+        yield f"these marks count to {marking.total:g}, and {pages}: set out_of in the course"
 
 
 def compute_mark(parts: Parts, marking: Marking) -> str:

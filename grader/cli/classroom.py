@@ -383,7 +383,14 @@ def marks_command(
     if settings is None and course is None:
         require_checkout("marks", ", or name marks.toml with --settings")
     from grader.classroom.dashboard import read_class
-    from grader.classroom.marks import ENGINE, Scores, load_marking, make_marks, make_parts
+    from grader.classroom.marks import (
+        ENGINE,
+        Scores,
+        compare_totals,
+        load_marking,
+        make_marks,
+        make_parts,
+    )
     from grader.classroom.nbgrader.gradebook import read_parts
     from grader.intake.systems import read_roster
     from grader.release.nbgrader_course import INSTRUCTOR
@@ -398,6 +405,7 @@ def marks_command(
         outcomes = [each.outcome for each in read_class(results)]
         parts = make_parts(outcomes)
         notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
+        notes += compare_totals(marking, read_course(taken))
     else:
         parts = read_parts(course or Path("."), marking)
     made = make_marks(listed, column, Scores(parts, marking, so_far, others_known))

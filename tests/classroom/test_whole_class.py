@@ -123,6 +123,12 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
     words = ["--results", run.book.folder, "--out", tmp_path / "m.csv"]
     words += ["--course-file", tmp_path / "course.toml"]
     assert run_grader("marks", folder / "roster.csv", *words).exit_code == 0
+    (tmp_path / "marks.toml").write_text("total = 50\nshares = { engine = 1 }\n", encoding="utf-8")
+    other = run_grader(
+        "marks", folder / "roster.csv", *words, "--settings", tmp_path / "marks.toml",
+        "--out", tmp_path / "other.csv",
+    )  # fmt: skip
+    assert "these marks count to 50, and the students' pages count to 10" in other.output
     assert "#a10,2.5,#" in (tmp_path / "m.csv").read_text(encoding="utf-8")
 
 
