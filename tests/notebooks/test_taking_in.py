@@ -182,7 +182,7 @@ def test_students_get_the_checks_of_a_release(tmp_path):
     assert (source / "integrators.py").read_bytes() == released
     assert (source / "quiz.ipynb").read_text() != "released"  # with the answers
     assert (source / "MANIFEST.txt").read_text() == "# content 0\n00  grader.whl\n"
-    with pytest.raises(Stop, match="no archive of a release"):
+    with pytest.raises(Stop, match="there is no release at"):
         make_course(tmp_path / "course", renew=True, release=tmp_path / "none.zip")
     with pytest.raises(Stop, match="not of this course, they differ in TODO 1, 2, 3"):
         make_course(tmp_path / "course", renew=True, release=archive)
