@@ -14,6 +14,7 @@ import sysconfig
 import tempfile
 import zipfile
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import msgspec
@@ -205,8 +206,9 @@ def prove_cut(course: Course, proven: Path = KIT / "build" / "course-check") -> 
         note = proven / hash_folders([work], fingerprint() + solution)
         if not note.exists():
             prove(work, work / "tree", course)
-            proven.mkdir(parents=True, exist_ok=True)
-            note.touch()
+            with suppress(OSError):  # a kit that nobody may write to
+                proven.mkdir(parents=True, exist_ok=True)
+                note.touch()
 
 
 def grade_with(package: Path, tree: Path) -> Result:
