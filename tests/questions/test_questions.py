@@ -730,3 +730,10 @@ def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, wh
         film.click()
         tab.wait_for_function(f"svg => ({shown})(svg) === '1'", arg=film.element_handle())
         assert barriers(browser, *pages) == []
+
+
+def test_a_sheet_bears_the_name_that_the_class_list_has():
+    sheet = Sheet("ann", "1", (), full_name="Bell, Ann")
+    for kind in ("sheet", "key"):
+        assert "<h1>Lab 3: Bell, Ann (ann)</h1>" in make_page(sheet, "Lab 3", kind)
+    assert "<h1>Lab 3: ann</h1>" in make_page(Sheet("ann", "1", ()), "Lab 3", "sheet")
