@@ -16,7 +16,7 @@ from grader.release import build as releases
 from grader.release.build import Refused, prove_cut
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts
-from grader.release.leaks import find_given_answers, read_texts
+from grader.release.leaks import find_given_answers, find_hidden_secrets, read_texts
 from grader.release.notebooks import make_notebooks
 from grader.release.students_copy import cut_checks, cut_course_files
 from grader.source.cut import defined, list_uses
@@ -62,6 +62,12 @@ def test_a_bonus_task_keeps_what_it_takes_from_another_file(todos):
 def test_what_drawn_courses_import_is_there():
     for course in draw_courses(3):
         assert find_missing(cut_checks(visible(course.rubric))) == [], course
+
+
+def test_what_only_other_todos_need_is_no_secret():
+    """A line of a helper for TODO 6 is also in the checks of B1, which this course has."""
+    secrets = list(find_hidden_secrets(Course(todos=("4", "5", "B1", "B6")).rubric))
+    assert secrets and not any("standing_still" in each.what for each in secrets)
 
 
 def test_the_copy_of_an_odd_course_grades(tmp_path: Path, monkeypatch):
