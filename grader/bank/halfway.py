@@ -8,6 +8,9 @@ that was changed (see members.py), and regular expressions:
     change = [["if total < -limit:\\n    total = -limit", ""]]
     says = ["upper|one way"]
 
+Code that stands where it does not count has a `place`, and `moved` names a copy of the TODO's file
+in which the work is, beside the handed-out one.
+
 All in `says` must be found, none in `never` may be. They are searched in the *Meaning* of the first
 failure, or in its *Got* if it has none: a student who is alone reads that. A wrong member that
 `says` anything is a state as well.
@@ -18,6 +21,8 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import dedent
+from typing import Literal
 
 import msgspec
 from msgspec import Struct
@@ -25,6 +30,7 @@ from msgspec import Struct
 from grader.bank.members import (
     Variant,
     change_files,
+    indented,
     put_regions,
     read_wrong,
     solution_code,
@@ -33,9 +39,16 @@ from grader.judge.children import Worker
 from grader.judge.grade import KIT, Options, grading
 from grader.judge.result import CheckResult, Result
 from grader.judge.rubric import load_rubric, visible
+from grader.judge.submission import handed_out
+from grader.source.regions import python_files, read_source, regions_in
 
 BANK = KIT / "tests" / "bank"
 PROGRAMS = ("mini_engine", "lab_runtime.py", "integrators.py", "pymunk_scene.py")
+
+
+# Where the code stands: alone in its region, with the stub's lines above or below it, or below the
+# region, which holds the stub.
+Place = Literal["region", "below the stub", "above the stub", "outside"]
 
 
 class State(Variant, frozen=True, kw_only=True):
@@ -43,6 +56,9 @@ class State(Variant, frozen=True, kw_only=True):
 
     says: list[str]  # regular expressions, each of which must be found
     never: list[str] = msgspec.field(default_factory=list)  # and these must not
+    place: Place = "region"
+    moved: str = ""
+    encoding: str = "utf-8"  # of the TODO's file
 
 
 class Sheet(Struct, frozen=True, forbid_unknown_fields=True):
@@ -68,8 +84,31 @@ class Halfway:
             else:
                 folder.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(source, target)
-        put_regions({self.todo: tuple(self.code.splitlines())}, folder)
+        put_regions({self.todo: tuple(self.lines)}, folder)
+        file = next(path for path in python_files(folder) if self.start in read_source(path))
+        if self.state.place == "outside":
+            put_below(self.code, self.todo, file)
         change_files(self.state.files, folder)
+        if self.state.moved:
+            shutil.copyfile(file, folder / self.state.moved)
+            shutil.copyfile(KIT / "starter" / file.relative_to(folder), file)
+        file.write_text(file.read_text(encoding="utf-8"), encoding=self.state.encoding)
+
+    @property
+    def start(self) -> str:
+        return f"# TODO {self.todo}: "
+
+    @property
+    def lines(self) -> list[str]:
+        """Return the lines of the region."""
+        code, stub = self.code.splitlines(), dedent(handed_out().stubs[self.todo]).splitlines()
+        parts = {
+            "region": [code],
+            "below the stub": [stub, code],
+            "above the stub": [code, stub],
+            "outside": [stub],
+        }
+        return [line for part in parts[self.state.place] for line in part]
 
     def complaint(self, result: Result) -> str:
         """Return what is wrong with the words of its first failure; empty if nothing is."""
@@ -82,6 +121,15 @@ class Halfway:
         if wrong:
             return f"says {', '.join(wrong)}: {words}"
         return f"does not say {', '.join(missing)}: {words}" if missing else ""
+
+
+def put_below(code: str, todo: str, file: Path) -> None:
+    """Put code below the END marker of a TODO, indented like it."""
+    text = read_source(file)
+    region = next(each for each in regions_in(text) if each.id == todo)
+    lines = text.splitlines()
+    lines[region.stop + 1 : region.stop + 1] = indented(code.strip("\n").splitlines(), text, region)
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def halfway(todo: str = "") -> Iterator[Halfway]:

@@ -134,13 +134,13 @@ def merge_regions(source: Path, target: Path) -> bytes:
 def read_stub_sources(starter: dict[str, str]) -> dict[str, str]:
     """Return the starter's stub of each TODO: its region, and the whole function around it."""
     stubs = {}
-    functions = {todo.function.partition(":")[2]: todo.id for todo in load_rubric().todos}
+    functions = {todo.id: todo.function.partition(":")[2] for todo in load_rubric().todos}
     for text in starter.values():
         body, ids = statements(text), set()
         for region in regions_in(text):
             stubs[region.id] = "\n".join(region.lines)
             ids.add(region.id)
-        for name, todo in functions.items():
+        for todo, name in functions.items():
             found = function_named(body, name) if name and todo in ids else None
             if found is not None:
                 stubs[f"def {todo}"] = source_of(text, found)

@@ -200,7 +200,13 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"steps of STEP = {STEP:.9f} s",
         f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
     )
-    lab.want(said == steps, f"{steps} as the number of steps that ran", f"{said:g}")
+    meaning = "The count is 1 too many: begin it at 0, and raise it once in each step."
+    lab.want(
+        said == steps,
+        f"{steps} as the number of steps that ran",
+        f"{said:g}",
+        meaning * (said == steps + 1),
+    )
     owed, most = accumulator + seconds, MAX_STEPS * STEP
     due = min(owed, most)
     beyond = steps * STEP + rest - due

@@ -7,8 +7,9 @@ from pathlib import Path, PurePosixPath
 from grader.errors import Stop
 from grader.judge.failures import MOST_NAMES
 from grader.judge.plain import read_plain
-from grader.judge.result import Result
+from grader.judge.result import CheckResult, Result
 from grader.judge.submission import load_given
+from grader.judge.wording import command
 from grader.report.files import write_whole
 from grader.source.flaws import find_flaw
 from grader.source.given import Changed, as_given, changes, restored
@@ -21,14 +22,30 @@ def find_changes(tree: Path) -> list[Changed]:
 
 
 def list_notes(tree: Path, result: Result) -> list[str]:
-    """Return a line on given code that was changed, unless a check has said it."""
+    """Return lines on given code that was changed, unless a check has said it.
+
+    A TODO's own function counts as changed only while the TODO fails, and is not to be put back.
+    """
     checks = [check for todo in result.todos for check in todo.checks]
     if any(check.where is not None and check.where.given for check in checks):
         return []
-    found = find_changes(tree)
-    names = ", ".join(dict.fromkeys(each.to_type for each in found[:MOST_NAMES]))
-    more = f" and {len(found) - MOST_NAMES} more" * (len(found) > MOST_NAMES)
-    return [f"Given code was changed: {names}{more}. check --restore NAME undoes it."] * bool(found)
+    unread = {check.where.file for check in checks if check.where and is_unread(check)}
+    found = [each for each in find_changes(tree) if each.file not in unread]
+    failing = {todo.id for todo in result.todos if todo.failed}
+    said = " ".join(check.meaning for check in checks)
+    notes = [each.outside for each in found if each.todo in failing and each.outside not in said]
+    names = [*dict.fromkeys(each.to_type for each in found if not each.outside)]
+    if names:
+        more = f" and {len(names) - MOST_NAMES} more" * (len(names) > MOST_NAMES)
+        shown = ", ".join(names[:MOST_NAMES]) + more
+        undo = command("check", restore=names[0])
+        notes.append(f"Given code was changed: {shown}. Undo it: {undo}")
+    return notes
+
+
+def is_unread(check: CheckResult) -> bool:
+    """Return whether a check failed because Python cannot read its file."""
+    return check.failed and check.ran.startswith("reading ")
 
 
 def restore(tree: Path, name: str) -> list[str]:

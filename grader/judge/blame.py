@@ -48,6 +48,8 @@ class Blamed:
 
     @property
     def in_words(self) -> str:
+        if not self.mended and all(each.outside for each in self.changes):
+            return " ".join(each.outside for each in self.changes)
         how = "; ".join(each.how for each in self.changes)
         undo = " ".join(f"--restore {each.to_type}" for each in self.changes)
         then = ", and this passes" if self.mended else ": do that first"

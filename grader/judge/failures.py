@@ -10,6 +10,13 @@ REMEMBERS = (
     "Asked alone, by a program that has just started, this comes out otherwise: it hangs on "
     "earlier calls, or on chance. The answer must follow from what is given to this call alone."
 )
+TRESPASS = "{name} must leave everything as it is but what its docstring names."
+REBOUND = (
+    "Line {line} gives {name} another value. From there on {name} is no longer what the function "
+    "was given: use another name."
+)
+LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."
+ENDLESS = "it used up its"  # how the words of a check begin that ran out of processor time
 MOST_NAMES = 3  # in one sentence
 KEPT = (
     "Something is kept from call to call in {names}: an answer that hangs on it is another one "

@@ -16,22 +16,23 @@ from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
-from grader.judge.failures import Broke, Failing, NotYet
+from grader.judge.failures import LOOP, REBOUND, Broke, Failing, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
-from grader.judge.meaning import Evidence, explain
+from grader.judge.meaning import Evidence, Left, explain
 from grader.judge.names import Names
 from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
-from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, state_of
-from grader.judge.rubric import CHECKS, Check, Rubric, Todo, load_rubric
+from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, Where, state_of
+from grader.judge.rubric import Check, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
-from grader.judge.submission import Submission, load_given, take_in
+from grader.judge.submission import Submission, handed_out, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import Changed, change_of_file, changes, restored
+from grader.source.leftovers import find_dead_end, find_leftover, find_loop, find_rebound
 from grader.source.regions import python_files, read_source, shape_of
-from grader.text import harmless
+from grader.text import harmless, listed
 
 if TYPE_CHECKING:
     from grader.judge.loop import CheckLoop
@@ -170,8 +171,7 @@ def has_same_files(folder: Path, other: Path) -> bool:
 @cache
 def load_stubs() -> dict[str, str]:
     """Return the shapes of the starter's stubs: of each region, and of the function around it."""
-    stubs = msgspec.json.decode((CHECKS / "stubs.json").read_bytes(), type=dict[str, str])
-    return {name: shape_of(source) for name, source in stubs.items()}
+    return {name: shape_of(source) for name, source in handed_out().stubs.items()}
 
 
 @dataclass
@@ -187,6 +187,7 @@ class Grading:
     blamed: dict[Key, Blamed] = field(default_factory=dict)  # what fails for changed given code
     surveys_all: bool = False  # ask each check to its end, to have all that it may ask
     failing: dict[Key, Failing] = field(default_factory=dict)  # what a replay shows once more
+    left: dict[str, Left] = field(default_factory=dict)  # what TODOs should be without
 
     def run(self) -> Result:
         if self.options.isolation == "none":
@@ -214,6 +215,7 @@ class Grading:
         loop.run()
         self.failing = loop.failing
         self.put_given_code_back(loop)
+        self.left = self.find_what_was_left(loop)
         return self.result(loop)
 
     def new_lab(self, todo: Todo, check: Check) -> Lab:
@@ -263,6 +265,48 @@ class Grading:
             got="; ".join(each.how for each in blamed.changes),
             meaning=blamed.in_words,
             where=blamed.place(check),
+        )
+
+    def find_what_was_left(self, loop: "CheckLoop") -> dict[str, Left]:
+        """Return the TODOs with lines of the stub, or with a return above their own code."""
+        keys: dict[str, Key] = {}
+        for key, job in loop.failed.items():
+            if job.todo.function and key not in self.blamed:
+                keys.setdefault(job.todo.id, key)
+        found = ((id, self.look_at_region(key, loop)) for id, key in keys.items())
+        return {id: left for id, left in found if left}
+
+    def look_at_region(self, key: Key, loop: "CheckLoop") -> Left | None:
+        """Return what a failed check is the better without, which a run without it shows."""
+        todo, where = loop.failed[key].todo, self.submission.where.get(key[0])
+        if where is None or loop.budget.cut:
+            return None
+        text = read_source(self.submission.folder / where.file)
+        leftover = find_leftover(text, todo.id, handed_out().stubs[todo.id])
+        if leftover is not None:
+            open_child = self.sandbox.changed({where.file: leftover.without}).open_child
+            if loop.again(key, open_child).failure is None:
+                return Left(leftover.words, Where(where.file, leftover.line), True)
+        dead_end = find_dead_end(text, todo.id, todo.function.partition(":")[2])
+        if dead_end is None:
+            return None
+        return Left(dead_end.words, Where(where.file, dead_end.line), dead_end.is_first)
+
+    @cached_property
+    def outside_of_region(self) -> dict[str, str]:
+        """Return by TODO which line of its function was changed outside its region, in words."""
+        return {each.todo: each.outside for each in self.changed_given(()) if each.outside}
+
+    def read_region(self, todo: Todo) -> tuple[str, str]:
+        """Say which argument a TODO's code gives another value, and which loop may never end."""
+        where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
+        if where is None or not path:
+            return "", ""
+        text = read_source(self.submission.folder / where.file)
+        rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
+        return (
+            REBOUND.format(line=rebound[0], name=rebound[1]) if rebound else "",
+            LOOP.format(line=loop[0], text=loop[1]) if loop else "",
         )
 
     def keeps_points(self, todo: Todo) -> bool:
@@ -387,6 +431,10 @@ class Grading:
             earlier,
             lambda check: self.names.hint(todo, modules[check.id], check),
             {id: starts[module] for id, module in modules.items() if module in starts},
+            self.left.get(todo.id),
+            self.outside_of_region.get(todo.id, ""),
+            *self.read_region(todo),
+            self.submission.remarks.get(todo.id, ""),
         )
         told = explain(evidence, checks, ran)
         points = sum(check.points for check in told)
@@ -470,5 +518,6 @@ def as_passed(check: CheckResult, meaning: str) -> CheckResult:
 
 def wait_for(todos: list[str], check: CheckResult) -> CheckResult:
     """Return a failed check without the words that are about other TODOs, which come first."""
-    got = f"your program fails before that: TODO {', '.join(todos)} is not right yet"
+    are = "is" if len(todos) == 1 else "are"
+    got = f"your program fails before that: TODO {listed(todos)} {are} not right yet"
     return msgspec.structs.replace(check, expected="", got=got, meaning="")

@@ -17,7 +17,7 @@ import msgspec
 from grader.judge.children import Child
 from grader.judge.connection import Answer, Connection, Send, ask_child
 from grader.judge.decode import Decoder, Pair, Thing
-from grader.judge.failures import Broke, NotYet
+from grader.judge.failures import TRESPASS, Broke, NotYet
 from grader.protocol import (
     Argument,
     BodyValue,
@@ -96,6 +96,12 @@ class Lab(Decoder):
     def late(self) -> bool:
         """Return whether it had to be ended because its time was over."""
         return isinstance(self.failure, Broke) and self.failure.late
+
+    @property
+    def trespass(self) -> str:
+        """Return what was changed and may not be, in words; empty for nothing."""
+        said = self.overstepped.got if self.overstepped is not None else ""
+        return said if " changed " in said else ""
 
     @contextmanager
     def opened(self) -> Iterator["Lab"]:
@@ -203,7 +209,7 @@ class Lab(Decoder):
             self.running,
             f"nothing changed but the {allowed}" if allowed else "nothing changed",
             f"{name} changed {', '.join(dict.fromkeys(map(self._place, beyond)))}",
-            f"{name} must leave everything as it is but what its docstring names.",
+            TRESPASS.format(name=name),
         )
 
     def _place(self, change: Change) -> str:
@@ -554,7 +560,7 @@ def same(first: Value, second: Value) -> bool:
     return first == second
 
 
-FIELDS = {"pos": "place", "vel": "velocity", "omega": "spin", "inv_mass": "mass"}
+FIELDS = {"pos": "position", "vel": "velocity", "omega": "spin", "inv_mass": "mass"}
 
 
 def refs(*groups: Iterable[Thing]) -> list[int]:

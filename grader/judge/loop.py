@@ -255,7 +255,8 @@ class CheckLoop:
         todos = [each.id for each in self.rubric.counted if each.function]
         none_begun = not any(begun.get(each, True) for each in todos)
         if todo.function and not begun.get(todo.id, True):
-            return self._result(job, "not started", where=self.submission.where.get(todo.id))
+            where, words = self.submission.where.get(todo.id), self.submission.remarks.get(todo.id)
+            return self._result(job, "not started", where=where, meaning=words or "")
         if not todo.function and none_begun:
             return self._result(job, "not started")
         why = self.unusable.get(job.module)
@@ -403,6 +404,8 @@ class CheckLoop:
                 lab.failure = lab.overstepped
             except (NotYet, Broke) as failure:
                 lab.failure = failure
+                if isinstance(failure, NotYet) and lab.trespass and not way.surveys:
+                    failure.got += f"; {lab.trespass}"
             except Flaky:  # the lab kept the first failure, if it saw one
                 lab.failure = lab.failure or Broke(lab.running, "another answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
@@ -503,8 +506,15 @@ class CheckLoop:
 
 
 def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
-    """Return whether a check that fails for its own TODO fails in another question before it."""
-    return DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran)
+    """Return whether a check that fails for its own TODO fails in another question before it.
+
+    In the same question it may raise an error that comes before what it fails with isolated.
+    """
+    if DIGITS.sub("", isolated.ran) != DIGITS.sub("", alone.ran):
+        return True
+    raised = [each.raised if isinstance(each, Broke) else None for each in (isolated, alone)]
+    errors = [(each.error, each.frames[-1:]) if each is not None else None for each in raised]
+    return errors[1] is not None and errors[0] != errors[1]
 
 
 def jobs_of(todo: Todo) -> Iterator[Job]:

@@ -1,5 +1,7 @@
 """Find what a failed check means, and where to look: the first explanation that fits is told."""
 
+import math
+import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -8,15 +10,34 @@ import msgspec
 
 from grader.judge.blame import Blamed
 from grader.judge.diagnosis import Diagnosis
-from grader.judge.failures import KEPT, MOST_NAMES, REMEMBERS
+from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, REMEMBERS, TRESPASS
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import Mistake
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
+from grader.judge.submission import load_given
+from grader.text import listed
 
 OUTSIDE = "No TODO is to blame for this: look at the code around them."
-MISSING = "This program is not there: hand it in with the others."
-FINISH = "TODO {ids} must be right before this can be checked: finish it first."
+MISSING = "There is no {program} here, in a file or a folder: hand it in with the others."
+RESTORE = (
+    "There is no {program}.py here. check --restore {program}.py puts the handed-out one back."
+)
+ROUNDED = (
+    "Right to five digits and more, but not to all: is a number rounded, or float32 used for it?"
+)
+NEARLY = 1e-5  # of a number
+NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
+
+
+@dataclass(frozen=True)
+class Left:
+    """What was left in a TODO's region and should be gone: a sentence about it, and its line."""
+
+    words: str
+    where: Where
+    is_all: bool  # whether nothing else needs to be told
 
 
 @dataclass(frozen=True)
@@ -31,6 +52,11 @@ class Evidence:
     earlier: Mapping[str, list[str]] = field(default_factory=dict)  # TODOs that it fails in first
     hint: Callable[[CheckResult], str] = lambda check: ""  # about names and arguments
     where: Mapping[str, Where] = field(default_factory=dict)  # where the program begins
+    left: Left | None = None
+    outside: str = ""  # which line of its function stands outside its region
+    rebound: str = ""  # which argument gets another value
+    loop: str = ""  # which loop of its code may never end
+    remark: str = ""  # why no code of the TODO counts
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
@@ -52,6 +78,8 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
     where = check.where or evidence.where.get(check.id)
     if check.id in evidence.blamed:
         where = evidence.blamed[check.id].place(check)
+    elif evidence.left is not None and evidence.left.is_all:
+        where = evidence.left.where
     return msgspec.structs.replace(check, meaning=meaning, where=where)
 
 
@@ -71,6 +99,22 @@ def next_explanation(evidence: Evidence, check: CheckResult) -> str:
     return next(filter(None, (each(evidence, check) for each in EXPLAINERS[1:])), "")
 
 
+def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
+    """Name lines that the starter had, or that end the function before the student's own.
+
+    Where some of these run, what they do comes first.
+    """
+    if evidence.left is None or evidence.left.is_all:
+        return evidence.left.words if evidence.left else ""
+    told = next(filter(None, (each(evidence, check) for each in EXPLAINERS[2:])), "")
+    return f"{told} {evidence.left.words}".strip()
+
+
+def name_loop(evidence: Evidence, check: CheckResult) -> str:
+    """Name the loop of a TODO whose check ran out of time: no answer was there to be explained."""
+    return evidence.loop if check.state == "error" and check.got.startswith(ENDLESS) else ""
+
+
 def explain_names(evidence: Evidence, check: CheckResult) -> str:
     """Name a function or an argument that is called otherwise than it was handed out."""
     return evidence.hint(check)
@@ -81,10 +125,36 @@ def name_mistake(evidence: Evidence, check: CheckResult) -> str:
     return evidence.mistake.meaning if evidence.mistake else ""
 
 
+def name_trespass(evidence: Evidence, check: CheckResult) -> str:
+    """Name a change of what must stay as it is, which may be why an answer is wrong as well."""
+    found = re.search(r"; (\w+ changed .*)", check.got)
+    return f"{found[1]}. {TRESPASS.format(name='It')}" if found else ""
+
+
+def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
+    """Name code of the TODO outside its region, with what its answers are like."""
+    told = describe_answers(evidence, check) if evidence.outside else ""
+    return f"{evidence.outside} {told}".strip()
+
+
+def name_rounding(evidence: Evidence, check: CheckResult) -> str:
+    """Name rounding, where each number is right to some digits and not to all."""
+    right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
+    near = len(right) == len(ours) and all(
+        math.isclose(a, b, rel_tol=NEARLY, abs_tol=NEARLY) for a, b in zip(right, ours, strict=True)
+    )
+    return ROUNDED if right != ours and near and check.state == "not yet" else ""
+
+
+def name_rebound(evidence: Evidence, check: CheckResult) -> str:
+    """Name an argument that gets another value, where nothing else is known."""
+    return evidence.rebound
+
+
 def name_earlier_todos(evidence: Evidence, check: CheckResult) -> str:
     """Name the TODOs in which the program fails before it comes to this one."""
-    ids = ", ".join(evidence.earlier.get(check.id, ()))
-    return FINISH.format(ids=ids) if ids else ""
+    ids = evidence.earlier.get(check.id, ())
+    return FINISH.format(ids=listed([*ids]), it="it" if len(ids) == 1 else "them") if ids else ""
 
 
 def describe_answers(evidence: Evidence, check: CheckResult) -> str:
@@ -98,19 +168,32 @@ def describe_answers(evidence: Evidence, check: CheckResult) -> str:
     return f"{said} {KEPT.format(names=shown)}".strip() if names else said
 
 
+def repeat_remark(evidence: Evidence, check: CheckResult) -> str:
+    """Say why there is no code; a program that is missing has none."""
+    program = check.ran.removeprefix("import ")
+    if evidence.remark or check.id in evidence.where or program == check.ran:
+        return evidence.remark
+    return (RESTORE if f"{program}.py" in load_given() else MISSING).format(program=program)
+
+
 def point_outside(evidence: Evidence, check: CheckResult) -> str:
     """Say of the program as a whole that the reason is in no TODO."""
-    if evidence.todo.function:
-        return ""
-    return OUTSIDE if check.id in evidence.where else MISSING
+    return "" if evidence.todo.function else OUTSIDE
 
 
 Explainer = Callable[[Evidence, CheckResult], str]
 EXPLAINERS: tuple[Explainer, ...] = (
     blame_given_code,
+    name_what_was_left,
+    name_loop,
     explain_names,
     name_mistake,
     name_earlier_todos,
+    name_trespass,
+    name_rounding,
+    point_out_of_region,
     describe_answers,
+    name_rebound,
+    repeat_remark,
     point_outside,
 )

@@ -125,10 +125,21 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
     A student's copy sees less, so it names one only if no other explains as much.
     """
     load_known(todo)
+    if says_nothing(observations):
+        return None
     found = [each for each in known_mistakes if each.todo == todo and explains(each, observations)]
     if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
         return None
     return found[0] if found else None
+
+
+def says_nothing(observations: Sequence[Observation]) -> bool:
+    """Return whether all answers are missing where some of several parts are due.
+
+    Many a mistake leaves none, and so does code that never comes to its answer.
+    """
+    asked = [each for each in observations if each.about in part_names]
+    return bool(asked) and all(each.answer is None for each in asked)
 
 
 def simplest(ids: Collection[str]) -> list[str]:

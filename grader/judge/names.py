@@ -15,6 +15,7 @@ from pathlib import Path
 
 import msgspec
 
+from grader.judge.error_words import explain_error
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
 from grader.judge.submission import load_given
@@ -24,23 +25,6 @@ from grader.source.regions import python_files, read_source
 MOST = 1000  # functions of a program; the lesson's have sixty
 LONGEST = 80  # letters of a name that may be another's new one
 ALIKE = 0.6  # of two names, from which on one may be the other's new one
-
-# What a message of Python's means where a student may not know it.
-ERRORS = (
-    (r"EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
-    (
-        r"'(function|method|builtin_function_or_method)'",
-        "A function's name without brackets is the function itself, not what it returns: call it.",
-    ),
-    (
-        r"TypeError: .*(NoneType|\bNone\b)",
-        "There is a None among the values: a function without return gives one.",
-    ),
-    (
-        r"AttributeError: 'NoneType'",
-        "What stands before the dot is None: a function without return gives one.",
-    ),
-)
 
 
 @dataclass(frozen=True)
@@ -109,13 +93,18 @@ class Names:
         self.told: dict[str, dict[str, str]] = {}
 
     def hint(self, todo: Todo, module: str, check: CheckResult) -> str:
-        """Say what name or argument a failed check is due to; empty where it is none."""
+        """Say what name or argument a failed check is due to, or what its error means."""
         own = todo.function.partition(":")[2]
         for path, words in self.changed(module).items():
             name = path.rpartition(".")[2]
             if path == own or re.search(rf"\b{re.escape(name)}\b", check.got):
                 return words
-        return next((words for error, words in ERRORS if re.search(error, check.got)), "")
+        return explain_error(check.got, self.read, todo.id)
+
+    def read(self, file: str) -> str:
+        """Return the text of a file of the submission; empty where there is none."""
+        path = self.folder / file
+        return read_source(path) if path.is_file() else ""
 
     def changed(self, module: str) -> Mapping[str, str]:
         """Return what has become of each name that was handed out; found out once."""

@@ -82,6 +82,13 @@ class TodoResult(Struct, frozen=True):
         return [check for check in self.checks if check.failed]
 
     @property
+    def remark(self) -> str:
+        """Return why it counts as not started although there is code for it; empty if there is
+        none.
+        """
+        return self.checks[0].meaning if self.checks and self.state == "not started" else ""
+
+    @property
     def notes(self) -> list[str]:
         """Return what is to be said although its checks passed, such as an experiment."""
         passed = [check for check in self.checks if check.state == "passed" and check.meaning]

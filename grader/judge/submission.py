@@ -20,6 +20,7 @@ from grader.judge.result import Where
 from grader.judge.rubric import CHECKS, Rubric, Todo, load_rubric
 from grader.source.definitions import MAX_READ, Function, Program, source_of
 from grader.source.flaws import Flaw, find_bad_bytes, find_flaw
+from grader.source.given import MISPLACED, first_difference
 from grader.source.mending import OUTSIDE, HandedOut, Mender
 from grader.source.regions import (
     MAX_SOURCE,
@@ -37,6 +38,8 @@ MAX_SEEN = 20_000  # files and folders that are looked at
 MAX_DEPTH = 40  # folders in each other
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
 FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
+COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs into {file}."
+SUPPLIED = "{file} is missing. The handed-out one was taken in its place."
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
@@ -62,6 +65,8 @@ class Submission:
     outside: dict[str, Flaw] = field(default_factory=dict)  # by program: as much of other code
     starts: dict[str, Where] = field(default_factory=dict)  # where each program's main is
     program: Program = field(default_factory=lambda: Program({}))  # all of its Python files
+    supplied: list[str] = field(default_factory=list)  # given files that it lacks
+    remarks: dict[str, str] = field(default_factory=dict)  # by TODO: why no code counts for it
 
     def holds(self, file: str) -> bool:
         """Return whether there is such a file in it: what a child says may name any."""
@@ -85,7 +90,7 @@ def take_in(path: Path, copy: Path, rubric: Rubric, stubs: dict[str, str]) -> Su
     else:
         copy_tree(path, submission)
     accept_printed_names(copy)
-    supply_given(copy)
+    submission.supplied = list(supply_given(copy))
     find_todos(submission, rubric, stubs)
     for each in [copy, *copy.rglob("*")]:
         each.chmod(0o555 if each.is_dir() else 0o444)
@@ -118,8 +123,8 @@ def weight(inside: PurePath) -> tuple[bool, bool, int, PurePath]:
     return not of_lab, inside.suffix != ".py", len(inside.parts), inside
 
 
-def supply_given(folder: Path) -> None:
-    """Put in what students were given and this submission lacks; what it has is its own.
+def supply_given(folder: Path) -> Iterator[str]:
+    """Put in what students were given and this submission lacks, and yield the files' names.
 
     A package is completed where a part of it was handed in. A program that is missing stays so.
     """
@@ -138,6 +143,7 @@ def supply_given(folder: Path) -> None:
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text, encoding="utf-8", newline="\n")
+        yield name
 
 
 @cache
@@ -212,6 +218,7 @@ def find_todos(submission: Submission, rubric: Rubric, stubs: dict[str, str]) ->
             inside = program.paths[found.module]
             look_at(submission, todo, stubs, inside, texts[inside], found.function)
         submission.begun.setdefault(todo.id, not todo.bonus)  # older programs have no bonus tasks
+    note_remarks(submission, rubric, stubs, texts)
     for module in dict.fromkeys(todo.module for todo in rubric.todos):
         main = program.definition(module, "main")
         if main is not None:
@@ -315,9 +322,51 @@ def look_at(
     if region is not None:
         submission.where[todo.id] = Where(file, first_code_line(region))
         submission.begun[todo.id] = region.shape != stubs.get(todo.id)
+        if not submission.begun[todo.id] and function is not None:
+            note_misplaced(submission, todo, file, text, function)
     elif function is not None:
         submission.where[todo.id] = Where(file, function.lineno)
         submission.begun[todo.id] = submission.functions[todo.id] != stubs.get(f"def {todo.id}")
+
+
+def note_misplaced(
+    submission: Submission, todo: Todo, file: str, text: str, function: Function
+) -> None:
+    """Note the first line that was written into a TODO's function but not into its region."""
+    mine, given = source_of(text, function).splitlines(), handed_out().stubs[f"def {todo.id}"]
+    number, theirs, _ = first_difference(mine, given.splitlines())
+    if theirs and shape_of("\n".join(mine)) != shape_of(given):
+        line = function.lineno + number
+        submission.where[todo.id] = Where(file, line)
+        submission.remarks[todo.id] = MISPLACED.format(
+            line=line, file=file, text=theirs, id=todo.id
+        )
+
+
+def note_remarks(
+    submission: Submission, rubric: Rubric, stubs: dict[str, str], texts: dict[Path, str]
+) -> None:
+    """Note what else may be why a TODO has no code: it is in a copy, or its file is missing."""
+    program = submission.program
+    loaded = {program.paths[part] for each in rubric.todos for part in program.loaded(each.module)}
+    written = {
+        region.id: path
+        for path, text in texts.items()
+        if path not in loaded and not module_of(path).endswith("_old")
+        for region in read_regions(text)[0]
+        if region.shape != stubs.get(region.id)
+    }
+    for todo in rubric.todos:
+        found, where = written.get(todo.id), submission.where.get(todo.id)
+        has_none = todo.id not in submission.functions or not submission.begun[todo.id]
+        if not todo.function or not has_none or todo.id in submission.remarks:
+            continue
+        if found is not None:
+            file = where.file if where else f"{todo.module}.py"
+            words = COPY.format(id=todo.id, copy=found.as_posix(), file=file)
+            submission.remarks[todo.id] = words
+        elif where is not None and where.file in submission.supplied:
+            submission.remarks[todo.id] = SUPPLIED.format(file=where.file)
 
 
 def first_code_line(region: Region) -> int:

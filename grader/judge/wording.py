@@ -87,17 +87,19 @@ def hidden_points_note(result: Result) -> str:
 # ---------------------------------------------------------------- what to type
 
 
-def command(name: str, todo: str = "", level: int = 1, all_of_it: bool = False) -> str:
+def command(
+    name: str, todo: str = "", level: int = 1, all_of_it: bool = False, restore: str = ""
+) -> str:
     """Return one of the student's commands, as this person would type it here."""
     if "MAKELEVEL" in os.environ:
         words = f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
-        return words + " ALL=1" * all_of_it
+        return words + " ALL=1" * all_of_it + f" RESTORE={restore}" * bool(restore)
     python = sys.orig_argv[0]
     start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
     words = f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)
-    return words + " --all" * all_of_it
+    return words + " --all" * all_of_it + f" --restore {restore}" * bool(restore)
 
 
 # ---------------------------------------------------------------- what students are told

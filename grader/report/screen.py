@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from grader.report.terminal import (
     STYLES,
     describe_obstacle,
     group_checks,
+    is_endless,
     locate_replay,
     name_checks,
     suggest_todo,
@@ -26,6 +28,7 @@ from grader.report.terminal import (
 from grader.text import clean
 
 LINES = 16  # before the prompt
+MOST_REMARKS = 2  # on TODOs without code that counts
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
 STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
 CAUSES = ("Meaning", "Got", "Expected", "Look at", "We ran")  # in the order of getting lines
@@ -56,6 +59,7 @@ class Screen:
     ) -> list[Line]:
         """Return the lines: how all TODOs stand, what fails in one, and what to do next."""
         todo = choose_todo(result, touched)
+        notes = [*list_remarks(result), *notes]
         end = [Line(each) for note in notes for each in wrap(note, self.console, 2)]
         if todo is None or not todo.failed:  # nothing that was begun fails
             headline, *commands = suggest_todo(todo) if todo else [""]
@@ -162,11 +166,17 @@ def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | N
     left = [todo for todo in result.counted or result.todos if todo.state in states]
     left = left or [todo for todo in result.shown if todo.state in FAILED]
 
-    def rank(todo: TodoResult) -> tuple[bool, bool, bool]:
-        return not todo.failed, todo.id not in touched, todo.id == "whole"
+    def rank(todo: TodoResult) -> tuple[bool, bool, bool, bool]:
+        return not todo.failed, todo.id not in touched, not todo.remark, todo.id == "whole"
 
     begun = [todo for todo in result.shown if todo.id in touched and todo.failed]
     return min([*begun, *left], key=rank, default=None)
+
+
+def list_remarks(result: Result) -> list[str]:
+    """Return why TODOs count as not started although there is code for them, each text once."""
+    found = dict.fromkeys(todo.remark for todo in result.shown if todo.remark)
+    return [*islice(found, MOST_REMARKS)]
 
 
 def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
@@ -174,10 +184,10 @@ def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
     return f"{state.upper():<{STATES}}{' '.join(ids)}" if ids else ""
 
 
-def rank_failure(group: list[CheckResult]) -> tuple[bool, bool]:
-    """Rank failures: changed given code comes first, then a mistake that has a name."""
+def rank_failure(group: list[CheckResult]) -> tuple[bool, bool, bool]:
+    """Rank failures: changed given code, an endless loop, and a mistake that has a name."""
     given = any(check.where is not None and check.where.given for check in group)
-    return not given, not any(check.meaning for check in group)
+    return not given, not is_endless(group[0]), not any(check.meaning for check in group)
 
 
 def count_points(group: list[CheckResult]) -> str:

@@ -10,6 +10,7 @@ import msgspec
 from rich.console import Console
 from rich.text import Text
 
+from grader.judge.failures import ENDLESS
 from grader.judge.isolation import unconfined
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.wording import (
@@ -31,7 +32,7 @@ STYLES: dict[State, str] = {
     "waiting": "bright_black",
     "error": "red",
 }
-ENDLESS = ("it used up its", "not run: the checks before it used up")  # of processor time
+SPENT = (ENDLESS, "not run: the checks before it used up")  # processor time
 STATES = 12  # columns of the states
 MARGIN = 4  # columns left of why a check failed
 MAX_COLUMNS = 80
@@ -115,7 +116,12 @@ def find_reason(check: CheckResult) -> tuple[str, ...]:
     """
     if check.state != "error":
         return check.ran, check.expected, check.got
-    return ("endless",) if check.got.startswith(ENDLESS) else (check.got,)
+    return ("endless",) if is_endless(check) else (check.got,)
+
+
+def is_endless(check: CheckResult) -> bool:
+    """Return whether a check failed because its processor time was used up."""
+    return check.state == "error" and check.got.startswith(SPENT)
 
 
 def name_checks(checks: list[CheckResult]) -> str:

@@ -41,6 +41,8 @@ ADVICE = (
     (r"indent", "Begin the lines of one block alike, with four spaces for each level."),
     (r"outside (function|loop)", "Indent the line, so that it stands in its block."),
     (r"expected ':'", "Add a colon at the end of the line."),
+    (r"'==' or ':='", "A comparison is written with ==."),
+    (r"invalid (non-printable )?character", "Type that sign anew: it was copied from a text."),
     (r"UTF-8|encoding|null bytes", "Save the file as UTF-8."),
 )
 LOOK = "Look at this line and the one above: a sign may be missing, or one too many."

@@ -18,6 +18,7 @@ from grader.source.definitions import dotted_name, statements
 from grader.source.flaws import MAX_LINE
 from grader.source.regions import (
     MAX_SHAPE,
+    START,
     Region,
     RegionError,
     read_regions,
@@ -26,6 +27,10 @@ from grader.source.regions import (
     shape_of,
 )
 
+MISPLACED = (
+    "Line {line} of {file}, `{text}`, stands outside the region of TODO {id}: move your code "
+    "between its two marker lines."
+)
 MAX_COMPARED = 1000  # lines of code, with those that were given; no function has a tenth
 Definition = ast.FunctionDef | ast.ClassDef
 
@@ -58,6 +63,18 @@ class Changed:
     def to_type(self) -> str:
         """Return what `check --restore` takes for it; an import goes with its file."""
         return self.name if self.name.replace(".", "").isidentifier() else self.file
+
+    @property
+    def todo(self) -> str:
+        """Return the TODO whose function this is; empty for none."""
+        return next((found["id"] for each in self.lines if (found := START.match(each))), "")
+
+    @property
+    def outside(self) -> str:
+        """Say that a line of a TODO's function stands outside its region; empty where none does."""
+        if not self.todo or not self.theirs or not self.name.replace(".", "").isidentifier():
+            return ""
+        return MISPLACED.format(line=self.line, file=self.file, text=self.theirs, id=self.todo)
 
     @property
     def how(self) -> str:

@@ -8,11 +8,14 @@ import msgspec
 import pytest
 
 from grader.bank.verify import shared_worker
+from grader.judge.failures import Broke, NotYet
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.loop import fails_elsewhere
 from grader.judge.reference import Reference
 from grader.judge.rubric import Todo, load_rubric
 from grader.judge.submission import Submission, load_given
 from grader.player.replay import grade_with_replays
+from grader.protocol import CodeLine, Raised
 from grader.report.files import as_json
 
 TOLD = 424_242.0  # px: the depth of a contact where the reference stands in
@@ -186,3 +189,11 @@ def test_words_of_a_result_are_none_that_a_screen_obeys(tmp_path: Path):
     told = msgspec.json.decode(as_json(result))
     texts = [told["submission"], *(str(v) for c in told["todos"][0]["checks"] for v in c.values())]
     assert all(each.replace("\\n", "").isprintable() for each in texts)
+
+
+def test_an_error_of_another_todo_is_one_elsewhere_in_the_same_question():
+    raised = Raised("SystemExit", "", [CodeLine("mini_engine/joints.py", 40, "solve", "exit()")])
+    alone = Broke("a step", "SystemExit", raised)
+    assert fails_elsewhere(NotYet("a step", "1", "2"), alone)
+    assert not fails_elsewhere(Broke("a step", "SystemExit", raised), alone)
+    assert not fails_elsewhere(alone, NotYet("a step", "1", "2"))

@@ -142,7 +142,7 @@ known(
 )
 known(
     "impulse-is-not-applied",
-    "No velocity changes: the impulse must reach both ends.",
+    "No velocity changes: the impulse must reach both ends, and do so unless k is 0.",
     velocities(lambda rod: (rod.vel_a, rod.vel_b)),
 )
 known(

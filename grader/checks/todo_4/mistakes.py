@@ -127,7 +127,7 @@ known(
 )
 known(
     "no-friction-at-all",
-    "The total stays 0; keep what is wanted of it within the limit.",
+    "No friction acts: the impulse is total - c.jt. Is total set to 0, or c.jt changed too early?",
     with_clamp(lambda total, wanted, limit: 0.0),
 )
 known(

@@ -57,6 +57,11 @@ known(
     per_step(lambda rate, dt: 0.99 ** (60 * dt)),
 )
 known(
+    "one-percent-per-second",
+    "1% is lost in every second; the loss must follow the two rates, as in exp(-rate * dt).",
+    per_step(lambda rate, dt: 0.99**dt),
+)
+known(
     "rate-without-the-step",
     "exp(-rate) is lost in every step; a step of dt seconds may lose only exp(-rate * dt).",
     per_step(lambda rate, dt: math.exp(-rate)),

@@ -1,0 +1,313 @@
+"""Say what an error of Python's means in the lesson's programs, and what to do about it.
+
+The message, the line and the text around it tell. Nothing here runs a submission.
+"""
+
+import ast
+import builtins
+import math
+import re
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache, cached_property
+
+from grader.judge.failures import REBOUND
+from grader.judge.submission import handed_out, load_given
+from grader.source.definitions import statements
+from grader.source.given import given_pieces, imported_names
+
+RAISED = re.compile(r"(?P<error>\w+: .*) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
+DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
+NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
+SHAPES = ("Circle", "Box")  # what body.shape may be
+
+Match = re.Match[str]
+
+
+@dataclass(frozen=True)
+class Error:
+    """An error, the line of a file that raised it, and the text of that file."""
+
+    words: str
+    file: str
+    line: int
+    text: str
+    todo: str = ""  # whose check failed
+
+    @cached_property
+    def body(self) -> list[ast.stmt]:
+        return statements(self.text)
+
+    @cached_property
+    def function(self) -> ast.FunctionDef | None:
+        """Return the innermost function around the line."""
+        around = [
+            node
+            for node in ast.walk(ast.Module(self.body, []))
+            if isinstance(node, ast.FunctionDef)
+            and node.lineno <= self.line <= (node.end_lineno or 0)
+        ]
+        return max(around, key=lambda node: node.lineno, default=None)
+
+    @cached_property
+    def values(self) -> dict[str, int]:
+        """Return the names that the function gives a value, with the first line that does."""
+        found: dict[str, int] = {}
+        for node in ast.walk(self.function) if self.function else ():
+            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                found[node.id] = min(node.lineno, found.get(node.id, node.lineno))
+        return found
+
+    @property
+    def parameters(self) -> list[str]:
+        return [each.arg for each in self.function.args.args] if self.function else []
+
+    @property
+    def around(self) -> set[str]:
+        """Return the names that the file has outside its functions."""
+        return {*imported_names(self.body), *bound(self.body)}
+
+    def calls(self) -> Iterator[ast.Call]:
+        """Yield the calls that begin in the line."""
+        for node in ast.walk(self.function) if self.function else ():
+            if isinstance(node, ast.Call) and node.lineno == self.line:
+                yield node
+
+
+def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
+    """Return what the error of a failed check means; empty where that is unknown.
+
+    `read` returns the text of a file of the submission.
+    """
+    found = RAISED.match(got)
+    if found:
+        error = Error(found["error"], found["file"], int(found["line"]), read(found["file"]), todo)
+    else:  # it was raised in no file of theirs
+        error = Error(got, "", 0, "", todo)
+    for pattern, explain in RULES:
+        if match := re.search(pattern, error.words):
+            words = explain if isinstance(explain, str) else explain(match, error)
+            if words:
+                return words
+    return ""
+
+
+# ---------------------------------------------------------------- names
+
+
+def explain_unbound(match: Match, error: Error) -> str:
+    name = match[1]
+    first = error.values.get(name, error.line)
+    if name in error.around or hasattr(builtins, name):
+        return (
+            f"Line {first} gives {name} a value. That makes it a variable of this function, which "
+            f"hides the {name} from outside: use another name."
+        )
+    if first >= error.line:
+        return f"{name} has no value before line {error.line}: give it one first."
+    return f"{name} has no value here: line {first}, which gives it one, did not run."
+
+
+def explain_debugger(match: Match, error: Error) -> str:
+    lines = error.text.splitlines()[: error.line]
+    last = next((n for n in range(len(lines), 0, -1) if DEBUGGER.search(lines[n - 1])), 0)
+    there = f" in line {last}" if last else ""
+    return (
+        f"The debugger{there} waits for somebody to type, and in a check nobody does: take "
+        "breakpoint() out first."
+    )
+
+
+def explain_undefined(match: Match, error: Error) -> str:
+    name = match[1]
+    if name in stub_names(error.todo):
+        return f"The lines below the region use {name}: the region must give it a value."
+    if error.parameters[:1] == ["self"] and name in own_attributes(error):
+        return f"{name} belongs to the object: write self.{name}."
+    if hasattr(math, name):
+        return f"{name} is in the module math: write math.{name}."
+    if name in pymunk_names():
+        return f"{name} is in the module pymunk: write pymunk.{name}."
+    if file := given_home(name, error.file):
+        module = file.rpartition("/")[2].removesuffix(".py")
+        return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
+    known = {*error.values, *error.parameters, *error.around}
+    near = get_close_matches(name, known, 1, 0.7)
+    if near:
+        return f"Nothing is called {name} here. Is {near[0]} meant?"
+    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?"
+
+
+def explain_attribute(match: Match, error: Error) -> str:
+    kind, name = match[1].rpartition(".")[2], match[2]
+    if kind in ("tuple", "list"):
+        if name == "_body":
+            return "pymunk.PinJoint takes two bodies first, and then the anchor on each."
+        return f"A {kind} of two numbers has no {name}. A vector has: write Vector2(x, y)."
+    if kind in ("int", "float"):
+        for node in ast.walk(error.function) if error.function else ():
+            match node:
+                case ast.Attribute(ast.Name(id=thing), attr, lineno=line) if (
+                    attr == name and line == error.line and thing in error.values
+                ):
+                    return REBOUND.format(line=error.values[thing], name=thing)
+        return f"What stands before .{name} is a number, not a vector or a body."
+    home = next((owner for owner, names in given_attributes().items() if name in names), "")
+    if kind == "Body" and home in SHAPES:
+        return f"{name} belongs to the body's shape: write .shape.{name}."
+    if given_home(name, ""):
+        return f"{name} is a function, not part of a {kind}: write {name}(...)."
+    near = get_close_matches(name, given_attributes().get(kind, ()), 1, NEAR)
+    if near:
+        return f"A {kind} has no {name}. Is {near[0]} meant?"
+    return f"{name} belongs to a {home}, not to a {kind}." if home else ""
+
+
+def explain_not_callable(match: Match, error: Error) -> str:
+    """Explain brackets behind a value, which may be a function's name that was given a value."""
+    for call in error.calls():
+        called = ast.unparse(call.func)
+        if isinstance(call.func, ast.Name) and called in error.values:
+            return (
+                f"Line {error.values[called]} gives {called} a value, so {called} is no function "
+                "here any more: use another name for the value."
+            )
+        if isinstance(call.func, ast.Attribute) and match[1].rpartition(".")[2] != "function":
+            return (
+                f"{called} is a value and no function: leave out the brackets behind it, or give "
+                "it a new value with =."
+            )
+    return "A value stands before brackets as if it were a function. Is a * missing there?"
+
+
+def explain_arguments(match: Match, error: Error) -> str:
+    name = match[1].rpartition(".")[2]
+    if name in PYMUNK:
+        return f"It is {PYMUNK[name]}."
+    for text in load_given().values():
+        for node in ast.walk(ast.Module(statements(text), [])):
+            if isinstance(node, ast.FunctionDef) and node.name == name:
+                names = [each.arg for each in node.args.args if each.arg != "self"]
+                return f"It is {name}({', '.join(names)})."
+    return ""
+
+
+def explain_pair(match: Match, error: Error) -> str:
+    """Explain an error of pymunk's where it needs two numbers and got something else."""
+    lines = error.text.splitlines()
+    target = lines[error.line - 1].partition("=")[0].strip() if error.line else ""
+    return f"{target} needs two numbers, (x, y)." if target.endswith(".gravity") else ""
+
+
+# ---------------------------------------------------------------- what was handed out
+
+
+def bound(body: Collection[ast.stmt]) -> Iterator[str]:
+    """Yield the functions, classes and variables that statements define."""
+    for node in body:
+        match node:
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name):
+                yield name
+            case ast.Assign(targets=targets):
+                for each in ast.walk(ast.Tuple(targets, ast.Load())):
+                    if isinstance(each, ast.Name):
+                        yield each.id
+
+
+@cache
+def stub_names(todo: str) -> frozenset[str]:
+    """Return the variables that the stub of a TODO sets and the lines below it need."""
+    body = statements("\n".join(map(str.strip, handed_out().stubs.get(todo, "").splitlines())))
+    return frozenset(bound(body))
+
+
+def own_attributes(error: Error) -> set[str]:
+    """Return the attributes that the class around the line has, and its methods."""
+    for node in error.body:
+        if isinstance(node, ast.ClassDef) and node.lineno <= error.line <= (node.end_lineno or 0):
+            return attributes_of(node)
+    return set()
+
+
+def attributes_of(node: ast.ClassDef) -> set[str]:
+    found = set(bound(node.body))
+    for each in ast.walk(node):
+        match each:
+            case ast.Attribute(value=ast.Name(id="self"), attr=name, ctx=ast.Store()):
+                found.add(name)
+    return found
+
+
+@cache
+def given_attributes() -> dict[str, set[str]]:
+    """Return the attributes of each class that was handed out."""
+    return {
+        node.name: attributes_of(node)
+        for text in load_given().values()
+        for node in statements(text)
+        if isinstance(node, ast.ClassDef)
+    }
+
+
+def given_home(name: str, but: str) -> str:
+    """Return the file of the engine that defines this function or constant, unless it is `but`."""
+    for file, text in load_given().items():
+        if file != but and file.startswith("mini_engine/") and name in given_pieces(text):
+            return "" if given_pieces(text)[name].owner else file
+    return ""
+
+
+PYMUNK = {  # what the lesson calls, with its arguments
+    "moment_for_circle": "moment_for_circle(mass, inner_radius, outer_radius)",
+    "moment_for_box": "moment_for_box(mass, size)",
+    "PinJoint": "PinJoint(a, b, anchor_a, anchor_b)",
+    "Body": "Body(mass, moment)",
+}
+
+
+def pymunk_names() -> Collection[str]:
+    return (*PYMUNK, "Circle", "Poly", "Space", "Vec2d")
+
+
+# ---------------------------------------------------------------- the errors
+
+TUPLE = "A tuple (x, y) is no vector and cannot be computed with: write Vector2(x, y)."
+MIXED = "A vector and a number cannot be added or compared: one coordinate or a length is meant."
+
+RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
+    (r"^EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
+    (r"^BdbQuit", explain_debugger),
+    (r"^SystemExit", "This ends the whole program. A function ends with return."),
+    (r"^RecursionError", "A function calls itself, without an end."),
+    (
+        r"^TypeError: .*'(function|method|builtin_function_or_method)'",
+        "A function's name without brackets is the function itself, not what it returns: call it.",
+    ),
+    (r"^UnboundLocalError: .*variable '(\w+)'", explain_unbound),
+    (r"^NameError: name '(\w+)'", explain_undefined),
+    (
+        r"^AttributeError: 'NoneType'",
+        "What stands before the dot is None: a function without return gives one.",
+    ),
+    (r"^AttributeError: '([\w.]+)' object has no attribute '(\w+)'", explain_attribute),
+    (r"^TypeError: '([\w.]+)' object is not callable", explain_not_callable),
+    (
+        r"^TypeError: .*(NoneType|\bNone\b)",
+        "There is a None among the values: a function without return gives one.",
+    ),
+    (r"^TypeError: ([\w.]+)\(\) (missing|takes|got)", explain_arguments),
+    (r"^(TypeError: .*has no len|AssertionError)", explain_pair),
+    (
+        r"^TypeError: 'float' object cannot be interpreted as an integer",
+        "A whole number is needed here, and // of two floats is a float: put int(...) around it.",
+    ),
+    (r"^TypeError: (can't multiply sequence|can only concatenate tuple)", TUPLE),
+    (r"^TypeError: unsupported operand type.*'(tuple|list)'", TUPLE),
+    (r"^TypeError: .*Vector2' and '(float|int)'", MIXED),
+    (r"^TypeError: .*'(float|int)' and 'pygame.math.Vector2'", MIXED),
+    (
+        r"^ValueError: Can't normalize",
+        "A vector of length 0 has no direction: treat that case before this line.",
+    ),
+)

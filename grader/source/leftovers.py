@@ -1,0 +1,149 @@
+"""Find what is left in a TODO's function that should not be there: old lines, code that never runs.
+
+The text alone shows it. Whether it is why a check fails, a run without it decides.
+"""
+
+import ast
+import textwrap
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from grader.source.definitions import function_named, statements
+from grader.source.flaws import MAX_LINE
+from grader.source.regions import Region, read_regions
+
+ENDS = (ast.Return, ast.Raise, ast.Break, ast.Continue)
+
+
+@dataclass(frozen=True)
+class Leftover:
+    """Lines of a region that were handed out and still stand among the student's own."""
+
+    line: int  # the number of the first one
+    last: int  # and of the last one
+    text: str  # of the first one
+    without: str  # the file's text with all of them empty
+
+    @property
+    def words(self) -> str:
+        if self.line == self.last:
+            lines, are, them = f"Line {self.line}", "is", "it"
+        else:
+            lines, are, them = f"Lines {self.line} to {self.last}", "are", "them"
+        return (
+            f"{lines}, `{self.text}`, {are} still there as handed out, beside your own code. "
+            f"Remove {them}, and this passes."
+        )
+
+
+@dataclass(frozen=True)
+class DeadEnd:
+    """A statement of a region that ends its block, and the first line below that never runs."""
+
+    line: int
+    text: str
+    never: int
+    is_first: bool  # whether no code of the region stands above it
+
+    @property
+    def words(self) -> str:
+        return (
+            f"Line {self.line}, `{self.text}`, ends the function, so line {self.never} and those "
+            "after it never run."
+        )
+
+
+def show(line: str) -> str:
+    """Return a line as it is quoted."""
+    return line.strip() if len(line.strip()) <= MAX_LINE else f"{line.strip()[: MAX_LINE - 1]}…"
+
+
+def find_leftover(text: str, todo: str, stub: str) -> Leftover | None:
+    """Return the stub's statements at one end of a region; None where there is nothing else."""
+    region, own = region_of(text, todo)
+    old = [ast.dump(each) for each in statements(textwrap.dedent(stub))]
+    shapes = [ast.dump(each) for each in own]
+    left = [each for each, shape in zip(own, shapes, strict=True) if shape in old]
+    at_an_end = bool(left) and (left[0] is own[0] or left[-1] is own[-1])
+    if region is None or not at_an_end or len(left) == len(own):
+        return None
+    lines, first = text.splitlines(), region.start + 1
+    numbers = [n + first for each in left for n in range(each.lineno - 1, each.end_lineno or 0)]
+    shown = show(lines[numbers[0]])
+    for number in numbers:
+        lines[number] = ""
+    return Leftover(numbers[0] + 1, numbers[-1] + 1, shown, "\n".join(lines) + "\n")
+
+
+def find_dead_end(text: str, todo: str, path: str) -> DeadEnd | None:
+    """Return the first statement of a region below which other code of the region never runs."""
+    region, own = region_of(text, todo)
+    function = function_named(statements(text), path)
+    if region is None or function is None or not own:
+        return None
+    inside, first = range(region.start + 1, region.stop + 1), own[0].lineno + region.start + 1
+    for last, never in dead_ends(function):
+        if last.lineno in inside and never.lineno in inside:
+            shown = show(text.splitlines()[last.lineno - 1])
+            return DeadEnd(last.lineno, shown, never.lineno, last.lineno == first)
+    return None
+
+
+def find_loop(text: str, todo: str) -> tuple[int, str] | None:
+    """Return the line of the first `while` in a region and its text; None where there is none."""
+    region, own = region_of(text, todo)
+    loops = [node.lineno for node in ast.walk(ast.Module(own, [])) if isinstance(node, ast.While)]
+    if region is None or not loops:
+        return None
+    line = region.start + 1 + min(loops)
+    return line, show(text.splitlines()[line - 1])
+
+
+def find_rebound(text: str, todo: str, path: str) -> tuple[int, str] | None:
+    """Return the line of a region that gives another value to an argument, and the argument.
+
+    Only arguments count of which fields are read: a number may well get another value.
+    """
+    region = region_of(text, todo)[0]
+    function = function_named(statements(text), path)
+    if region is None or function is None:
+        return None
+    names = {each.arg for each in function.args.args}
+    things, rebound = set(), []
+    for node in ast.walk(function):
+        match node:
+            case ast.Attribute(value=ast.Name(id=name)):
+                things.add(name)
+            case ast.Name(id=name, ctx=ast.Store(), lineno=line) if name in names:
+                rebound.append((line, name))
+    inside = range(region.start + 1, region.stop + 1)
+    found = [(line, name) for line, name in rebound if name in things and line in inside]
+    return min(found, default=None)
+
+
+def region_of(text: str, todo: str) -> tuple[Region | None, list[ast.stmt]]:
+    """Return the region of a TODO and its statements, whose lines count from the region's first."""
+    region = next((each for each in read_regions(text)[0] if each.id == todo), None)
+    return region, statements(textwrap.dedent("\n".join(region.lines))) if region else []
+
+
+def dead_ends(function: ast.FunctionDef) -> Iterator[tuple[ast.stmt, ast.stmt]]:
+    """Yield each statement that ends its block with the one that stands below it."""
+    for block in blocks(function):
+        yield from ((last, never) for last, never in pairwise(block) if is_end(last))
+
+
+def blocks(function: ast.FunctionDef) -> Iterator[Sequence[ast.stmt]]:
+    for node in ast.walk(function):
+        for name in ("body", "orelse", "finalbody"):
+            block = getattr(node, name, None)
+            if isinstance(block, list):
+                yield block
+
+
+def is_end(node: ast.stmt) -> bool:
+    """Return whether nothing below a statement of the same block can run."""
+    if isinstance(node, ast.If):
+        return bool(node.orelse) and is_end(node.body[-1]) and is_end(node.orelse[-1])
+    return isinstance(node, ENDS)

@@ -1,0 +1,81 @@
+"""What an error of Python's means, by its message and the text around its line."""
+
+import pytest
+
+from grader.judge.error_words import explain_error
+
+TEXT = """import math
+
+from .shapes import cross
+
+LIMIT = 8
+
+
+class DistanceJoint:
+    def __init__(self):
+        self.k = 0.0
+
+    def solve(self, other):
+        total = other.k
+        cross = cross(total, total)
+        number = 0.5(total)
+        max = 3
+        least = max(1, 2)
+        self.k()
+        return other
+"""
+
+
+def told(error: str, line: int, todo: str = "3") -> str:
+    got = f"{error} (in mini_engine/joints.py, line {line}: {TEXT.splitlines()[line - 1].strip()})"
+    return explain_error(got, lambda file: TEXT, todo)
+
+
+@pytest.mark.parametrize(
+    ("error", "line", "says"),
+    [
+        ("NameError: name 'k' is not defined", 13, "write self.k"),
+        ("NameError: name 'exp' is not defined", 13, "math.exp"),
+        ("NameError: name 'moment_for_circle' is not defined", 13, "pymunk.moment_for_circle"),
+        ("NameError: name 'apply_impulse' is not defined", 13, "from .solver import apply_impulse"),
+        ("NameError: name 'totl' is not defined", 13, "Is total meant?"),
+        ("NameError: name 'clamp' is not defined", 13, "Nothing is called clamp"),
+        ("UnboundLocalError: cannot access local variable 'cross' where", 14, "another name"),
+        ("UnboundLocalError: cannot access local variable 'total' where", 13, "no value before"),
+        ("UnboundLocalError: cannot access local variable 'total' where", 15, "line 13"),
+        ("TypeError: 'float' object is not callable", 15, "Is a * missing"),
+        ("TypeError: 'int' object is not callable", 17, "Line 16 gives max a value"),
+        ("TypeError: 'float' object is not callable", 18, "self.k is a value"),
+        ("AttributeError: 'tuple' object has no attribute 'x'", 13, "Vector2(x, y)"),
+        ("AttributeError: 'Body' object has no attribute 'half'", 13, ".shape.half"),
+        ("AttributeError: 'Body' object has no attribute 'velocity'", 13, "Is vel meant?"),
+        ("AttributeError: 'Body' object has no attribute 'cross'", 13, "cross(...)"),
+        ("AttributeError: 'World' object has no attribute 'depth'", 13, "belongs to a Contact"),
+        ("AttributeError: 'float' object has no attribute 'dot'", 13, "is a number"),
+        ("TypeError: moment_for_circle() missing 1 required", 13, "inner_radius, outer_radius"),
+        ("TypeError: friction_limit() takes 1 positional argument but", 13, "friction_limit(c)"),
+        ("TypeError: can't multiply sequence by non-int of type 'float'", 13, "Vector2(x, y)"),
+        (
+            "TypeError: unsupported operand type(s) for +: 'pygame.math.Vector2' and 'float'",
+            13,
+            "a",
+        ),
+        ("TypeError: 'float' object cannot be interpreted as an integer", 13, "int(...)"),
+        ("BdbQuit: ", 13, "breakpoint()"),
+        ("SystemExit: ", 13, "return"),
+        ("ValueError: nobody knows this one", 13, ""),
+    ],
+)
+def test_an_error_is_explained(error: str, line: int, says: str):
+    words = told(error, line)
+    assert says in words and bool(says) == bool(words)
+
+
+def test_what_the_stub_set_must_be_set():
+    assert "must give it a value" in told("NameError: name 'keep_vel' is not defined", 13, "5")
+    assert "must give it a value" not in told("NameError: name 'keep_vel' is not defined", 13, "3")
+
+
+def test_an_error_outside_of_their_files_is_read_by_its_message_alone():
+    assert explain_error("EOFError: EOF when reading a line", lambda file: "", "3").startswith("in")
+    assert explain_error("a sentence of ours", lambda file: "", "3") == ""

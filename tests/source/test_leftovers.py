@@ -1,0 +1,64 @@
+"""What should not be in a TODO's region any more, and what never runs there."""
+
+import pytest
+
+from grader.source.leftovers import find_dead_end, find_leftover, find_loop, find_rebound
+
+STUB = "    world.step(STEP)\n    steps = 1"
+RETURN = "    return None"
+
+
+def function(*lines: str) -> str:
+    body = "\n".join(f"    {line}" for line in lines)
+    return f"def work(world, x):\n    # TODO 6: steps\n{body}\n    # END TODO 6\n    return x\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "found"),
+    [
+        (("world.step(STEP)", "steps = 1", "x += 1"), (3, 4, "world.step(STEP)")),
+        (("x += 1", "world.step(STEP)", "steps = 1"), (4, 5, "world.step(STEP)")),
+        (("steps = 1", "x += 1"), (3, 3, "steps = 1")),
+        (("x += 1", "steps = 1", "x += 2"), None),  # it may well be theirs
+        (("world.step(STEP)", "steps = 1"), None),  # nothing else is there
+        (("x += 1",), None),
+    ],
+)
+def test_lines_of_the_stub_at_an_end_are_left(lines: tuple[str, ...], found: object):
+    left = find_leftover(function(*lines), "6", STUB)
+    assert (left and (left.line, left.last, left.text)) == found
+
+
+def test_the_text_without_them_keeps_its_lines():
+    text = function("world.step(STEP)", "steps = 1", "x += 1")
+    left = find_leftover(text, "6", STUB)
+    assert left is not None and left.without.splitlines()[2:5] == ["", "", "    x += 1"]
+
+
+@pytest.mark.parametrize(
+    ("lines", "line", "is_first"),
+    [
+        (("return None", "x += 1"), 3, True),
+        (("x += 1", "return None", "x += 2"), 4, False),
+        (("if x:", "    return 1", "else:", "    raise ValueError", "x += 1"), 3, True),
+    ],
+)
+def test_code_below_a_return_never_runs(lines: tuple[str, ...], line: int, is_first: bool):
+    found = find_dead_end(function(*lines), "6", "work")
+    assert found is not None and (found.line, found.is_first) == (line, is_first)
+
+
+@pytest.mark.parametrize("lines", [("return x",), ("if x:", "    return 1", "x += 1"), ("x += (",)])
+def test_given_code_below_a_return_is_no_dead_end(lines: tuple[str, ...]):
+    assert find_dead_end(function(*lines), "6", "work") is None
+
+
+def test_an_argument_with_fields_keeps_its_value():
+    text = function("world.step(STEP)", "x = 1", "world = 2")
+    assert find_rebound(text, "6", "work") == (5, "world")
+    assert find_rebound(function("world.step(x)", "x = 1"), "6", "work") is None
+
+
+def test_the_first_loop_is_the_one_to_look_at():
+    assert find_loop(function("while x > 0:", "    pass"), "6") == (3, "while x > 0:")
+    assert find_loop(function("for _ in range(3):", "    pass"), "6") is None
