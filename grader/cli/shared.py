@@ -1,5 +1,6 @@
 """Share what all commands need: where they print, how they end, which TODOs there are."""
 
+import re
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -87,12 +88,21 @@ def require_folder_target(path: Path | None, option: str) -> None:
 
 
 def check_todos(todos: list[str] | None, course: Course = FULL) -> frozenset[str]:
-    """Return the TODOs named on the command line; stop where the course lacks one."""
+    """Return the TODOs named on the command line; stop where the course lacks one.
+
+    A number stands for all its parts: 7 for 7a to 7d.
+    """
+    return frozenset(id for todo in todos or () for id in find_parts(todo, course))
+
+
+def find_parts(todo: str, course: Course) -> list[str]:
+    """Return the TODOs that a word names, in capitals or not."""
     ids = [todo.id for todo in course.rubric.todos]
-    for todo in todos or ():
-        if todo not in ids:
-            raise Stop(f"there is no TODO {todo}; there are {', '.join(ids)}")
-    return frozenset(todos or ())
+    found = [id for id in ids if id.lower() == todo.lower()]
+    found = found or [id for id in ids if re.fullmatch(rf"{re.escape(todo)}[a-z]", id)]
+    if not found:
+        raise Stop(f"there is no TODO {todo}; there are {', '.join(ids)}")
+    return found
 
 
 def grade_one(path: Path, options: Options, replays: Path | None = None) -> Result:

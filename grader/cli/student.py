@@ -1,5 +1,7 @@
 """Define what students run in their own tree: `check`, `hint` and `hand-in`."""
 
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -8,7 +10,14 @@ import typer
 
 from grader.cli.hand_in import find_missing, pack_tree
 from grader.cli.restore import list_notes, restore
-from grader.cli.shared import CourseFile, check_todos, console, grade_one, require_file_target
+from grader.cli.shared import (
+    CourseFile,
+    check_todos,
+    console,
+    find_parts,
+    grade_one,
+    require_file_target,
+)
 from grader.errors import Stop
 from grader.judge.children import count_cores
 from grader.judge.course import Course, read_course
@@ -16,17 +25,23 @@ from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
 from grader.judge.wording import command, hidden_points_note
+from grader.report.progress import CheckProgress
 from grader.report.screen import Screen
 from grader.report.terminal import say, show_all
+from grader.source.regions import TODO_ID
 from grader.text import clean, moment, plural
 
 app = typer.Typer()
+
+IS_TODO = re.compile(rf"(?:{TODO_ID}|whole)", re.IGNORECASE)
 
 
 @app.command("check")
 def check_command(
     todo: Annotated[list[str] | None, typer.Option(help="Only this TODO; may be repeated.")] = None,
-    path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
+    what: Annotated[
+        list[str] | None, typer.Argument(help="TODOs, such as 4 or 7a, or a folder of your tree.")
+    ] = None,
     watch: Annotated[bool, typer.Option("--watch", help="Check again after each save.")] = False,
     whole: Annotated[bool, typer.Option("--all", help="Everything that failed, in full.")] = False,
     status: Annotated[bool, typer.Option(hidden=True)] = True,
@@ -41,24 +56,39 @@ def check_command(
     One TODO at a time is shown in full; `--all` shows everything.
     """
     taken = read_course(course)
+    ids, path = split_words(what or [])
     folder = find_tree(path, taken)
     if undo:
         for name in undo:
             for words in restore(folder, name):
                 say(clean(words), console)
         return
-    options = make_options(check_todos(todo, taken), taken)
+    options = make_options(check_todos([*(todo or []), *ids], taken), taken)
     replays = make_replay_folder(folder)
     if watch:
         from grader.cli.watch import watch_tree
 
         result = watch_tree(folder, options, console, replays)
     else:
-        result = grade_one(folder, options, replays)
+        result = grade_shown(folder, options, replays)
         show_all(result, console, replays) if whole else show_first(result, folder, replays)
         if whole or result.complete:
             say(f"To hand in: {command('hand-in')}{write_due(taken)}", console)
     raise typer.Exit(0 if result.complete or not status else 1)
+
+
+def split_words(words: list[str]) -> tuple[list[str], Path]:
+    """Return which of the words may be TODOs, and the folder that is among them."""
+    paths = [each for each in words if not IS_TODO.fullmatch(each) or Path(each).is_dir()]
+    if len(paths) > 1:
+        raise Stop(f"{paths[0]} and {paths[1]} are two folders: name one, or TODOs such as 4 or 7a")
+    return [each for each in words if each not in paths], Path(*paths)
+
+
+def grade_shown(folder: Path, options: Options, replays: Path | None) -> Result:
+    """Grade a tree and show how far this is."""
+    with CheckProgress(options, console) as shown:
+        return grade_one(folder, replace(options, progress=shown.count), replays)
 
 
 def show_first(result: Result, folder: Path, replays: Path | None) -> None:
@@ -118,12 +148,17 @@ def make_replay_folder(tree: Path) -> Path | None:
 
 @app.command("hint")
 def hint_command(
-    todo: Annotated[str, typer.Option(help="The TODO you are at.")],
+    name: Annotated[str, typer.Argument(help="The TODO you are at.")] = "",
+    todo: Annotated[str, typer.Option(help="The same, as an option.")] = "",
     level: Annotated[int, typer.Option(min=1, max=3, help="How much to tell.")] = 1,
     course: CourseFile = None,
 ) -> None:
     """Give a hint: first a question, then the idea, then nearly the code."""
-    check_todos([todo], read_course(course))
+    if not (name or todo):
+        raise Stop(f"name the TODO you are at, as in {command('hint', '4')}")
+    todo, *others = find_parts(name or todo, read_course(course))
+    if others:
+        raise Stop(f"there are {', '.join([todo, *others])}: name one")
     hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
     if todo not in hints:
         say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)

@@ -21,6 +21,7 @@ from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import module_of, plain_files
 from grader.player.replay import grade_with_replays
+from grader.report.progress import CheckProgress
 from grader.report.screen import LINES, Screen
 from grader.report.terminal import say
 from grader.source.definitions import function_named, source_of, statements
@@ -59,7 +60,8 @@ class Watch:
 
     def start(self) -> None:
         self.seen = self.checked = read_sources(self.folder)
-        self.result = self.grade(self.options)
+        with CheckProgress(self.options, self.console) as shown:
+            self.result = self.grade(replace(self.options, progress=shown.count))
         self.draw()
 
     def look(self) -> None:

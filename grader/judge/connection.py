@@ -104,7 +104,7 @@ class Connection:
         self.output += answered.output[: MAX_OUTPUT - len(self.output)]
         match answered.reply:
             case Raised() as raised:
-                raise Broke(ran, f"{raised.error}: {raised.message}", raised)
+                raise Broke(ran, f"{raised.error}: {raised.message}".removesuffix(": "), raised)
             case Missing(what):
                 raise NotYet(ran, "the names and types of the lesson", what)
             case reply:

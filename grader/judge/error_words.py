@@ -17,7 +17,7 @@ from grader.judge.submission import handed_out, load_given
 from grader.source.definitions import statements
 from grader.source.given import given_pieces, imported_names
 
-RAISED = re.compile(r"(?P<error>\w+: .*) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
+RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
 NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
 SHAPES = ("Circle", "Box")  # what body.shape may be
@@ -115,7 +115,7 @@ def explain_debugger(match: Match, error: Error) -> str:
     there = f" in line {last}" if last else ""
     return (
         f"The debugger{there} waits for somebody to type, and in a check nobody does: take "
-        "breakpoint() out first."
+        "breakpoint() out first. It stops in what `Run it` names."
     )
 
 

@@ -206,6 +206,7 @@ class Grading:
             self.options.seed,
             self.options.progress,
             observations=self.observations,
+            shows_output=self.options.trusted,
             surveys_all=self.surveys_all,
             budget=budget,
             open_right=self.open_right if self.options.reference else None,

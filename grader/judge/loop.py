@@ -13,6 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from hypothesis.errors import Flaky
+from msgspec import structs
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.children import Child
@@ -32,6 +33,7 @@ DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one que
 INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
 SURVEY = 2  # s of processor time, for that
+MOST_PRINTED = 3  # lines of what a submission printed
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
 
@@ -116,6 +118,7 @@ class CheckLoop:
     seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
     remembered: dict[tuple[str, str], list[str]] = field(default_factory=dict)  # by failed check
     failed: dict[tuple[str, str], Job] = field(default_factory=dict)  # that can be asked again
+    shows_output: bool = False  # whether to tell what the submission printed
     surveys_all: bool = False  # whether checks that pass are surveyed as well
     failing: dict[tuple[str, str], Failing] = field(default_factory=dict)  # to be seen once more
     budget: Budget = field(default_factory=Budget)
@@ -299,7 +302,9 @@ class CheckLoop:
             pieces = alone.connection.pieces
             failing = Failing(job.todo, job.check, again, pieces, secret)
         result = self._failure(job, alone.failure)
-        return Outcome(result, lab, answers, elsewhere, alone, failing)
+        if self.shows_output and not alone.played and not result.got.startswith("BdbQuit"):
+            result = structs.replace(result, printed=last_lines(alone.connection.output))
+        return Outcome(in_bounds(result), lab, answers, elsewhere, alone, failing)
 
     def _survey(self, job: Job, alone: Lab) -> list[Observation]:
         """Ask the program as it is all that a failed check asks, and not just so far.
@@ -515,6 +520,13 @@ def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
     raised = [each.raised if isinstance(each, Broke) else None for each in (isolated, alone)]
     errors = [(each.error, each.frames[-1:]) if each is not None else None for each in raised]
     return errors[1] is not None and errors[0] != errors[1]
+
+
+def last_lines(output: str) -> str:
+    """Return the last lines that were printed, on one line; what failed came last."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    shown = " | ".join(lines[-MOST_PRINTED:])
+    return f"… | {shown}" if len(lines) > MOST_PRINTED else shown
 
 
 def jobs_of(todo: Todo) -> Iterator[Job]:

@@ -13,7 +13,7 @@ Kind = Literal["unit", "property", "scene"]
 
 MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
 TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
-TEXTS = ("ran", "expected", "got", "meaning")
+TEXTS = ("ran", "expected", "got", "meaning", "printed")
 MAX_FILE = 255  # characters of a file's name that are told
 
 FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
@@ -38,6 +38,7 @@ class CheckResult(Struct, frozen=True):
     expected: str = ""
     got: str = ""
     meaning: str = ""
+    printed: str = ""  # by the submission, in one's own check
     where: Where | None = None
     replay: str | None = None
 

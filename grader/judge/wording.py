@@ -34,6 +34,7 @@ def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
         ("We ran", check.ran),
         ("Expected", check.expected),
         ("Got", check.got),
+        ("Printed", check.printed),
         ("Meaning", check.meaning),
         ("Look at", place),
     )
@@ -94,12 +95,17 @@ def command(
     if "MAKELEVEL" in os.environ:
         words = f"make {name}" + f" TODO={todo}" * bool(todo) + f" LEVEL={level}" * (level > 1)
         return words + " ALL=1" * all_of_it + f" RESTORE={restore}" * bool(restore)
-    python = sys.orig_argv[0]
-    start = "python -m grader" if os.path.isabs(python) else f"{python} -m grader"
+    start = f"{python_command()} -m grader"
     if os.path.basename(sys.argv[0]) == "grader":
         start = "grader"
     words = f"{start} {name}" + f" --todo {todo}" * bool(todo) + f" --level {level}" * (level > 1)
     return words + " --all" * all_of_it + f" --restore {restore}" * bool(restore)
+
+
+def python_command() -> str:
+    """Return what this person types for Python, as far as the command line tells."""
+    python = sys.orig_argv[0]
+    return "python" if os.path.isabs(python) else python
 
 
 # ---------------------------------------------------------------- what students are told
@@ -111,14 +117,13 @@ def withhold_reasons(result: Result, course: Course, now: datetime | None = None
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result
     later = f"shown from {moment(when)} on"
+    blank = {"ran": "", "expected": "", "meaning": "", "printed": ""}
     hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
     todos = [
         structs.replace(
             todo,
             checks=[
-                structs.replace(
-                    each, ran="", expected="", got=later, meaning="", where=None, replay=None
-                )
+                structs.replace(each, **blank, got=later, where=None, replay=None)
                 if each.failed and (todo.id, each.id) in hidden
                 else each
                 for each in todo.checks

@@ -6,6 +6,12 @@ from typing import Self
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from grader.judge.grade import Options
+from grader.judge.result import CheckResult
+from grader.judge.wording import place_of
+from grader.report.terminal import is_endless, say
+from grader.text import clean
+
 NOW_AND_THEN = 30.0  # s
 
 
@@ -35,3 +41,39 @@ class Counter:
             self.printed = time.monotonic()
             words = f"{self.what}: {count} of {self.total}"
             self.console.print(f"{words}, {more}" if more else words)
+
+
+class CheckProgress:
+    """What a check of one's own work shows while it runs: a bar, and at once a loop without end.
+
+    Checks end in the order of the rubric.
+    """
+
+    def __init__(self, options: Options, console: Console) -> None:
+        wanted = filter(options.wants, options.course.rubric.todos)
+        self.todos = [todo.id for todo in wanted for _ in todo.checks]
+        self.counter = Counter("Checking", len(self.todos), console)
+        self.console = console
+        self.done = 0
+        self.told: set[str] = set()  # TODOs with a loop without end
+
+    def __enter__(self) -> Self:
+        self.counter.__enter__()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.counter.__exit__()
+
+    def count(self, check: CheckResult) -> None:
+        """Count a check that has ended."""
+        todo = self.todos[self.done]
+        self.done += 1
+        self.counter.reached(self.done, name_task(todo))
+        if is_endless(check) and todo not in self.told:
+            self.told.add(todo)
+            place = f" Look at {place_of(check)}." if check.where else ""
+            say(f"{name_task(todo)}: {clean(check.got)}{place} Others still run.", self.console)
+
+
+def name_task(todo: str) -> str:
+    return "the whole" if todo == "whole" else f"TODO {todo}"

@@ -23,6 +23,7 @@ from grader.report.terminal import (
     suggest_todo,
     wrap,
     write,
+    write_rerun,
     write_todo,
 )
 from grader.text import clean
@@ -31,7 +32,8 @@ LINES = 16  # before the prompt
 MOST_REMARKS = 2  # on TODOs without code that counts
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
 STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
-CAUSES = ("Meaning", "Got", "Expected", "Look at", "We ran")  # in the order of getting lines
+# In the order in which they get lines.
+CAUSES = ("Meaning", "Got", "Expected", "Look at", "Printed", "We ran")
 
 
 class Line(NamedTuple):
@@ -142,6 +144,8 @@ class Screen:
             for name, text in named_reasons(check, task_of(todo))
         }
         free = room - len(texts)
+        again = write_rerun(check, self.replays, self.console)
+        free -= len(again)
         replay = locate_replay(check, self.replays, self.console)
         cause = sum(len(texts[name]) - 1 for name in CAUSES[:2] if name in texts)
         if len(replay) + cause > free:  # the cause is worth more than a picture of it
@@ -154,7 +158,7 @@ class Screen:
             free -= len(kept) - 1
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
-        return [*(line for name in texts for line in shown[name]), *replay]
+        return [*(line for name in texts for line in shown[name]), *again, *replay]
 
 
 def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:

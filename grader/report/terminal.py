@@ -19,6 +19,7 @@ from grader.judge.wording import (
     command,
     hidden_points_note,
     place_of,
+    python_command,
     reasons,
     task_of,
     total,
@@ -83,8 +84,9 @@ class Printer:
         self.given |= {find_reason(first), ("meaning", first.meaning)}
         for line in reasons(first, task_of(todo)):
             say(f"{' ' * MARGIN}{line}", self.console, indent=MARGIN + NAMES)
-        for line in locate_replay(first, self.replays, self.console):
-            write(line, self.console)
+        for locate in (write_rerun, locate_replay):
+            for line in locate(first, self.replays, self.console):
+                write(line, self.console)
 
 
 def write_todo(todo: TodoResult) -> str:
@@ -96,10 +98,26 @@ def write_todo(todo: TodoResult) -> str:
 
 def locate_replay(check: CheckResult, replays: Path | None, console: Console) -> list[str]:
     """Return the lines that name the replay of a check, if it has one; a path is not broken."""
-    if replays is None or check.replay is None:
+    path = find_replay(check, replays)
+    if path is None:
         return []
-    path = os.path.relpath(replays.parent / check.replay).replace(os.sep, "/")
     return wrap(f"{' ' * MARGIN}{'See it':<{NAMES}}{path}", console, indent=2, whole=True)
+
+
+def find_replay(check: CheckResult, replays: Path | None) -> str | None:
+    """Return the path of a check's replay from here; None where it has none."""
+    if replays is None or check.replay is None:
+        return None
+    return os.path.relpath(replays.parent / check.replay).replace(os.sep, "/")
+
+
+def write_rerun(check: CheckResult, replays: Path | None, console: Console) -> list[str]:
+    """Return the lines with the command that runs a failed check's calls alone."""
+    path = find_replay(check, replays)
+    if path is None:
+        return []
+    words = f"{python_command()} {path.removesuffix('.html')}.py"
+    return wrap(f"{' ' * MARGIN}{'Run it':<{NAMES}}{words}", console, indent=2, whole=True)
 
 
 def group_checks(checks: Iterable[CheckResult]) -> list[list[CheckResult]]:
