@@ -1,7 +1,12 @@
 """Pack what a student hands in: one zip of their own work, without what was given."""
 
+import hashlib
 import io
+import json
+import re
 import zipfile
+from collections.abc import Iterator, Sequence
+from datetime import datetime
 from pathlib import Path
 
 from grader.errors import Stop
@@ -9,6 +14,9 @@ from grader.judge.course import FULL, Course
 from grader.judge.plain import read_plain
 from grader.judge.submission import MAX_BYTES, MAX_FILES, plain_files
 from grader.report.files import put_in, write_whole
+from grader.source.flaws import find_flaw
+from grader.source.regions import read_source
+from grader.text import listed, moment
 
 PACKED = "hand-in.zip"
 PROGRAMS = ("mini_engine", "pymunk_scene", "integrators")  # those without a TODO are given, too
@@ -16,6 +24,9 @@ GIVEN = {  # what the folder handed out holds besides, and nobody works on
     *("Makefile", "README.md", "requirements.txt", "MANIFEST.txt"),
     *("accuracy.py", "experiments", "stable_engine", "handouts", "report"),
 }
+COPY = re.compile(r"(?: \(\d+\)| copy| - Copy)(?=\.\w+$)")  # as browsers and systems name them
+EMPTY = ("Write your code here.", "Write your answer here.*")
+DIGITS = 16  # of a hash
 SUFFIXES = (".whl", ".zip")  # the grader, and what was packed before
 
 
@@ -23,12 +34,16 @@ def pack_tree(tree: Path, course: Course = FULL, out: Path | None = None) -> tup
     """Pack the tree; return the zip, `out` or else in the tree, and the names in it."""
     files = choose_files(tree, course)
     size = sum(path.stat().st_size for path in files.values())
+    target = out or tree / PACKED
     if len(files) > MAX_FILES or size > MAX_BYTES:
+        largest = max(files, key=lambda name: files[name].stat().st_size)
+        if target.is_file() and not target.is_symlink():
+            target.unlink()  # nobody should hand in what was packed before
         raise Stop(
             f"{len(files)} files of {size >> 20} MB are more than will be read, {MAX_FILES} files "
-            f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}"
+            f"of {MAX_BYTES >> 20} MB: move what does not belong to the work out of {tree}. The "
+            f"largest file is {largest}, {files[largest].stat().st_size >> 20} MB"
         )
-    target = out or tree / PACKED
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in files:
@@ -47,6 +62,35 @@ def choose_files(tree: Path, course: Course) -> dict[str, Path]:
         for name in sorted(found)
         if name.partition("/")[0] not in given and not name.endswith(SUFFIXES)
     }
+
+
+def list_warnings(tree: Path, names: Sequence[str]) -> Iterator[str]:
+    """Yield what a student may not have meant to hand in as it is."""
+    for name in names:
+        copy = COPY.sub("", name)
+        if copy != name and copy in names:
+            yield f"{name} is packed too, and only {copy} counts. Delete the one that is not meant."
+        if name.endswith(".py") and (flaw := find_flaw(read_source(tree / name))):
+            yield f"{name}, line {flaw.line}: Python cannot read this ({flaw.message})."
+    empty = [name for name in names if name.endswith(".ipynb") and has_no_answer(tree / name)]
+    if empty:
+        yield f"No answers yet in {listed(empty)}."
+
+
+def has_no_answer(path: Path) -> bool:
+    """Return whether a notebook has cells to be answered, and none of them was."""
+    try:
+        cells = json.loads(path.read_bytes())["cells"]
+        asked = [each for each in cells if each["metadata"].get("nbgrader", {}).get("solution")]
+        return bool(asked) and all("".join(c["source"]).rstrip().endswith(EMPTY) for c in asked)
+    except (ValueError, KeyError, TypeError, AttributeError):  # no notebook, as far as we can tell
+        return False
+
+
+def write_receipt(packed: Path) -> str:
+    """Return the time and the first digits of the SHA-256 of what was packed."""
+    digest = hashlib.sha256(packed.read_bytes()).hexdigest()[:DIGITS]
+    return f"Receipt: {digest}, {moment(datetime.now().astimezone())}"
 
 
 def find_missing(names: list[str], course: Course) -> list[str]:

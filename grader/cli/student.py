@@ -8,7 +8,7 @@ from typing import Annotated
 import msgspec
 import typer
 
-from grader.cli.hand_in import find_missing, pack_tree
+from grader.cli.hand_in import find_missing, list_warnings, pack_tree, write_receipt
 from grader.cli.restore import list_notes, restore
 from grader.cli.shared import (
     CourseFile,
@@ -24,7 +24,7 @@ from grader.judge.course import Course, read_course
 from grader.judge.grade import Options
 from grader.judge.result import Result
 from grader.judge.rubric import CHECKS
-from grader.judge.wording import command, hidden_points_note
+from grader.judge.wording import command, hidden_points_note, total
 from grader.report.progress import CheckProgress
 from grader.report.screen import Screen
 from grader.report.terminal import say, show_all
@@ -119,20 +119,41 @@ def write_due(course: Course) -> str:
 def hand_in_command(
     path: Annotated[Path, typer.Argument(help="A folder inside your tree.")] = Path("."),
     out: Annotated[Path | None, typer.Option(help="The zip; hand-in.zip if left out.")] = None,
+    checks: Annotated[
+        bool, typer.Option("--check/--no-check", help="Run the checks, to list what is unfinished.")
+    ] = True,
     course: CourseFile = None,
 ) -> None:
     """Pack your work, and nothing else, into hand-in.zip. Exit status 1: a program is missing."""
     require_file_target(out, "--out")
     taken = read_course(course)
-    packed, names = pack_tree(find_tree(path, taken), taken, out)
+    folder = find_tree(path, taken)
+    packed, names = pack_tree(folder, taken, out)
     for name in names:
         console.print(f"  {clean(name)}", soft_wrap=True)
     missing = find_missing(names, taken)
     for name in missing:
         say(f"There is no {name} here: hand in once all programs are there.", console)
+    for words in list_warnings(folder, names):
+        say(clean(words), console, indent=2, style="yellow")
+    if checks and not missing:
+        say(describe_progress(folder, make_options(frozenset(), taken)), console, indent=2)
     say(f"{plural(len(names), 'file')} in {packed}", console)
+    say(write_receipt(packed), console)
     say(f"Hand in this one file{write_due(taken)}.", console)
     raise typer.Exit(1 if missing else 0)
+
+
+def describe_progress(folder: Path, options: Options) -> str:
+    """Check a tree; return the points and the TODOs that are not finished."""
+    try:
+        result = grade_shown(folder, options, None)
+    except Stop as error:
+        return f"The checks cannot run: {clean(str(error))}."
+    left = [todo.id for todo in result.counted if todo.state != "passed"]
+    if not left:
+        return f"All checks pass: {total(result)}."
+    return f"Your checks give {total(result)}. Not finished: {', '.join(left)}."
 
 
 def make_replay_folder(tree: Path) -> Path | None:

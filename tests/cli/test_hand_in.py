@@ -1,7 +1,9 @@
 """What a student hands in is what is asked for, and what the instructor's side finds in it."""
 
 import os
+import shutil
 import zipfile
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -79,7 +81,15 @@ def test_a_program_that_is_missing_is_said(tree):
 def test_a_course_of_one_program_misses_no_other(tree):
     (tree / "pymunk_scene.py").unlink()
     course = KIT / "tests" / "courses" / "integrators.toml"
-    words = ["hand-in", str(tree), "--out", str(tree / "mine.zip"), "--course", str(course)]
+    words = [
+        "hand-in",
+        "--no-check",
+        str(tree),
+        "--out",
+        str(tree / "mine.zip"),
+        "--course",
+        str(course),
+    ]
     done = run_grader(*words)
     assert done.exit_code == 0 and "mine.zip" in "".join(done.output.split())
     assert find_missing(pack_tree(tree)[1], FULL) == ["pymunk_scene"]
@@ -88,9 +98,34 @@ def test_a_course_of_one_program_misses_no_other(tree):
 
 def test_more_than_will_be_read_is_refused(tree, monkeypatch):
     monkeypatch.setattr(packing, "MAX_FILES", 3)
-    with pytest.raises(Stop, match="more than will be read"):
+    (tree / PACKED).write_bytes(b"of yesterday")
+    (tree / "film.dat").write_bytes(bytes(2 << 20))
+    with pytest.raises(Stop, match="more than will be read.* largest file is film.dat, 2 MB"):
         pack_tree(tree)
     assert not (tree / PACKED).exists()
+
+
+def test_what_may_not_be_meant_is_said_before_it_is_handed_in(tree):
+    shutil.copyfile(tree / "integrators.py", tree / "integrators (1).py")
+    (tree / "helper.py").write_text("x = (", encoding="utf-8")
+    for name in ("quiz", "journal"):
+        notebook = KIT / "starter" / "notebooks" / f"{name}.ipynb"
+        shutil.copyfile(notebook, tree / "notebooks" / notebook.name)
+    text = (tree / "notebooks" / "journal.ipynb").read_text(encoding="utf-8")
+    mine = text.replace("*Write your answer here.*", "One step, one moment.", 1)
+    (tree / "notebooks" / "journal.ipynb").write_text(mine, encoding="utf-8")
+    out = " ".join(run_grader("hand-in", tree, "--no-check").output.split())
+    assert "integrators (1).py is packed too, and only integrators.py counts" in out
+    assert "helper.py, line 1: Python cannot read this" in out
+    assert "No answers yet in notebooks/quiz.ipynb." in out
+    digest = sha256((tree / PACKED).read_bytes()).hexdigest()
+    assert f"Receipt: {digest[:16]}, " in out
+
+
+def test_the_checks_run_before_it_is_handed_in(tree):
+    course = KIT / "tests" / "courses" / "integrators.toml"
+    out = run_grader("hand-in", tree, "--course", course).output
+    assert "Not finished: 8a, 8b, 8c." in " ".join(out.split())
 
 
 LINKS = pytest.mark.skipif(os.name == "nt", reason="links are for administrators there")

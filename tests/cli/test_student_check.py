@@ -350,3 +350,64 @@ def test_the_examples_do_not_depend_on_what_else_is_loaded(tmp_path: Path):
         for others in (False, True)
     }
     assert len(drawn) == 1
+
+
+# ---------------------------------------------------------------- what to type
+
+
+@pytest.mark.parametrize(
+    ("words", "todos"),
+    [(["8a"], "8a"), (["8A", "2"], "2 8a"), (["7"], "7a 7b 7c 7d"), (["--todo", "8"], "8a 8b 8c")],
+)
+def test_todos_are_named_by_words_alone(hand_in, words: list[str], todos: str):
+    tree = hand_in("starter")
+    out = run_grader("check", *words, tree / "mini_engine").output
+    assert out.startswith(f"NOT STARTED {todos} "), out
+
+
+def test_two_folders_and_unknown_todos_are_refused(hand_in):
+    tree = hand_in("starter")
+    assert "two folders" in run_grader("check", tree, tree / "mini_engine").output
+    assert "there is no TODO 9" in run_grader("check", "9", tree).output
+
+
+@pytest.mark.parametrize("words", [["4"], ["--todo", "4"]])
+def test_a_hint_is_asked_for_by_word_or_option(words: list[str]):
+    assert run_grader("hint", *words).output.startswith("1  How large may friction be")
+
+
+def test_a_hint_needs_one_todo():
+    assert "7a, 7b, 7c, 7d: name one" in run_grader("hint", "7").output
+    assert "name the TODO" in run_grader("hint").output
+
+
+def test_what_was_printed_and_what_runs_it_again_are_shown(hand_in):
+    tree = hand_in("starter")
+    code = "    print('x is', x)\n    return v, x"
+    fill_in(tree, INTEGRATORS, _8a=code)
+    out = check(tree, "8a")
+    assert re.search(r"^    Printed   .*x is \d", out, re.MULTILINE), out
+    (script,) = re.findall(r"Run it\s+python\S*\s+(\S+\.py)\s", out)
+    again = subprocess.run(
+        [sys.executable, os.path.abspath(script)], cwd=tree, capture_output=True, encoding="utf-8"
+    )
+    assert again.returncode == 0 and "x is" in again.stdout, again.stderr
+
+
+def test_a_loop_without_end_is_said_at_once_with_its_todo(hand_in):
+    tree = hand_in("starter")
+    fill_in(tree, INTEGRATORS, _8a="    while True:\n        pass")
+    out = check(tree, "8a")
+    assert out.startswith("TODO 8a: it used up its 5 s of processor time"), out
+    assert "The loop in line 23, `while True:`" in out
+
+
+def test_work_beside_its_region_is_not_called_changed_given_code(hand_in):
+    tree = hand_in("starter")
+    text = (tree / INTEGRATORS).read_text(encoding="utf-8")
+    end = "    # END TODO 8a\n"
+    mine = text.replace(end, f"{end}    v += accel(x) * dt\n    return x + v * dt, v\n")
+    (tree / INTEGRATORS).write_text(mine, encoding="utf-8")
+    out = " ".join(check(tree).split())
+    assert "stands outside the region of TODO 8a" in out and "--restore" not in out
+    assert "Next: TODO 8a" in out
