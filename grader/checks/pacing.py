@@ -200,12 +200,12 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"steps of STEP = {STEP:.9f} s",
         f"steps of {', '.join(f'{size:.9f}' for size in sizes[:4])} s",
     )
-    meaning = "The count is 1 too many: begin it at 0, and raise it once in each step."
+    wrong = "1 too many" if said == steps + 1 else "too small" if said < steps else "too large"
     lab.want(
         said == steps,
         f"{steps} as the number of steps that ran",
         f"{said:g}",
-        meaning * (said == steps + 1),
+        f"The count is {wrong}: begin it at 0, and raise it by 1 in each step.",
     )
     owed, most = accumulator + seconds, MAX_STEPS * STEP
     due = min(owed, most)

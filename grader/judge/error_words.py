@@ -19,6 +19,7 @@ from grader.source.given import given_pieces, imported_names
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
+ENGINE = "mini_engine/"
 NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
 SHAPES = ("Circle", "Box")  # what body.shape may be
 
@@ -129,14 +130,16 @@ def explain_undefined(match: Match, error: Error) -> str:
         return f"{name} is in the module math: write math.{name}."
     if name in pymunk_names():
         return f"{name} is in the module pymunk: write pymunk.{name}."
-    if file := given_home(name, error.file):
+    if error.file.startswith(ENGINE) and (file := given_home(name, error.file)):
         module = file.rpartition("/")[2].removesuffix(".py")
         return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
     known = {*error.values, *error.parameters, *error.around}
     near = get_close_matches(name, known, 1, 0.7)
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
-    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?"
+    given = ", ".join(error.parameters)
+    arguments = f" The function is given {given}." * bool(given)
+    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
 
 
 def explain_attribute(match: Match, error: Error) -> str:
@@ -156,9 +159,13 @@ def explain_attribute(match: Match, error: Error) -> str:
     home = next((owner for owner, names in given_attributes().items() if name in names), "")
     if kind == "Body" and home in SHAPES:
         return f"{name} belongs to the body's shape: write .shape.{name}."
+    if kind == "Body" and name in ("x", "y"):
+        return f"A Body has no {name}: write .pos.{name}, or .vel.{name}."
     if given_home(name, ""):
         return f"{name} is a function, not part of a {kind}: write {name}(...)."
-    near = get_close_matches(name, given_attributes().get(kind, ()), 1, NEAR)
+    ours = sorted(given_attributes().get(kind, ()))
+    starts = [each for each in ours if each.startswith(name)]
+    near = starts or get_close_matches(name, ours, 1, NEAR)
     if near:
         return f"A {kind} has no {name}. Is {near[0]} meant?"
     return f"{name} belongs to a {home}, not to a {kind}." if home else ""
@@ -182,15 +189,17 @@ def explain_not_callable(match: Match, error: Error) -> str:
 
 
 def explain_arguments(match: Match, error: Error) -> str:
-    name = match[1].rpartition(".")[2]
+    """Show a function that was called with too few or too many arguments."""
+    owner, _, name = match[1].rpartition(".")
     if name in PYMUNK:
         return f"It is {PYMUNK[name]}."
-    for text in load_given().values():
-        for node in ast.walk(ast.Module(statements(text), [])):
-            if isinstance(node, ast.FunctionDef) and node.name == name:
-                names = [each.arg for each in node.args.args if each.arg != "self"]
-                return f"It is {name}({', '.join(names)})."
-    return ""
+    called = owner if name == "__init__" else name
+    arguments = given_arguments().get(f"{owner}.{name}", given_arguments().get(name))
+    return f"It is {called}({', '.join(arguments)})." if arguments is not None else ""
+
+
+def explain_tuple(match: Match, error: Error) -> str:
+    return TUPLE if "Vector2" in error.text else NUMBERS
 
 
 def explain_pair(match: Match, error: Error) -> str:
@@ -250,10 +259,26 @@ def given_attributes() -> dict[str, set[str]]:
     }
 
 
+@cache
+def given_arguments() -> dict[str, list[str]]:
+    """Return the arguments of each given function and method, by its name and with its class."""
+    found: dict[str, list[str]] = {}
+    for text in load_given().values():
+        for node in statements(text):
+            inside = node.body if isinstance(node, ast.ClassDef) else [node]
+            for each in inside:
+                if isinstance(each, ast.FunctionDef):
+                    names = [arg.arg for arg in each.args.args if arg.arg != "self"]
+                    found.setdefault(each.name, names)
+                    if isinstance(node, ast.ClassDef):
+                        found[f"{node.name}.{each.name}"] = names
+    return found
+
+
 def given_home(name: str, but: str) -> str:
     """Return the file of the engine that defines this function or constant, unless it is `but`."""
     for file, text in load_given().items():
-        if file != but and file.startswith("mini_engine/") and name in given_pieces(text):
+        if file != but and file.startswith(ENGINE) and name in given_pieces(text):
             return "" if given_pieces(text)[name].owner else file
     return ""
 
@@ -273,6 +298,7 @@ def pymunk_names() -> Collection[str]:
 # ---------------------------------------------------------------- the errors
 
 TUPLE = "A tuple (x, y) is no vector and cannot be computed with: write Vector2(x, y)."
+NUMBERS = "A tuple cannot be computed with: compute with each of its numbers."
 MIXED = "A vector and a number cannot be added or compared: one coordinate or a length is meant."
 
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
@@ -296,14 +322,16 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
         r"^TypeError: .*(NoneType|\bNone\b)",
         "There is a None among the values: a function without return gives one.",
     ),
-    (r"^TypeError: ([\w.]+)\(\) (missing|takes|got)", explain_arguments),
+    (r"^TypeError: ([\w.<>]+)\(\) (missing|takes|got)", explain_arguments),
     (r"^(TypeError: .*has no len|AssertionError)", explain_pair),
     (
         r"^TypeError: 'float' object cannot be interpreted as an integer",
         "A whole number is needed here, and // of two floats is a float: put int(...) around it.",
     ),
-    (r"^TypeError: (can't multiply sequence|can only concatenate tuple)", TUPLE),
-    (r"^TypeError: unsupported operand type.*'(tuple|list)'", TUPLE),
+    (r"^TypeError: (can't multiply sequence|can only concatenate tuple)", explain_tuple),
+    (r"^TypeError: unsupported operand type.*'(tuple|list)'", explain_tuple),
+    (r"^TypeError: unsupported operand type\(s\) for \^", "^ is no power in Python: write **."),
+    (r"^AssertionError: .*already added", "The space has this already: add each thing once."),
     (r"^TypeError: .*Vector2' and '(float|int)'", MIXED),
     (r"^TypeError: .*'(float|int)' and 'pygame.math.Vector2'", MIXED),
     (

@@ -16,7 +16,7 @@ from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
-from grader.judge.failures import LOOP, REBOUND, Broke, Failing, NotYet
+from grader.judge.failures import IDLE, LOOP, REBOUND, Broke, Failing, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.meaning import Evidence, Left, explain
@@ -30,7 +30,7 @@ from grader.judge.submission import Submission, handed_out, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import Changed, change_of_file, changes, restored
-from grader.source.leftovers import find_dead_end, find_leftover, find_loop, find_rebound
+from grader.source.leftovers import find_dead_end, find_idle, find_leftover, find_loop, find_rebound
 from grader.source.regions import python_files, read_source, shape_of
 from grader.text import harmless, listed
 
@@ -288,6 +288,8 @@ class Grading:
             open_child = self.sandbox.changed({where.file: leftover.without}).open_child
             if loop.again(key, open_child).failure is None:
                 return Left(leftover.words, Where(where.file, leftover.line), True)
+        if idle := find_idle(text, todo.id):
+            return Left(IDLE.format(line=idle[0], text=idle[1]), Where(where.file, idle[0]), True)
         dead_end = find_dead_end(text, todo.id, todo.function.partition(":")[2])
         if dead_end is None:
             return None

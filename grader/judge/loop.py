@@ -33,6 +33,7 @@ DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one que
 INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
 SURVEY = 2  # s of processor time, for that
+GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # as they end
 MOST_PRINTED = 3  # lines of what a submission printed
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
@@ -525,6 +526,7 @@ def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
 def last_lines(output: str) -> str:
     """Return the last lines that were printed, on one line; what failed came last."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
+    lines = [line for line in lines if not line.startswith(GIVEN_PRINTS)]
     shown = " | ".join(lines[-MOST_PRINTED:])
     return f"… | {shown}" if len(lines) > MOST_PRINTED else shown
 

@@ -13,6 +13,11 @@ from grader.source.definitions import function_named, statements
 from grader.source.flaws import MAX_LINE
 from grader.source.regions import Region, read_regions
 
+# Functions that only answer.
+ANSWERS = {
+    *("min", "max", "abs", "round", "sqrt", "exp", "cross", "dot", "normalize", "length"),
+    *("friction_limit", "moment_for_circle", "Vector2", "Contact", "accel"),
+}
 ENDS = (ast.Return, ast.Raise, ast.Break, ast.Continue)
 
 
@@ -98,6 +103,27 @@ def find_loop(text: str, todo: str) -> tuple[int, str] | None:
         return None
     line = region.start + 1 + min(loops)
     return line, show(text.splitlines()[line - 1])
+
+
+def find_idle(text: str, todo: str) -> tuple[int, str] | None:
+    """Return the first line of a region whose value nothing keeps, and that does nothing else."""
+    region, own = region_of(text, todo)
+    nodes = ast.walk(ast.Module(own, []))
+    idle = [node.lineno for node in nodes if isinstance(node, ast.Expr) and is_idle(node.value)]
+    if region is None or not idle:
+        return None
+    line = region.start + 1 + min(idle)
+    return line, show(text.splitlines()[line - 1])
+
+
+def is_idle(value: ast.expr) -> bool:
+    """Return whether a value is all that computing it does."""
+    match value:
+        case ast.BinOp() | ast.UnaryOp() | ast.Compare() | ast.Name() | ast.Attribute():
+            return True
+        case ast.Call(ast.Name(id=name) | ast.Attribute(attr=name)):
+            return name in ANSWERS
+    return False
 
 
 def find_rebound(text: str, todo: str, path: str) -> tuple[int, str] | None:

@@ -46,7 +46,7 @@ def like(disc: Disc, rect: Rect) -> dict[str, str]:
         words["axis"] = f"a face {'at the side' if across > down else 'above or below'} is nearest"
     words["_box"] = f"the box is {'at (0, 0)' if rect.x == rect.y == 0 else 'elsewhere'}"
     words["_radius"] = f"the radius is {disc.r:g} px"
-    words["_edge"] = "the centre is on the edge" if max(across, down) == 0 else "it is not"
+    words["_edge"] = f"the centre is {'' if max(across, down) == 0 else 'not '}on the edge"
     return words
 
 

@@ -45,7 +45,7 @@ def like(rod: Rod) -> dict[str, str]:
     }
 
 
-PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the place of B": [4, 5]}
+PARTS = {"the velocity of A": [0, 1], "the velocity of B": [2, 3], "the position of B": [4, 5]}
 
 truth("rod", right, like, PARTS, apart=True)
 

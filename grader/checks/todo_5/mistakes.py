@@ -53,12 +53,9 @@ known(
 )
 known(
     "one-percent-per-frame",
-    "1% is lost in every sixtieth of a second; the loss must follow the two rates.",
+    "1% is lost in a time of its own; the loss must follow the two rates, as exp(-rate * dt) does.",
     per_step(lambda rate, dt: 0.99 ** (60 * dt)),
-)
-known(
-    "one-percent-per-second",
-    "1% is lost in every second; the loss must follow the two rates, as in exp(-rate * dt).",
+    per_step(lambda rate, dt: 0.99 ** (120 * dt)),
     per_step(lambda rate, dt: 0.99**dt),
 )
 known(

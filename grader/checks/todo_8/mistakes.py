@@ -538,7 +538,7 @@ truth(
     SAMPLES,
     places_of(USUAL),
     like,
-    {f"the place of k{n + 1}": [n] for n in range(4)},
+    {f"the position of k{n + 1}": [n] for n in range(4)},
 )
 OTHER_SAMPLES: dict[str, tuple[str, tuple[Source, ...]]] = {
     "second-sample-at-full-step": (
