@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from hypothesis.errors import Flaky
-from msgspec import structs
+from msgspec import UNSET, structs
 
 from grader.judge.budget import Budget, for_words
 from grader.judge.children import Child
@@ -304,7 +304,7 @@ class CheckLoop:
             failing = Failing(job.todo, job.check, again, pieces, secret)
         result = self._failure(job, alone.failure)
         if self.shows_output and not alone.played and not result.got.startswith("BdbQuit"):
-            result = structs.replace(result, printed=last_lines(alone.connection.output))
+            result = structs.replace(result, printed=last_lines(alone.connection.output) or UNSET)
         return Outcome(in_bounds(result), lab, answers, elsewhere, alone, failing)
 
     def _survey(self, job: Job, alone: Lab) -> list[Observation]:

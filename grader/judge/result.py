@@ -3,7 +3,7 @@
 from typing import Literal
 
 import msgspec
-from msgspec import Struct, structs
+from msgspec import UNSET, Struct, UnsetType, structs
 
 from grader.protocol import cut
 from grader.text import harmless
@@ -13,7 +13,7 @@ Kind = Literal["unit", "property", "scene"]
 
 MAX_JSON = 1_000_000  # bytes of a result; a hundred checks take 30 KB
 TEXT_LENGTHS = (2000, 500, 50)  # characters of each text; the first of these that makes it fit
-TEXTS = ("ran", "expected", "got", "meaning", "printed")
+TEXTS = ("ran", "expected", "got", "meaning")
 MAX_FILE = 255  # characters of a file's name that are told
 
 FAILED: tuple[State, ...] = ("not yet", "error")  # it ran, and did not pass
@@ -38,9 +38,9 @@ class CheckResult(Struct, frozen=True):
     expected: str = ""
     got: str = ""
     meaning: str = ""
-    printed: str = ""  # by the submission, in one's own check
     where: Where | None = None
     replay: str | None = None
+    printed: str | UnsetType = UNSET  # by the submission; told in one's own check alone
 
     @property
     def failed(self) -> bool:
@@ -53,7 +53,8 @@ def in_bounds(check: CheckResult, most: int = TEXT_LENGTHS[0]) -> CheckResult:
 
     None of them is one that a screen or a terminal obeys, but for the ends of lines.
     """
-    texts = {name: harmless(cut(getattr(check, name), most)) for name in TEXTS}
+    names = [*TEXTS, "printed"] if check.printed else TEXTS
+    texts = {name: harmless(cut(getattr(check, name), most)) for name in names}
     where = check.where if check.where and len(check.where.file) <= MAX_FILE else None
     return structs.replace(check, where=where, **texts)
 

@@ -13,7 +13,7 @@ from msgspec import structs
 from grader.judge.course import Course
 from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.rubric import load_rubric
-from grader.text import clean, moment
+from grader.text import clean, moment, plural
 
 MEANINGS: dict[State, str] = {
     "not yet": "a check got another answer than the right one",
@@ -34,7 +34,7 @@ def named_reasons(check: CheckResult, task: str = "") -> list[tuple[str, str]]:
         ("We ran", check.ran),
         ("Expected", check.expected),
         ("Got", check.got),
-        ("Printed", check.printed),
+        ("Printed", check.printed or ""),
         ("Meaning", check.meaning),
         ("Look at", place),
     )
@@ -81,7 +81,7 @@ def hidden_points_note(result: Result) -> str:
     """Say what a student's copy has no checks for; return an empty text if it has them all."""
     here = {todo.id for todo in result.todos}
     points = sum(todo.hidden_points for todo in load_rubric().counted if todo.id in here)
-    words = f"{points} more points come from checks that only your instructor runs."
+    words = f"Your instructor runs more checks, for {plural(points, 'more point')}."
     return words if points else ""
 
 
@@ -117,13 +117,14 @@ def withhold_reasons(result: Result, course: Course, now: datetime | None = None
     if when is None or (now or datetime.now(when.tzinfo)) >= when:
         return result
     later = f"shown from {moment(when)} on"
-    blank = {"ran": "", "expected": "", "meaning": "", "printed": ""}
     hidden = {(todo.id, c.id) for todo in course.rubric.todos for c in todo.checks if c.hidden}
     todos = [
         structs.replace(
             todo,
             checks=[
-                structs.replace(each, **blank, got=later, where=None, replay=None)
+                structs.replace(
+                    each, ran="", expected="", got=later, meaning="", where=None, replay=None
+                )
                 if each.failed and (todo.id, each.id) in hidden
                 else each
                 for each in todo.checks

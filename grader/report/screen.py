@@ -64,7 +64,7 @@ class Screen:
         notes = [*list_remarks(result), *notes]
         end = [Line(each) for note in notes for each in wrap(note, self.console, 2)]
         if todo is None or not todo.failed:  # nothing that was begun fails
-            headline, *commands = suggest_todo(todo) if todo else [""]
+            headline, *commands = suggest_todo(todo, result) if todo else [""]
             next_one = [*self.set_bold(headline), *map(Line, commands)]
             return [*self.list_states(result, None), *end, *next_one]
         head = self.shorten(write_todo(todo))
@@ -97,7 +97,7 @@ class Screen:
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0
         if free <= len(points) or self.console.width < WIDTH:
-            return [Line(points, "bold"), *rows]
+            return [Line(f"Points: {points}", "bold"), *rows]
         return [Line(rows[0].text + points.rjust(free), rows[0].style), *rows[1:]]
 
     def suggest_commands(self, todo: TodoResult) -> list[Line]:

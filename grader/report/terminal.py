@@ -171,7 +171,7 @@ def show_next(result: Result, console: Console) -> None:
     if words := describe_obstacle(todo):
         say(words, console, 6, "bold")
         return
-    headline, *commands = suggest_todo(todo)
+    headline, *commands = suggest_todo(todo, result)
     say(headline, console, 6, "bold")
     for line in commands:
         say(line, console)
@@ -185,11 +185,12 @@ def describe_obstacle(todo: TodoResult) -> str:
     return f"Next: mend {find_place(todo)}: nothing in {module} can be checked before"
 
 
-def suggest_todo(todo: TodoResult) -> list[str]:
-    """Return the TODO to go on with, and what to type for it."""
+def suggest_todo(todo: TodoResult, result: Result) -> list[str]:
+    """Return the TODO to go on with, and what to type for it; one checked alone was typed."""
     place = find_place(todo)
     lines = [f"Next: TODO {todo.id}, {todo.title}" + f" ({place})" * bool(place)]
-    lines.append(f"  check it alone: {command('check', todo.id)}")
+    if len(result.todos) > 1:
+        lines.append(f"  check it alone: {command('check', todo.id)}")
     if todo.id != "whole":
         lines.append(f"  a hint:         {command('hint', todo.id)}")
     return lines
