@@ -34,7 +34,7 @@ def list_notes(tree: Path, result: Result) -> list[str]:
     failing = {todo.id for todo in result.todos if todo.failed}
     said = " ".join(check.meaning for check in checks)
     notes = [each.outside for each in found if each.todo in failing and each.outside not in said]
-    names = [*dict.fromkeys(each.to_type for each in found if not each.outside)]
+    names = [*dict.fromkeys(each.to_type for each in found if not each.todo)]
     if names:
         more = f" and {len(names) - MOST_NAMES} more" * (len(names) > MOST_NAMES)
         shown = ", ".join(names[:MOST_NAMES]) + more

@@ -15,7 +15,7 @@ REBOUND = (
     "Line {line} gives {name} another value. From there on {name} is no longer what the function "
     "was given: use another name."
 )
-IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is an = missing?"
+IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is return or = missing?"
 LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."
 ENDLESS = "it used up its"  # how the words of a check begin that ran out of processor time
 MOST_NAMES = 3  # in one sentence

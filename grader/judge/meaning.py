@@ -26,7 +26,7 @@ RESTORE = (
 ROUNDED = (
     "Right to five digits and more, but not to all: is a number rounded, or float32 used for it?"
 )
-NEARLY = 1e-5  # of a number
+NEARLY, NOTHING = 1e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
 
@@ -140,10 +140,11 @@ def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
 def name_rounding(evidence: Evidence, check: CheckResult) -> str:
     """Name rounding, where each number is right to some digits and not to all."""
     right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
-    near = len(right) == len(ours) and all(
-        math.isclose(a, b, rel_tol=NEARLY, abs_tol=NEARLY) for a, b in zip(right, ours, strict=True)
-    )
-    return ROUNDED if right != ours and near and check.state == "not yet" else ""
+    if right == ours or len(right) != len(ours) or check.state != "not yet":
+        return ""
+    pairs = zip(right, ours, strict=True)
+    near = all(math.isclose(a, b, rel_tol=NEARLY, abs_tol=NOTHING) for a, b in pairs)
+    return ROUNDED if near else ""
 
 
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:

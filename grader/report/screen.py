@@ -29,6 +29,9 @@ from grader.report.terminal import (
 from grader.text import clean
 
 LINES = 16  # before the prompt
+USUAL = 13  # lines that the names of further failures may fill
+SAID_ELSEWHERE = {"an answer", "code that Python accepts"}  # what is expected where Got is an error
+READING = "reading "  # a file, as Got says
 MOST_REMARKS = 2  # on TODOs without code that counts
 WIDTH = 76  # columns of a TODO's own line, at the end of which the points stand
 STATE_LINES: list[list[State]] = [["passed"], ["error"], ["not yet"], ["not started", "waiting"]]
@@ -94,6 +97,8 @@ class Screen:
             words = "   ".join(filter(None, parts))
             style = STYLES[states[0]]
             rows += [Line(each, style) for each in wrap(words, self.console, STATES)]
+        if not rows and apart is not None:  # its own line says all
+            return []
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0
         if free <= len(points) or self.console.width < WIDTH:
@@ -122,6 +127,7 @@ class Screen:
         titles += [self.title(each, clean(each[0].got)) for each in waiting]
         below = self.explain(todo, first[0], room - 1 - bool(titles))
         left = room - 1 - len(below)
+        left = max(left - max(self.lines - USUAL, 0), min(left, 1))
         if len(titles) > left:
             kept = max(left - 1, 0)
             titles = [*titles[:kept], f"  and {len(titles) - kept} more"] if titles else []
@@ -142,6 +148,7 @@ class Screen:
         texts = {
             name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
             for name, text in named_reasons(check, task_of(todo))
+            if text not in SAID_ELSEWHERE and not text.startswith(READING)
         }
         free = room - len(texts)
         again = write_rerun(check, self.replays, self.console)

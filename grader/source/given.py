@@ -58,6 +58,7 @@ class Changed:
     start: int  # indices of the lines to be replaced
     stop: int
     lines: tuple[str, ...] = field(repr=False, default=())  # by these
+    marker: int = 0  # the line at which a region of the piece begins, or 0
 
     @property
     def to_type(self) -> str:
@@ -67,12 +68,17 @@ class Changed:
     @property
     def todo(self) -> str:
         """Return the TODO whose function this is; empty for none."""
-        return next((found["id"] for each in self.lines if (found := START.match(each))), "")
+        found = map(START.match, self.lines if self.name != self.file else ())
+        return next((each["id"] for each in found if each), "")
 
     @property
     def outside(self) -> str:
-        """Say that a line of a TODO's function stands outside its region; empty where none does."""
-        if not self.todo or not self.theirs or not self.name.replace(".", "").isidentifier():
+        """Say that a line of a TODO's function stands outside its region; empty where none does.
+
+        What was added above the region is a helper of theirs.
+        """
+        helps = not self.given and self.line < self.marker
+        if not self.todo or not self.theirs or helps:
             return ""
         return MISPLACED.format(line=self.line, file=self.file, text=self.theirs, id=self.todo)
 
@@ -178,7 +184,8 @@ def difference(
         return
     line, theirs, given = first_difference(mine, kept)
     place = there.start + line + 1
-    yield Changed(name, file, place, theirs, given, there.start, there.stop, kept)
+    marker = next((n for n, each in enumerate(mine, there.start + 1) if START.match(each)), 0)
+    yield Changed(name, file, place, theirs, given, there.start, there.stop, kept, marker)
 
 
 def with_regions(given: tuple[str, ...], theirs: Sequence[str]) -> tuple[str, ...] | None:

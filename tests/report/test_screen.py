@@ -71,8 +71,8 @@ def test_one_todo_is_told_and_its_other_failures_have_a_line_each():
 def test_given_code_comes_first_and_then_what_has_a_name():
     named = failed(2, meaning="A sign.")
     given = CheckResult("c", "Given", "unit", "not yet", 0, 1, where=Where("a.py", 1, given=True))
-    assert screen(todo("2", failed(1), named, given))[2] == "  Given  (0 / 1)"
-    assert screen(todo("2", failed(1), named))[2] == "  Check 2  (0 / 1)"
+    assert screen(todo("2", failed(1), named, given))[1] == "  Given  (0 / 1)"
+    assert screen(todo("2", failed(1), named))[1] == "  Check 2  (0 / 1)"
 
 
 def test_a_loop_that_never_ends_is_said_once():
