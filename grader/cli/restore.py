@@ -27,7 +27,7 @@ def list_notes(tree: Path, result: Result) -> list[str]:
     A TODO's own function counts as changed only while the TODO fails, and is not to be put back.
     """
     checks = [check for todo in result.todos for check in todo.checks]
-    if any(check.where is not None and check.where.given for check in checks):
+    if any(check.failed and check.where is not None and check.where.given for check in checks):
         return []
     unread = {check.where.file for check in checks if check.where and is_unread(check)}
     found = [each for each in find_changes(tree) if each.file not in unread]

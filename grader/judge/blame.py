@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from grader.judge.children import Child
-from grader.judge.failures import NotYet
+from grader.judge.failures import Broke, NotYet
 from grader.judge.lab import Lab, Observation
 from grader.judge.numbers import readable, tidied
 from grader.judge.result import CheckResult, Where
@@ -34,6 +34,11 @@ class Blamed:
     def is_all(self) -> bool:
         """Return whether nothing else needs to be told; a name that is gone may have a new one."""
         return self.mended and all(each.theirs for each in self.changes)
+
+    @property
+    def is_gone(self) -> bool:
+        """Return whether code is missing, without which nothing of its TODO runs."""
+        return not self.mended and not any(each.theirs for each in self.changes)
 
     @property
     def is_experiment(self) -> bool:
@@ -76,7 +81,8 @@ class Blame:
             if self.spent():
                 break
             lab = self.again(key, open_child)
-            self.seen[key] = lab.observations
+            if not isinstance(lab.failure, Broke):  # else their own code needs what was undone
+                self.seen[key] = lab.observations
             if makes_a_difference(lab, check):
                 differ[key] = lab.failure is None
         alone = self._find_one(failed, differ) if differ else {}

@@ -142,6 +142,10 @@ def explain_undefined(match: Match, error: Error) -> str:
     return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
 
 
+def explain_import(match: Match, error: Error) -> str:
+    return f"{match[2]} defines no {match[1]}: it was renamed or removed there."
+
+
 def explain_attribute(match: Match, error: Error) -> str:
     kind, name = match[1].rpartition(".")[2], match[2]
     if kind in ("tuple", "list"):
@@ -303,6 +307,8 @@ MIXED = "A vector and a number cannot be added or compared: one coordinate or a 
 
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
+    (r"^ImportError: .*partially initialized", "Two files import each other: drop one import."),
+    (r"^ImportError: cannot import name '(\w+)' from '[\w.]+' \((.+?)\)", explain_import),
     (r"^BdbQuit", explain_debugger),
     (r"^SystemExit", "This ends the whole program. A function ends with return."),
     (r"^RecursionError", "A function calls itself, without an end."),

@@ -26,15 +26,17 @@ from grader.judge.reference import Reference
 from grader.judge.result import CheckResult, State, Where, in_bounds
 from grader.judge.rubric import Check, Rubric, Todo
 from grader.judge.submission import CannotGrade, Submission, load_given
-from grader.protocol import CodeLine, Piece
+from grader.protocol import CodeLine, Piece, cut
 from grader.source.flaws import Flaw
 
 DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one question
+# An import of a name that a file of theirs does not define.
+LACKING = re.compile(r"^ImportError: cannot import name .* from '[\w.]+' \((?P<file>[\w/]+\.py)\)")
 INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
 SURVEY = 2  # s of processor time, for that
 GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # as they end
-MOST_PRINTED = 3  # lines of what a submission printed
+MOST_PRINTED, MAX_PRINTED = 3, 60  # lines of what a submission printed, and letters of each
 BRIEF = 1.0  # s of processor time: a check that took less is asked to its end where it failed
 
 
@@ -491,7 +493,9 @@ class CheckLoop:
         if lines := [each for each in lines if self.submission.holds(each.file)]:
             last = lines[-1]
             own = [each for each in lines if not self._is_given(job.todo, each)]
-            if own or where is None:
+            if found := LACKING.search(failure.got):
+                where = Where(found["file"], 1)
+            elif own or where is None:
                 frame = (own or lines)[-1]
                 where = Where(frame.file, frame.line)
             got += f" (in {last.file}, line {last.line}: {last.text})"
@@ -526,7 +530,7 @@ def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
 def last_lines(output: str) -> str:
     """Return the last lines that were printed, on one line; what failed came last."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
-    lines = [line for line in lines if not line.startswith(GIVEN_PRINTS)]
+    lines = [cut(each, MAX_PRINTED) for each in lines if not each.startswith(GIVEN_PRINTS)]
     shown = " | ".join(lines[-MOST_PRINTED:])
     return f"… | {shown}" if len(lines) > MOST_PRINTED else shown
 

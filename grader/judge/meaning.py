@@ -24,9 +24,9 @@ RESTORE = (
     "There is no {program}.py here. check --restore {program}.py puts the handed-out one back."
 )
 ROUNDED = (
-    "Right to five digits and more, but not to all: is a number rounded, or float32 used for it?"
+    "Right to four digits and more, but not to all: is a number rounded, or float32 used for it?"
 )
-NEARLY, NOTHING = 1e-5, 1e-9  # of a number, and what counts as none
+NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
 
@@ -91,6 +91,8 @@ def blame_given_code(evidence: Evidence, check: CheckResult) -> str:
     blamed = evidence.blamed.get(check.id)
     if blamed is None:
         return ""
+    if blamed.is_gone:
+        return f"{blamed.in_words} {explain_names(evidence, check)}".rstrip()
     told = "" if blamed.is_all else next_explanation(evidence, check)
     return f"{blamed.in_words} {told}".rstrip()
 
@@ -140,7 +142,8 @@ def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
 def name_rounding(evidence: Evidence, check: CheckResult) -> str:
     """Name rounding, where each number is right to some digits and not to all."""
     right, ours = (list(map(float, NUMBER.findall(each))) for each in (check.expected, check.got))
-    if right == ours or len(right) != len(ours) or check.state != "not yet":
+    right = right[: len(ours)]  # what follows may be the question's
+    if right == ours or len(right) < len(ours) or check.state != "not yet":
         return ""
     pairs = zip(right, ours, strict=True)
     near = all(math.isclose(a, b, rel_tol=NEARLY, abs_tol=NOTHING) for a, b in pairs)
