@@ -66,7 +66,7 @@ class Printer:
         self.console.print(line, soft_wrap=True)
         for checks in group_checks(todo.failed):
             self.print_failed(todo, checks)
-        for note in todo.notes:
+        for note in filter(None, [*todo.notes, todo.remark]):
             say(f"  {clean(note)}", self.console, indent=2)
         for checks in group_checks(each for each in todo.checks if each.state == "waiting"):
             say(f"  {name_checks(checks)}: {clean(checks[0].got)}", self.console, indent=4)

@@ -1,7 +1,9 @@
 """What a student sees: `check` and `hint`, from any folder, in any terminal."""
 
+import io
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -13,10 +15,13 @@ from pathlib import Path
 import psutil
 import pytest
 from command_line import run_grader
+from rich.console import Console
 
-from grader.judge.grade import KIT
+from grader.judge.grade import KIT, Options
+from grader.judge.result import CheckResult
 from grader.judge.rubric import load_rubric
 from grader.judge.wording import command
+from grader.report.progress import CheckProgress
 from grader.source.definitions import statements
 from grader.source.regions import replaced, shape_of
 
@@ -411,3 +416,25 @@ def test_work_beside_its_region_is_not_called_changed_given_code(hand_in):
     out = " ".join(check(tree).split())
     assert "stands outside the region of TODO 8a" in out and "--restore" not in out
     assert "Next: TODO 8a" in out
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="there is no make here")
+def test_make_says_that_the_checks_are_not_installed(hand_in):
+    tree = hand_in("starter")
+    shutil.copyfile(KIT / "starter" / "Makefile", tree / "Makefile")
+    python = f"{sys.executable} -S"  # without what was installed
+    done = subprocess.run(
+        ["make", "check", f"PYTHON={python}"], cwd=tree, capture_output=True, encoding="utf-8"
+    )
+    assert done.returncode != 0 and "The checks are not installed" in done.stderr
+
+
+def test_a_bar_shows_at_once_how_far_the_checks_are():
+    todos = [todo for todo in load_rubric().todos if todo.id == "8a"]
+    console = Console(force_terminal=True, width=80, file=io.StringIO())
+    options = Options(only=frozenset({"8a"}))
+    with CheckProgress(options, console) as shown:
+        for check in todos[0].checks:
+            shown.count(CheckResult(check.id, "A check", "unit", "passed", 1, 1))
+        assert shown.counter.bar.tasks[0].completed == len(todos[0].checks)
+    assert "Checking" in console.file.getvalue()

@@ -361,3 +361,17 @@ def test_a_marker_behind_the_last_statement_belongs_to_the_function():
     found = with_markers(pieces(statements(text)), text)
     assert (found["f"].start, found["f"].stop) == (0, 6)
     assert (found["y"].start, found["y"].stop) == (7, 10)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("    # END TODO 4\n", "    # END TODO 4\n    total = 0\n", "stands outside the region of"),
+        ("    # TODO 4:", "    limit = 1\n    # TODO 4:", ""),  # a helper above it
+        ("    ra, rb = arms(c)\n    tangent", "    ra, rb = 1, 2\n    tangent", "outside"),
+    ],
+)
+def test_a_line_of_a_todos_function_outside_its_region_is_told(old: str, new: str, says: str):
+    given = load_given()[SOLVER]
+    (change,) = changes({SOLVER: given.replace(old, new, 1)}, {SOLVER: given})
+    assert change.todo == "4" and says in change.outside and bool(says) == bool(change.outside)
