@@ -9,7 +9,7 @@ from typing import NamedTuple
 from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
-from grader.judge.wording import NAMES, command, named_reasons, task_of, total
+from grader.judge.wording import NAMES, command, named_reasons, place_of, task_of, total
 from grader.report.terminal import (
     MARGIN,
     MAX_COLUMNS,
@@ -97,7 +97,7 @@ class Screen:
             words = "   ".join(filter(None, parts))
             style = STYLES[states[0]]
             rows += [Line(each, style) for each in wrap(words, self.console, STATES)]
-        if not rows and apart is not None:  # its own line says all
+        if apart is not None and result.todos == [apart]:  # its own line says all
             return []
         points = total(result)
         free = WIDTH - len(rows[0].text) if rows else 0
@@ -145,10 +145,11 @@ class Screen:
 
     def explain(self, todo: TodoResult, check: CheckResult, room: int) -> list[str]:
         """Return why a check failed: a line for each text, and the rest of `room` for the cause."""
+        said = named_place(todo, check)
         texts = {
             name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
             for name, text in named_reasons(check, task_of(todo))
-            if text not in SAID_ELSEWHERE and not text.startswith(READING)
+            if text not in SAID_ELSEWHERE and not text.startswith(READING) and text != said
         }
         free = room - len(texts)
         again = write_rerun(check, self.replays, self.console)
@@ -166,6 +167,13 @@ class Screen:
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
         return [*(line for name in texts for line in shown[name]), *again, *replay]
+
+
+def named_place(todo: TodoResult, check: CheckResult) -> str:
+    """Return the place to look at if *Got* names it already; else empty."""
+    place = check.where
+    named = place is not None and f"(in {place.file}, line {place.line}: " in check.got
+    return f"{place_of(check)}{task_of(todo)}" if named else ""
 
 
 def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:
@@ -192,6 +200,8 @@ def list_remarks(result: Result) -> list[str]:
 
 def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
     ids = [todo.id for todo in result.shown if todo.state == state and todo is not apart]
+    if apart is not None and state in FAILED:
+        ids = [id for id in ids if id != "whole"]  # it cannot be right where another one fails
     return f"{state.upper():<{STATES}}{' '.join(ids)}" if ids else ""
 
 
