@@ -97,12 +97,6 @@ class Lab(Decoder):
         """Return whether it had to be ended because its time was over."""
         return isinstance(self.failure, Broke) and self.failure.late
 
-    @property
-    def trespass(self) -> str:
-        """Return what was changed and may not be, in words; empty for nothing."""
-        said = self.overstepped.got if self.overstepped is not None else ""
-        return said if " changed " in said else ""
-
     @contextmanager
     def opened(self) -> Iterator["Lab"]:
         """End the child afterwards, whatever happened."""

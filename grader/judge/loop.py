@@ -412,8 +412,8 @@ class CheckLoop:
                 lab.failure = lab.overstepped
             except (NotYet, Broke) as failure:
                 lab.failure = failure
-                if isinstance(failure, NotYet) and lab.trespass and not way.surveys:
-                    failure.got += f"; {lab.trespass}"
+                if isinstance(failure, NotYet) and not way.surveys:
+                    failure.got += name_change(lab)
             except Flaky:  # the lab kept the first failure, if it saw one
                 lab.failure = lab.failure or Broke(lab.running, "another answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
@@ -525,6 +525,12 @@ def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
     raised = [each.raised if isinstance(each, Broke) else None for each in (isolated, alone)]
     errors = [(each.error, each.frames[-1:]) if each is not None else None for each in raised]
     return errors[1] is not None and errors[0] != errors[1]
+
+
+def name_change(lab: Lab) -> str:
+    """Return what a failed check saw changed that must stay, to be added to what it got."""
+    said = lab.overstepped.got if lab.overstepped is not None else ""
+    return f"; {said}" if " changed " in said else ""
 
 
 def last_lines(output: str) -> str:

@@ -22,7 +22,7 @@ class DistanceJoint:
         max = 3
         least = max(1, 2)
         self.k()
-        return other
+        return Vector2(other)
 """
 
 
