@@ -220,3 +220,17 @@ def test_code_outside_of_all_todos_costs_the_whole_alone(hand_in):
     whole = next(todo for todo in result.todos if todo.id == "whole")
     assert 0 < whole.points < whole.max_points
     assert all(check.where and check.meaning for check in whole.failed)
+
+
+def test_the_function_of_every_todo_can_stand_in():
+    """Two programs may each have a function of the same name, such as advance."""
+    todos = {todo.id for todo in load_rubric().todos if todo.function}
+    assert {f"def {todo}" for todo in todos} <= load_stubs().keys()
+
+
+def test_a_todo_without_markers_is_mended_where_two_functions_share_a_name(hand_in):
+    tree, loop = hand_in("starter"), "mini_engine/game_loop.py"
+    for marker in ("    # TODO 6: run whole steps from the accumulator\n", "    # END TODO 6\n"):
+        edited(tree, loop, marker, "")
+    edited(tree, loop, "    world.step(STEP)\n", "    world.step(STEP\n")
+    assert take(tree, tree.parent / "copy").flaws.keys() == {"6"}
