@@ -142,6 +142,11 @@ def explain_undefined(match: Match, error: Error) -> str:
     return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
 
 
+def explain_field(match: Match, error: Error) -> str:
+    arguments = given_arguments().get(f"{match[1]}.__init__")
+    return f"It is {match[1]}({', '.join(arguments)}): look at {match[2]}." if arguments else ""
+
+
 def explain_import(match: Match, error: Error) -> str:
     return f"{match[2]} defines no {match[1]}: it was renamed or removed there."
 
@@ -307,6 +312,7 @@ MIXED = "A vector and a number cannot be added or compared: one coordinate or a 
 
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
+    (r"^(\w+)\.(\w+) is of type \w+; expected", explain_field),
     (r"^ImportError: .*partially initialized", "Two files import each other: drop one import."),
     (r"^ImportError: cannot import name '(\w+)' from '[\w.]+' \((.+?)\)", explain_import),
     (r"^BdbQuit", explain_debugger),

@@ -156,7 +156,8 @@ def show(question: Question) -> str:
 
 
 def capitalise(words: str) -> str:
-    return words[:1].upper() + words[1:]
+    """Begin a sentence; a name of one letter, such as v, stays as it is."""
+    return words if words[1:2] == " " else words[:1].upper() + words[1:]
 
 
 def word(numbers: list[float]) -> str:
