@@ -7,10 +7,11 @@ import ast
 import builtins
 import math
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache, cached_property
+from itertools import islice
 
 from grader.judge.failures import REBOUND
 from grader.judge.submission import handed_out, load_given
@@ -19,6 +20,7 @@ from grader.source.given import given_pieces, imported_names
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
+LONGEST, MOST_KNOWN = 80, 500  # letters of a name, and names that it is compared with
 ENGINE = "mini_engine/"
 NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
 SHAPES = ("Circle", "Box")  # what body.shape may be
@@ -88,10 +90,18 @@ def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
         error = Error(got, "", 0, "", todo)
     for pattern, explain in RULES:
         if match := re.search(pattern, error.words):
-            words = explain if isinstance(explain, str) else explain(match, error)
+            try:
+                words = explain if isinstance(explain, str) else explain(match, error)
+            except (RecursionError, MemoryError):  # code nested beyond all measure
+                return ""
             if words:
                 return words
     return ""
+
+
+def find_similar(name: str, known: Iterable[str], least: float = 0.7) -> list[str]:
+    """Return the name that another one may be meant for, if there is one."""
+    return get_close_matches(name[:LONGEST], islice(known, MOST_KNOWN), 1, least)
 
 
 # ---------------------------------------------------------------- names
@@ -134,7 +144,7 @@ def explain_undefined(match: Match, error: Error) -> str:
         module = file.rpartition("/")[2].removesuffix(".py")
         return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
     known = {*error.values, *error.parameters, *error.around}
-    near = get_close_matches(name, known, 1, 0.7)
+    near = find_similar(name, sorted(known))
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
     given = ", ".join(error.parameters)
@@ -174,7 +184,7 @@ def explain_attribute(match: Match, error: Error) -> str:
         return f"{name} is a function, not part of a {kind}: write {name}(...)."
     ours = sorted(given_attributes().get(kind, ()))
     starts = [each for each in ours if each.startswith(name)]
-    near = starts or get_close_matches(name, ours, 1, NEAR)
+    near = starts or find_similar(name, ours, NEAR)
     if near:
         return f"A {kind} has no {name}. Is {near[0]} meant?"
     return f"{name} belongs to a {home}, not to a {kind}." if home else ""

@@ -300,14 +300,18 @@ class Grading:
         """Return by TODO which line of its function was changed outside its region, in words."""
         return {each.todo: each.outside for each in self.changed_given(()) if each.outside}
 
-    def read_region(self, todo: Todo) -> tuple[str, str]:
-        """Say which argument a TODO's code gives another value, and which loop may never end."""
+    def read_region(self, todo: Todo) -> tuple[str, str, str]:
+        """Return what the text of a failed TODO shows, in words.
+
+        That is a line outside its region, an argument with another value, and a loop.
+        """
         where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
         if where is None or not path:
-            return "", ""
+            return "", "", ""
         text = read_source(self.submission.folder / where.file)
         rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
         return (
+            self.outside_of_region.get(todo.id, ""),
             REBOUND.format(line=rebound[0], name=rebound[1]) if rebound else "",
             LOOP.format(line=loop[0], text=loop[1]) if loop else "",
         )
@@ -435,8 +439,7 @@ class Grading:
             lambda check: self.names.hint(todo, modules[check.id], check),
             {id: starts[module] for id, module in modules.items() if module in starts},
             self.left.get(todo.id),
-            self.outside_of_region.get(todo.id, ""),
-            *self.read_region(todo),
+            *(self.read_region(todo) if ran else ("", "", "")),
             self.submission.remarks.get(todo.id, ""),
         )
         told = explain(evidence, checks, ran)

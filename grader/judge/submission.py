@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import islice
 from pathlib import Path, PurePath, PurePosixPath
 
 import msgspec
@@ -35,6 +36,7 @@ from grader.source.regions import (
 MAX_FILES = 500
 MAX_BYTES = 20 * 1024 * 1024
 MAX_SEEN = 20_000  # files and folders that are looked at
+MAX_COPIES = 20  # files beside the programs that are looked into
 MAX_DEPTH = 40  # folders in each other
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
 FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
@@ -347,26 +349,39 @@ def note_remarks(
     submission: Submission, rubric: Rubric, stubs: dict[str, str], texts: dict[Path, str]
 ) -> None:
     """Note what else may be why a TODO has no code: it is in a copy, or its file is missing."""
-    program = submission.program
-    loaded = {program.paths[part] for each in rubric.todos for part in program.loaded(each.module)}
-    written = {
-        region.id: path
-        for path, text in texts.items()
-        if path not in loaded and not module_of(path).endswith("_old")
-        for region in read_regions(text)[0]
-        if region.shape != stubs.get(region.id)
-    }
-    for todo in rubric.todos:
-        found, where = written.get(todo.id), submission.where.get(todo.id)
-        has_none = todo.id not in submission.functions or not submission.begun[todo.id]
-        if not todo.function or not has_none or todo.id in submission.remarks:
-            continue
+    lacking = [
+        todo
+        for todo in rubric.todos
+        if todo.function
+        and todo.id not in submission.remarks
+        and (todo.id not in submission.functions or not submission.begun[todo.id])
+    ]
+    copies = find_copies(submission, {todo.id for todo in lacking}, stubs, texts)
+    for todo in lacking:
+        found, where = copies.get(todo.id), submission.where.get(todo.id)
         if found is not None:
             file = where.file if where else f"{todo.module}.py"
             words = COPY.format(id=todo.id, copy=found.as_posix(), file=file)
             submission.remarks[todo.id] = words
         elif where is not None and where.file in submission.supplied:
             submission.remarks[todo.id] = SUPPLIED.format(file=where.file)
+
+
+def find_copies(
+    submission: Submission, ids: set[str], stubs: dict[str, str], texts: dict[Path, str]
+) -> dict[str, Path]:
+    """Return by TODO a file that no program loads, in which more than its stub stands."""
+    program = submission.program
+    modules = dict.fromkeys(todo.module for todo in load_rubric().todos)
+    loaded = {program.paths[part] for module in modules for part in program.loaded(module)}
+    others = [path for path in texts if path not in loaded and not path.stem.endswith("_old")]
+    with_regions = (path for path in others if ids and "# END TODO" in texts[path])
+    return {
+        region.id: path
+        for path in islice(with_regions, MAX_COPIES)
+        for region in read_regions(texts[path])[0]
+        if region.id in ids and region.shape != stubs.get(region.id)
+    }
 
 
 def first_code_line(region: Region) -> int:

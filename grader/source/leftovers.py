@@ -67,8 +67,8 @@ def show(line: str) -> str:
 def find_leftover(text: str, todo: str, stub: str) -> Leftover | None:
     """Return the stub's statements at one end of a region; None where there is nothing else."""
     region, own = region_of(text, todo)
-    old = [ast.dump(each) for each in statements(textwrap.dedent(stub))]
-    shapes = [ast.dump(each) for each in own]
+    old = [*map(dumped, statements(textwrap.dedent(stub)))]
+    shapes = [*map(dumped, own)]
     left = [each for each, shape in zip(own, shapes, strict=True) if shape in old]
     at_an_end = bool(left) and (left[0] is own[0] or left[-1] is own[-1])
     if region is None or not at_an_end or len(left) == len(own):
@@ -79,6 +79,14 @@ def find_leftover(text: str, todo: str, stub: str) -> Leftover | None:
     for number in numbers:
         lines[number] = ""
     return Leftover(numbers[0] + 1, numbers[-1] + 1, shown, "\n".join(lines) + "\n")
+
+
+def dumped(node: ast.stmt) -> str:
+    """Return what is equal for equal statements; empty for one nested beyond all measure."""
+    try:
+        return ast.dump(node)
+    except (RecursionError, MemoryError):
+        return ""
 
 
 def find_dead_end(text: str, todo: str, path: str) -> DeadEnd | None:

@@ -62,3 +62,10 @@ def test_an_argument_with_fields_keeps_its_value():
 def test_the_first_loop_is_the_one_to_look_at():
     assert find_loop(function("while x > 0:", "    pass"), "6") == (3, "while x > 0:")
     assert find_loop(function("for _ in range(3):", "    pass"), "6") is None
+
+
+def test_code_nested_beyond_all_measure_is_read_all_the_same():
+    text = function("y = " + "+".join(["x"] * 900), "while x:", "    pass", "steps = 1")
+    left = find_leftover(text, "6", STUB)
+    assert (left and left.text) == "steps = 1" and find_loop(text, "6") == (4, "while x:")
+    assert find_dead_end(text, "6", "work") is None
