@@ -152,6 +152,11 @@ def explain_undefined(match: Match, error: Error) -> str:
     return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
 
 
+def explain_math(match: Match, error: Error) -> str:
+    near = find_similar(match[1], dir(math), NEAR)
+    return f"math has no {match[1]}." + (f" Is {near[0]} meant?" if near else "")
+
+
 def explain_field(match: Match, error: Error) -> str:
     arguments = given_arguments().get(f"{match[1]}.__init__")
     return f"It is {match[1]}({', '.join(arguments)}): look at {match[2]}." if arguments else ""
@@ -339,6 +344,7 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
         "What stands before the dot is None: a function without return gives one.",
     ),
     (r"^AttributeError: '([\w.]+)' object has no attribute '(\w+)'", explain_attribute),
+    (r"^AttributeError: module 'math' has no attribute '(\w+)'", explain_math),
     (r"^TypeError: '([\w.]+)' object is not callable", explain_not_callable),
     (
         r"^TypeError: .*(NoneType|\bNone\b)",

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
-from grader.judge.wording import NAMES, command, named_reasons, place_of, task_of, total
+from grader.judge.wording import NAMES, command, named_reasons, task_of, total
 from grader.report.terminal import (
     MARGIN,
     MAX_COLUMNS,
@@ -145,11 +145,10 @@ class Screen:
 
     def explain(self, todo: TodoResult, check: CheckResult, room: int) -> list[str]:
         """Return why a check failed: a line for each text, and the rest of `room` for the cause."""
-        said = named_place(todo, check)
         texts = {
             name: wrap(f"{' ' * MARGIN}{name:<{NAMES}}{clean(text)}", self.console, MARGIN + NAMES)
             for name, text in named_reasons(check, task_of(todo))
-            if text not in SAID_ELSEWHERE and not text.startswith(READING) and text != said
+            if text not in SAID_ELSEWHERE and not text.startswith(READING)
         }
         free = room - len(texts)
         again = write_rerun(check, self.replays, self.console)
@@ -167,13 +166,6 @@ class Screen:
             whole = len(kept) == len(text)
             shown[name] = kept if whole else [*kept[:-1], self.cut(kept[-1], 2) + " …"]
         return [*(line for name in texts for line in shown[name]), *again, *replay]
-
-
-def named_place(todo: TodoResult, check: CheckResult) -> str:
-    """Return the place to look at if *Got* names it already; else empty."""
-    place = check.where
-    named = place is not None and f"(in {place.file}, line {place.line}: " in check.got
-    return f"{place_of(check)}{task_of(todo)}" if named else ""
 
 
 def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | None:

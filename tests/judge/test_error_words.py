@@ -61,6 +61,7 @@ def told(error: str, line: int, todo: str = "3") -> str:
             "a",
         ),
         ("TypeError: 'float' object cannot be interpreted as an integer", 13, "int(...)"),
+        ("AttributeError: module 'math' has no attribute 'exq'", 13, "Is exp meant?"),
         ("BdbQuit: ", 13, "breakpoint()"),
         ("SystemExit: ", 13, "return"),
         ("ValueError: nobody knows this one", 13, ""),
