@@ -58,7 +58,7 @@ class Body:
         *("shape", "radius", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w"),
-        *("id", "world", "bullet", "idle", "asleep", "still", "island"),
+        *("id", "world", "bullet", "idle", "asleep", "still", "island", "joint_count"),
     )
 
     def __init__(
@@ -83,6 +83,7 @@ class Body:
         self.shape = shape
         self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
+        self.joint_count = 0  # of the world's joints that are tied to it
         self.restitution_given = self.friction_given = False
         self.e, self.mu = RESTITUTION, FRICTION
         if restitution is not None:

@@ -4,6 +4,8 @@ from operator import attrgetter
 
 from .body import Body
 
+FAR = 0.25  # radii; a ball that has moved further in a step is fast
+
 
 class Bounds:
     """The bounding box of a body, along the axis of the sweep and across it."""
@@ -13,7 +15,7 @@ class Bounds:
     def __init__(self, body: Body, place: int) -> None:
         self.body = body
         self.place = place  # in the world's list
-        self.x = self.y = 0.0  # px, of the body when contacts were last found
+        self.x, self.y = body.x, body.y  # px, when contacts were last found
         self.low = self.high = self.side_low = self.side_high = 0.0  # px
 
     def update(self, upright: bool, margin: float) -> None:
@@ -27,6 +29,15 @@ class Bounds:
         else:
             self.low, self.high = x - hx - margin, x + hx
             self.side_low, self.side_high = y - hy - margin, y + hy
+
+    def cover_way(self, upright: bool, x: float, y: float) -> None:
+        """Widen the box to cover the way from (x, y) as well."""
+        along, across = x - self.x, y - self.y
+        if upright:
+            along, across = across, along
+        self.low, self.high = self.low + min(along, 0.0), self.high + max(along, 0.0)
+        self.side_low += min(across, 0.0)
+        self.side_high += max(across, 0.0)
 
     def begins_before(self, other: "Bounds") -> bool:
         """Return whether the sweep comes to this box first."""
@@ -52,6 +63,7 @@ class BroadPhase:
         self.bounds: list[Bounds] = []  # in the order of the last sweep
         self.sorted = False
         self.upright = False  # whether the sweep goes along y
+        self.covers_ways = False  # whether boxes of fast balls cover their ways
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
@@ -66,8 +78,11 @@ class BroadPhase:
         left, right = min([b.x - b.hx for b in awake]) - margin, max([b.x + b.hx for b in awake])
         top, bottom = min([b.y - b.hy for b in awake]) - margin, max([b.y + b.hy for b in awake])
         upright = bottom - top > right - left
-        for one in self.bounds:
-            one.update(upright, margin)
+        if self.covers_ways:
+            self.update_fast(upright, margin)
+        else:
+            for one in self.bounds:
+                one.update(upright, margin)
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
@@ -88,6 +103,14 @@ class BroadPhase:
                         pairs.append((a, b) if a.id > b.id else (b, a))
             active.append(one)
         return pairs
+
+    def update_fast(self, upright: bool, margin: float) -> None:
+        """Update the boxes, those of fast balls with their ways."""
+        for one in self.bounds:
+            x, y = one.x, one.y
+            one.update(upright, margin)
+            if abs(one.x - x) + abs(one.y - y) > FAR * one.body.hx:
+                one.cover_way(upright, x, y)
 
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them."""

@@ -41,7 +41,7 @@ class Bullets(Effect):
         if self.bullets:
             for c in self.contacts.touching:
                 if (c.a.bullet or c.b.bullet) and c.closing_speed() > RESTING_SPEED:
-                    self.contacts.apply_impact(c, c.closing_speed())
+                    c.push_apart(c.mn * c.closing_speed())
 
     def prepare(self, h: float) -> None:
         self.starts = [(bullet, bullet.x, bullet.y) for bullet in self.bullets]

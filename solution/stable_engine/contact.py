@@ -21,7 +21,7 @@ class Contact:
 
     __slots__ = (
         *("a", "b", "nx", "ny", "found", "gap", "reach", "jn", "jt", "mn", "mt", "mu", "e", "push"),
-        *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw"),
+        *("ax", "ay", "bx", "by", "tax", "tay", "aw", "tbx", "tby", "bw", "arm_a", "arm_b"),
     )
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -41,6 +41,7 @@ class Contact:
         self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
         self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins
+        self.arm_a = self.arm_b = 0.0  # px, from the centres to where they touch
 
     @property
     def normal(self) -> Vector2:
@@ -51,6 +52,15 @@ class Contact:
         """Return how fast A and B come together, in px/s."""
         a, b = self.a, self.b
         return (a.vx - b.vx) * self.nx + (a.vy - b.vy) * self.ny
+
+    def push_apart(self, j: float) -> None:
+        """Push A and B apart with an impulse j (kg px/s) along the normal."""
+        a, b = self.a, self.b
+        px, py = self.nx * j, self.ny * j
+        a.vx -= px * a.inv_mass
+        a.vy -= py * a.inv_mass
+        b.vx += px * b.inv_mass
+        b.vy += py * b.inv_mass
 
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:

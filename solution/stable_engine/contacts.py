@@ -4,11 +4,11 @@ from collections.abc import Callable
 from math import hypot
 
 from .body import Body
-from .broad_phase import Bounds, BroadPhase
+from .broad_phase import FAR, Bounds, BroadPhase
 from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .soft import SAME_DIRECTION, Pace, softness
-from .sweep import NO_HIT, first_hit, stop_at_first_hit
+from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
 from .validate import refuse
 
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
@@ -52,7 +52,11 @@ class Contacts(Effect):
         self.on_hit = on_hit
         self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
         self.touching: list[Contact] = []
+        self.begun: list[Contact] = []  # those of touching that are new in this step
         self.changed = False  # whether contacts are new in this step, so that rows must be too
+        self.lets_none_pass = False  # whether balls that touched on their way count: for Bounce
+        self.last_dt = 0.0  # s, of the step before
+        self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
         self.broad_phase = BroadPhase()
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups = [self.balls, self.statics]
@@ -65,12 +69,12 @@ class Contacts(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.begin_contact_hooks = world.hooks("begin_contact")
-        self.after_impact_hooks = world.hooks("after_impact")
 
     def detect(self, h: float) -> None:
         bodies = self.world.bodies
         is_new = len(self.broad_phase.bounds) < len(bodies)
         self.changed = is_new or self.any_moved()
+        self.begun = []
         if is_new:
             self.broad_phase.take(bodies)
         if self.changed:
@@ -93,10 +97,14 @@ class Contacts(Effect):
         """
         margin = SPECULATIVE_SPEED * dt
         cache, found, deep = self.cache, {}, []
-        for a, b in self.broad_phase.near_pairs(self.world.awake, margin):
+        pairs = self.broad_phase.near_pairs(self.world.awake, margin)
+        any_fast = self.broad_phase.covers_ways
+        for a, b in pairs:
             nx, ny, gap = collide(a, b)
-            if gap > TOUCHING and (
-                gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED
+            if (
+                gap > TOUCHING
+                and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED)
+                and not (any_fast and self.have_passed(a, b))
             ):
                 continue
             pair = a.id, b.id
@@ -105,6 +113,7 @@ class Contacts(Effect):
                 if pair in self.ignored:
                     continue
                 c = self.new_contact(a, b)
+                self.begun.append(c)
                 if self.on_hit:
                     c.nx, c.ny = nx, ny
                     self.hits.append((a, b, max(c.closing_speed(), 0.0)))
@@ -121,6 +130,19 @@ class Contacts(Effect):
             share_push(deep)
         return list(found.values())
 
+    def have_passed(self, a: Body, b: Body) -> bool:
+        """Return whether two free balls have touched on their way here, and are past each other."""
+        if (
+            not b.radius
+            or self.last_dt <= 0
+            or a.joint_count
+            or b.joint_count
+            or a.bullet
+            or b.bullet
+        ):
+            return False
+        return moment_of_touch(a, b, self.flown.get(a, self.last_dt))[0] > 0
+
     def new_contact(self, a: Body, b: Body) -> Contact:
         """Return a contact, with what other effects need of it filled in."""
         c = Contact(a, b)
@@ -133,17 +155,6 @@ class Contacts(Effect):
         self.ignored |= pair_both_ways(a, b)
         self.cache = {pair: c for pair, c in self.cache.items() if pair not in self.ignored}
         self.broad_phase.bounds = []
-
-    def apply_impact(self, c: Contact, change: float) -> None:
-        """Raise the speed at which A and B separate by change (px/s), with one impulse at once."""
-        a, b = c.a, c.b
-        jn = c.mn * change
-        a.vx -= c.nx * jn * a.inv_mass
-        a.vy -= c.ny * jn * a.inv_mass
-        b.vx += c.nx * jn * b.inv_mass
-        b.vy += c.ny * jn * b.inv_mass
-        for after_impact in self.after_impact_hooks:
-            after_impact(c, jn)
 
     def prepare(self, h: float) -> None:
         if h != self.h:
@@ -236,8 +247,15 @@ class Contacts(Effect):
 
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
+        self.flown, self.last_dt = {}, h * self.world.substep_count
+        any_fast = False
         for last in self.broad_phase.bounds:
-            self.stop_core(last, h)
+            body = last.body
+            distance = abs(body.x - last.x) + abs(body.y - last.y)
+            if distance > FAR * body.hx:
+                any_fast = True
+                self.stop_core(last, h)
+        self.broad_phase.covers_ways = any_fast and self.lets_none_pass
         for _ in range(CORNER_PASSES):
             put_back = []
             for c in self.statics.contacts:
@@ -308,7 +326,9 @@ class Contacts(Effect):
         statics = self.world.statics
         if self.ignored:
             statics = [s for s in statics if (body.id, s.id) not in self.ignored]
-        stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
+        fraction = stop_at_first_hit(body, start, radius, overlap, statics, self.world.g, h)
+        if fraction < 1:
+            self.flown[body] = fraction * h * self.world.substep_count
 
     def of_body(self, body: Body) -> list[Contact]:
         """Return the contacts of a body, those it sleeps with among them."""

@@ -5,6 +5,7 @@ from math import sqrt
 from .contact import Contact
 from .contacts import Contacts, Group
 from .effect import Effect, WorldState
+from .impacts import CONVERGED, passes_for
 
 
 class Friction(Effect):
@@ -30,17 +31,18 @@ class Friction(Effect):
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
         c.mu = sqrt(a.mu * b.mu)
 
-    def after_impact(self, c: Contact, jn: float) -> None:
-        a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-        slip = (b.vx - a.vx) * tx + (b.vy - a.vy) * ty - (b.w * b.radius + a.w * a.radius)
-        limit = c.mu * jn
-        jt = max(-limit, min(limit, -c.mt * slip))
-        a.vx -= tx * jt * a.inv_mass
-        a.vy -= ty * jt * a.inv_mass
-        a.w -= a.radius * jt * a.inv_inertia
-        b.vx += tx * jt * b.inv_mass
-        b.vy += ty * jt * b.inv_mass
-        b.w -= b.radius * jt * b.inv_inertia
+    def after_impact(self, group: list[Contact], impulses: list[float]) -> None:
+        given = [0.0] * len(group)
+        for _ in range(passes_for(len(group))):
+            largest = 0.0
+            for i, c in enumerate(group):
+                limit = c.mu * impulses[i]
+                jt = max(-limit, min(limit, given[i] - c.mt * slip(c)))
+                change, given[i] = jt - given[i], jt
+                drag(c, change)
+                largest = max(largest, abs(change) - CONVERGED * limit)
+            if largest <= 0:
+                break
 
     def prepare(self, h: float) -> None:
         if not self.contacts.changed:
@@ -50,8 +52,11 @@ class Friction(Effect):
         for group in self.groups:
             for c in group.contacts:
                 a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-                c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, a.radius * a.inv_inertia
-                c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, b.radius * b.inv_inertia
+                # the arms of two balls meet, or they would make spin from nothing
+                half = (c.reach + c.gap - a.radius - b.radius) / 2 if group.moves_b else 0.0
+                c.arm_a, c.arm_b = a.radius + half, b.radius + half
+                c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, c.arm_a * a.inv_inertia
+                c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, c.arm_b * b.inv_inertia
 
     def warm_start(self, h: float) -> None:
         for group in self.groups:
@@ -68,7 +73,15 @@ class Friction(Effect):
                         b.vy += c.tby * jt
                         b.w -= c.bw * jt
 
+    def solve(self, h: float) -> None:
+        """Rub where contacts press now: a pile in which only relax rubbed would never rest."""
+        self.rub()
+
     def relax(self, h: float) -> None:
+        self.rub()
+
+    def rub(self) -> None:
+        """Slow the slip of each contact, as far as its normal impulse allows."""
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:
@@ -76,7 +89,7 @@ class Friction(Effect):
                 if limit or before:
                     a, b = c.a, c.b
                     tx, ty = -c.ny, c.nx
-                    rims = b.w * b.radius + a.w * a.radius
+                    rims = b.w * c.arm_b + a.w * c.arm_a
                     jt = before - c.mt * ((b.vx - a.vx) * tx + (b.vy - a.vy) * ty - rims)
                     if jt > limit:
                         jt = limit
@@ -91,3 +104,21 @@ class Friction(Effect):
                         b.vx += c.tbx * jt
                         b.vy += c.tby * jt
                         b.w -= c.bw * jt
+
+
+def slip(c: Contact) -> float:
+    """Return how fast (px/s) the rim of B moves along the tangent, seen from that of A."""
+    a, b = c.a, c.b
+    rims = b.w * b.radius + a.w * a.radius
+    return (b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims
+
+
+def drag(c: Contact, jt: float) -> None:
+    """Apply an impulse jt (kg px/s) along the tangent, at the rims."""
+    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
+    a.vx -= tx * jt * a.inv_mass
+    a.vy -= ty * jt * a.inv_mass
+    a.w -= a.radius * jt * a.inv_inertia
+    b.vx += tx * jt * b.inv_mass
+    b.vy += ty * jt * b.inv_mass
+    b.w -= b.radius * jt * b.inv_inertia

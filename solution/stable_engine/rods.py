@@ -11,6 +11,7 @@ from .validate import require
 FREQUENCY = 0.25  # of a rod, per substep
 DAMPING_RATIO = 5.0
 STIFFENING = 0.02  # of a substep, per step
+ROUNDING = 1e-9  # share of a length
 TURNING_SHARE = 0.2  # of what relax finds missing, kept for relax; the rest is kept for solve
 
 
@@ -52,7 +53,7 @@ class Rods(Joints[Rod]):
 
     def add(self, rod: Rod) -> None:
         super().add(rod)
-        self.let_touch(rod, rod.rest >= rod.a.radius + rod.b.radius)
+        self.let_touch(rod, may_touch(rod))
 
     def remove(self, rod: Rod) -> None:
         super().remove(rod)
@@ -62,10 +63,10 @@ class Rods(Joints[Rod]):
         super().body_changed(body)
         for rod in self.joints:
             if body in (rod.a, rod.b):
-                self.let_touch(rod, rod.rest >= rod.a.radius + rod.b.radius)
+                self.let_touch(rod, may_touch(rod))
 
     def let_touch(self, rod: Rod, may: bool) -> None:
-        """Let the ends of a rod touch or not: a contact would fight a rod shorter than that."""
+        """Let the ends of a rod touch or not."""
         contacts = self.world.effects.get("Contacts")
         if not isinstance(contacts, Contacts):
             return
@@ -112,3 +113,8 @@ class Rods(Joints[Rod]):
             rod.apply_impulse(j)
             rod.turning += TURNING_SHARE * j
             rod.j += (1 - TURNING_SHARE) * j
+
+
+def may_touch(rod: Rod) -> bool:
+    """Return whether a rod leaves a gap between its ends: a contact would fight a shorter one."""
+    return rod.rest > (rod.a.radius + rod.b.radius) * (1 + ROUNDING)

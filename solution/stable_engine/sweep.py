@@ -15,8 +15,10 @@ def stop_at_first_hit(
     statics: list[Body],
     gravity: tuple[float, float],
     h: float,
-) -> None:
+) -> float:
     """Put a ball back to where it first hit a static body on its way from start, if it did.
+
+    Returns the fraction of its way that it has gone.
 
     The step counts as one straight flight of a ball of this radius (px). Put back, it overlaps by
     overlap px, so that the next step finds the contact and resolves the impact. It keeps its
@@ -27,13 +29,33 @@ def stop_at_first_hit(
     fraction = first_hit(statics, radius, x, y, dx, dy)
     fraction = min(fraction + overlap / hypot(dx, dy), 1.0)
     if fraction == 1:
-        return
+        return 1.0
     body.x, body.y = x + dx * fraction, y + dy * fraction
     gx, gy = gravity
     ux, uy = body.vx + gx * h / 2, body.vy + gy * h / 2  # velocities lag half a substep behind
     speed2, fallen = ux * ux + uy * uy, 2 * (1 - fraction) * (gx * dx + gy * dy)  # px²/s²
     share = sqrt(max(1 - fallen / speed2, 0.0)) if speed2 else 1.0
     body.vx, body.vy = ux * share - gx * h / 2, uy * share - gy * h / 2
+    return fraction
+
+
+def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
+    """Return how long ago (s) a ball began to touch a body, and the unit normal from A to B then.
+
+    Both have flown straight on since. 0 where they did not begin to touch within dt seconds.
+    """
+    vx, vy = (a.vx, a.vy) if b.is_static else (a.vx - b.vx, a.vy - b.vy)
+    dx, dy = vx * dt, vy * dt
+    x, y = a.x - b.x - dx, a.y - b.y - dy
+    hit = hit_circle if b.radius else hit_box
+    fraction = hit(b, a.radius, x, y, dx, dy)
+    if fraction >= NO_HIT:
+        return 0.0, 0.0, 0.0
+    x, y = x + dx * fraction, y + dy * fraction
+    if not b.radius:
+        x, y = x - max(-b.hx, min(x, b.hx)), y - max(-b.hy, min(y, b.hy))
+    distance = hypot(x, y)
+    return (1 - fraction) * dt, -x / distance, -y / distance
 
 
 def first_hit(

@@ -119,6 +119,8 @@ class World(WorldState):
             found = f"tied to a body at {body.pos} that is not in this world"
             require(body.world is self, name, found, "tied to bodies added before")
             body.wake()
+        for body in (joint.a, joint.b):
+            body.joint_count += 1
         effect.add(joint)
 
     def remove(self, thing: Body | Joint) -> None:
@@ -151,6 +153,7 @@ class World(WorldState):
         require(ours, f"World.remove's {type(joint).__name__}", joint, "one that is in this world")
         for body in (joint.a, joint.b):
             body.wake()
+            body.joint_count -= 1
         self.need(joint.effect, joint).remove(joint)
 
     def bodies_at(self, point: Iterable[float]) -> list[Body]:

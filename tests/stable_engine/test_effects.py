@@ -25,6 +25,7 @@ from stable_engine import Body, Circle, Contacts, Rod, Sleep, World
 HERE = Path(__file__).parent
 FILES = {name: {f"{name.lower()}.py"} for name in EFFECTS}
 FILES["Contacts"] |= {"contact.py", "broad_phase.py", "sweep.py"}
+FILES["Bounce"] |= {"impacts.py"}
 
 
 # ---------------------------------------------------------------- undeclared

@@ -1,0 +1,209 @@
+"""Impacts: which come first, which come together, and where the bodies are afterwards."""
+
+from collections.abc import Callable
+from typing import Any
+
+from .body import Body
+from .contact import Contact, collide
+from .contacts import TOUCHING, Contacts
+from .sweep import moment_of_touch
+
+ROUNDS = 20  # per contact: how often impacts are passed on within one step
+SETTLINGS = 3  # each may make impacts due once more
+PASSES = 200  # of the solver for impacts at one moment
+WORK = 4000  # contacts, over all passes of the solver for one large group
+SAME = 1e-9  # share by which times and speeds of one moment may differ
+CONVERGED = 1e-14  # share of an impulse by which the last pass changed it
+
+
+class Impact:
+    """An impact that is due: how long ago (s) the two touched, and their closing speed (px/s)."""
+
+    __slots__ = ("ago", "speed")
+
+    def __init__(self, ago: float, speed: float) -> None:
+        self.ago = ago
+        self.speed = speed
+
+
+class Impacts:
+    """The impacts of one step, until no pair closes in fast any more.
+
+    The earliest comes first, of those at one moment the hardest, and equally hard ones together: so
+    an impact travels through a row of balls, and a mirrored scene stays mirrored. In the end, what
+    still closes in slowly is stopped, all of an island at once.
+
+    A contact is found after the touch. Impulses go along the normal at the touch, and free balls
+    are put where they would be had they bounced then. This keeps angular momentum. A ball on a
+    joint or at a static body stays where it is.
+    """
+
+    def __init__(self, contacts: Contacts, slow: float) -> None:
+        self.touching = contacts.touching
+        self.begun, self.flown = set(contacts.begun), contacts.flown
+        self.last_dt = contacts.last_dt  # s, of the step in which they touched
+        self.slow = slow  # px/s, slower ones are not due
+        self.due: dict[Contact, Impact] = {}
+
+    def find(self) -> None:
+        """Find what is due. A contact that has just begun counts as it was when it touched."""
+        for c in self.touching:
+            self.look(c, c in self.begun)
+
+    def look(self, c: Contact, is_new: bool = False) -> None:
+        """Enter a pair that closes in fast."""
+        self.due.pop(c, None)
+        speed, ago = c.closing_speed(), 0.0
+        if (speed > self.slow and c.gap < 0) or is_new:
+            now = c.nx, c.ny, c.gap
+            ago = self.turn_back(c)
+            speed = c.closing_speed()
+            if speed <= self.slow:
+                c.nx, c.ny, c.gap = now
+        if speed > self.slow:
+            self.due[c] = Impact(ago, speed)
+
+    def turn_back(self, c: Contact) -> float:
+        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
+
+        A ball on a joint has not flown straight: its normal stays.
+        """
+        if self.last_dt <= 0 or c.a.joint_count or c.b.joint_count:
+            return 0.0
+        ago, nx, ny = moment_of_touch(c.a, c.b, self.flown.get(c.a, self.last_dt))
+        if ago > 0 and (nx, ny) != (c.nx, c.ny):
+            c.nx, c.ny = nx, ny
+            c.gap = -c.closing_speed() * ago
+        return ago
+
+    def resolve_all(
+        self,
+        parting_speed: Callable[[Contact, float], float],
+        after_impact_hooks: list[Callable[..., Any]],
+    ) -> None:
+        """Resolve the impacts that are due, and those they lead to.
+
+        parting_speed says how fast (px/s) a contact separates that closes in at a speed.
+        """
+        self.after_impact_hooks = after_impact_hooks
+        self.link()
+        rounds = ROUNDS * len(self.touching)
+        for _ in range(SETTLINGS):
+            reached: dict[Body, float] = {}
+            while self.due and rounds > 0:
+                self.resolve_first(parting_speed, reached)
+                rounds -= 1
+            while reached:
+                self.settle(*reached.popitem(), reached)
+            if not self.due:
+                break
+
+    def resolve_first(
+        self, parting_speed: Callable[[Contact, float], float], reached: dict[Body, float]
+    ) -> None:
+        """Resolve the first impacts that are due, and enter whom they reached, and how long ago."""
+        group, ago = self.take_first()
+        hit = balls_of(group)
+        if not self.free.issuperset(hit):
+            ago = 0.0
+        wanted = [parting_speed(c, c.closing_speed()) for c in group]
+        fly(hit, -ago)
+        self.resolve(group, wanted)
+        fly(hit, ago)
+        for body in hit:
+            reached[body] = ago
+        self.look_around(hit, ago > 0)
+
+    def look_around(self, hit: list[Body], moved: bool) -> None:
+        """Look anew at all contacts of balls that were hit."""
+        for c in dict.fromkeys([c for body in hit for c in self.beside[body]]):
+            if moved:
+                c.nx, c.ny, c.gap = collide(c.a, c.b)
+            self.look(c)
+
+    def link(self) -> None:
+        """Find the contacts of each ball, and the balls that can be put elsewhere."""
+        self.beside: dict[Body, list[Contact]] = {}
+        for c in self.touching:
+            for body in (c.a, c.b):
+                if not body.is_static:
+                    self.beside.setdefault(body, []).append(c)
+        held = {c.a for c in self.touching if c.b.is_static}
+        held |= {body for body in self.beside if body.joint_count or body.bullet}
+        self.free = self.beside.keys() - held
+
+    def take_first(self) -> tuple[list[Contact], float]:
+        """Return the earliest contacts, of these the hardest, and how long (s) ago they touched."""
+        due = self.due
+        earliest = max([impact.ago for impact in due.values()])
+        early = [c for c, impact in due.items() if impact.ago >= earliest - SAME * self.last_dt]
+        hardest = max([due[c].speed for c in early]) * (1 - SAME)
+        return [c for c in early if due[c].speed >= hardest], earliest
+
+    def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
+        """Stop what closes in slowly in the island of a ball, at once, when it was hit."""
+        slow = self.island_of(body, reached)
+        hit = balls_of(slow)
+        if len(slow) < 2:
+            return
+        if ago > 0 and self.free.issuperset(hit):
+            fly(hit, -ago)
+            for c in slow:
+                c.nx, c.ny, c.gap = collide(c.a, c.b)
+            self.resolve(slow, [0.0] * len(slow))
+            fly(hit, ago)
+            self.look_around(hit, True)
+        else:
+            self.resolve(slow, [0.0] * len(slow))
+            self.look_around(hit, False)
+
+    def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
+        """Return the contacts that lead from a ball on. Takes their balls off the reached."""
+        ahead, bodies, found = [body], {body}, dict[Contact, None]()
+        while ahead:
+            for c in self.beside[ahead.pop()]:
+                if c.gap > TOUCHING:
+                    continue
+                found[c] = None
+                for other in (c.a, c.b):
+                    if other not in bodies and not other.is_static:
+                        bodies.add(other)
+                        ahead.append(other)
+                        reached.pop(other, None)
+        return list(found)
+
+    def resolve(self, group: list[Contact], wanted: list[float]) -> None:
+        """Bring contacts to the speeds (px/s) at which they are to separate, or to higher ones.
+
+        Normal impulses come first, then friction with them as its limits: so no energy is created.
+        """
+        impulses = [0.0] * len(group)
+        for _ in range(passes_for(len(group))):
+            largest = 0.0
+            for i, c in enumerate(group):
+                j = max(impulses[i] + c.mn * (wanted[i] + c.closing_speed()), 0.0)
+                change, impulses[i] = j - impulses[i], j
+                c.push_apart(change)
+                largest = max(largest, abs(change) - CONVERGED * j)
+            if largest <= 0:
+                break
+        for after_impact in self.after_impact_hooks:
+            after_impact(group, impulses)
+
+
+def passes_for(count: int) -> int:
+    """Return how many passes over so many contacts may be made."""
+    return 1 if count == 1 else min(PASSES, WORK // count)
+
+
+def balls_of(group: list[Contact]) -> list[Body]:
+    """Return the balls of contacts, each once."""
+    return list(dict.fromkeys([b for c in group for b in (c.a, c.b) if not b.is_static]))
+
+
+def fly(bodies: list[Body], seconds: float) -> None:
+    """Have bodies fly straight on for a time, or back."""
+    for body in bodies:
+        body.x += body.vx * seconds
+        body.y += body.vy * seconds
+        body.angle += body.w * seconds

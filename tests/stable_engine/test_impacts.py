@@ -1,0 +1,217 @@
+"""Impacts: what symmetry, closed forms and conservation laws ask of them.
+
+No threshold comes from what the engine gives. Angles are in degrees, speeds in px/s.
+"""
+
+import math
+
+import pytest
+from worlds_for_tests import balls, build
+
+from experiments.measures import run, watch
+from experiments.scenes import BOUNCE, DT, Ball, Block, Scene, floor
+
+IDEAL = {"restitution": 1.0, "friction": 0.0}
+SMOOTH = ("Contacts", "Bounce")
+ROUNDING = 1e-9  # share of a speed by which two mirrored speeds may differ
+
+
+def mirrored(places, mass, **surface):
+    """Static or moving balls at these places and at their mirror images."""
+    return [Ball((side * x, y), 10, mass, **surface) for x, y in places for side in (-1, 1)]
+
+
+def kinetic(world):
+    """The energy of motion of all balls, in kg px²/s²."""
+    return sum(
+        (b.vx**2 + b.vy**2) * b.mass / 2 + b.omega**2 * b.mass * b.radius**2 / 4
+        for b in balls(world)
+    )
+
+
+def angular_momentum(world):
+    """The angular momentum about the origin, in kg px²/s."""
+    return sum(
+        b.mass * (b.x * b.vy - b.y * b.vx) + b.omega * b.mass * b.radius**2 / 2
+        for b in balls(world)
+    )
+
+
+# ---------------------------------------------------------------- symmetry
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.6])
+@pytest.mark.parametrize("fast", [100.0, 500.0, 1500.0])
+def test_a_ball_leaves_a_symmetric_v_upwards(fast, friction):
+    surface = {"restitution": 1.0, "friction": friction}
+    reach = 20.0  # of two radii of 10 px, along normals 30° off upright
+    pegs = mirrored([(reach * math.sin(math.radians(30)), 0.0)], 0.0, **surface)
+    ball = Ball((0, -200), vel=(0, fast), **surface)
+    world = build(Scene([*pegs, ball], gravity=(0, 0)), *BOUNCE)
+    run(world, 300 / fast)
+    after = balls(world)[0]
+    assert after.vy < 0
+    assert abs(after.vx) < ROUNDING * fast
+    if friction == 0:
+        assert after.vy == pytest.approx(-fast, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.6])
+def test_a_ball_on_two_touching_balls_parts_them_evenly(friction):
+    """Without friction: v (m V² conserved) as for a rack of three, by momentum and energy."""
+    surface = {"restitution": 1.0, "friction": friction}
+    pair = mirrored([(10.0, 0.0)], 1.0, **surface)
+    world = build(
+        Scene([*pair, Ball((0, -100), vel=(0, 300.0), **surface)], gravity=(0, 0)), *BOUNCE
+    )
+    run(world, 0.6)
+    left, right, ball = balls(world)
+    assert abs(ball.vx) < ROUNDING * 300
+    assert (left.vx, left.vy) == pytest.approx((-right.vx, right.vy), abs=ROUNDING * 300)
+    if friction == 0:
+        assert ball.vy == pytest.approx(-300 / 5, rel=0.05)
+        assert right.vy == pytest.approx(6 * 300 / 10, rel=0.05)
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.95, 0.9])
+def test_a_mirrored_break_stays_mirrored(restitution):
+    surface = {"restitution": restitution, "friction": 0.0}
+    way = math.sqrt(3) * 10
+    rack = [
+        Ball((20 * (i - row / 2), way * row), **surface) for row in range(5) for i in range(row + 1)
+    ]
+    cue = Ball((0, -150), vel=(0, -1500.0 * -1), **surface)
+    world = build(Scene([*rack, cue], gravity=(0, 0)), *SMOOTH)
+    run(world, 0.5)
+    moved = balls(world)[:-1]
+    for row in range(5):
+        first = row * (row + 1) // 2
+        for i in range(row + 1):
+            one, other = moved[first + i], moved[first + row - i]
+            assert (one.x, one.y) == pytest.approx((-other.x, other.y), abs=1e-6)
+
+
+def test_a_mirrored_drop_stays_mirrored():
+    surface = {"restitution": 0.5, "friction": 0.3}
+    pegs = mirrored([(25, 0), (60, 20), (90, 40)], 0.0, **surface)
+    falling = mirrored([(12, -100), (36, -130), (60, -160), (84, -190)], 1.0, **surface)
+    world = build(Scene([floor(), *pegs, *falling]), *BOUNCE)
+    world.bodies[0].pos = (0, 700)
+    run(world, 0.6)
+    moved = balls(world)
+    for left, right in zip(moved[::2], moved[1::2], strict=True):
+        assert (left.x, left.y) == pytest.approx((-right.x, right.y), abs=1e-6)
+
+
+# ---------------------------------------------------------------- oblique hits
+
+
+def oblique(degrees, fast, start, friction=0.0, mass=1.0, restitution=1.0):
+    """A ball that flies along x at another one at rest; the normal is that far off its way."""
+    off = 20 * math.sin(math.radians(degrees))
+    surface = {"restitution": restitution, "friction": friction}
+    bodies = [Ball((0, 0), 10, mass, **surface), Ball((-start, -off), vel=(fast, 0), **surface)]
+    return Scene(bodies, gravity=(0, 0))
+
+
+@pytest.mark.parametrize("fast", [30.5, 100.0, 500.0, 1000.0, 1500.0])
+@pytest.mark.parametrize("degrees", [0, 15, 30, 45, 60, 75, 85])
+def test_an_oblique_elastic_hit_leaves_along_the_normal_at_touch(degrees, fast):
+    for phase in range(8):
+        world = build(oblique(degrees, fast, 60 + phase * fast * DT / 8), *SMOOTH)
+        run(world, 120 / fast)
+        struck, ball = balls(world)
+        if fast * math.cos(math.radians(degrees)) < 30:
+            continue  # too slow to bounce
+        assert math.degrees(math.atan2(struck.vy, struck.vx)) == pytest.approx(degrees, abs=0.01)
+        assert math.hypot(struck.vx, struck.vy) == pytest.approx(
+            fast * math.cos(math.radians(degrees)), rel=1e-6
+        )
+        way = math.degrees(math.atan2(ball.vy, ball.vx)) - (degrees - 90)
+        assert degrees == 0 or way == pytest.approx(0, abs=0.01)
+
+
+@pytest.mark.parametrize("degrees", [15, 45, 70])
+@pytest.mark.parametrize("fast", [100.0, 500.0, 1500.0])
+def test_a_ball_leaves_a_peg_as_light_leaves_a_mirror(degrees, fast):
+    for phase in range(8):
+        world = build(oblique(degrees, fast, 60 + phase * fast * DT / 8, mass=0.0), *SMOOTH)
+        run(world, 120 / fast)
+        (ball,) = balls(world)
+        turned = math.degrees(math.atan2(-ball.vy, -ball.vx))
+        assert turned == pytest.approx(2 * degrees, abs=0.01)
+        assert math.hypot(ball.vx, ball.vy) == pytest.approx(fast, rel=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 45, 70])
+@pytest.mark.parametrize("fast", [100.0, 500.0, 1500.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_a_rough_hit_keeps_angular_momentum_and_creates_no_energy(degrees, fast, restitution):
+    for mass in (0.1, 1.0, 10.0):
+        for phase in range(4):
+            start = 60 + phase * fast * DT / 4
+            world = build(oblique(degrees, fast, start, 0.8, mass, restitution), *BOUNCE)
+            for body in balls(world):
+                body.omega = 7.0
+            before, most = angular_momentum(world), kinetic(world)
+            whole = abs(before) + 20 * fast
+            for _ in range(round(120 / fast / DT)):
+                world.step(DT)
+                assert angular_momentum(world) == pytest.approx(before, abs=1e-6 * whole)
+                assert kinetic(world) < most * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("effects", [("Rods",), ("Contacts", "Friction", "Rods")])
+def test_a_ring_of_rods_keeps_its_angular_momentum(effects):
+    count, far = 12, 20 / (2 * math.sin(math.pi / 12))
+    ring = []
+    for i in range(count):
+        x, y = math.cos(2 * math.pi * i / count), math.sin(2 * math.pi * i / count)
+        ring.append(Ball((far * x, far * y), vel=(-300 * y, 300 * x), omega=3.0 * (i % 2)))
+    rods = [(i, (i + 1) % count) for i in range(count)]
+    world = build(Scene(ring, effects, rods, gravity=(0, 0)))
+    before = angular_momentum(world)
+    seen = watch(world, 5, lambda: angular_momentum(world))
+    assert max(abs(now / before - 1) for now in seen) < 1e-6
+
+
+# ---------------------------------------------------------------- rows of balls
+
+
+@pytest.mark.parametrize("count", [2, 5])
+def test_a_column_that_falls_on_the_floor_keeps_its_energy(count):
+    column = [Ball((0, -110 - 20 * i), **IDEAL) for i in range(count)]
+    world = build(Scene([floor(**IDEAL), *column]), *SMOOTH)
+    h = DT / world.substeps
+
+    def energy():
+        return sum((b.vy + 980 * h / 2) ** 2 / 2 - 980 * b.y for b in balls(world))
+
+    start = energy()
+    for now in watch(world, 3, energy):
+        assert now == pytest.approx(start, rel=1e-3)
+
+
+@pytest.mark.parametrize("moving", [1, 2, 3])
+def test_as_many_balls_leave_a_cradle_as_come(moving):
+    row = [Ball((20 * i, 0), **IDEAL) for i in range(5)]
+    for i in range(moving):
+        row[i].pos, row[i].vel = (20 * i - 50, 0), (300.0, 0)
+    world = build(Scene(row, gravity=(0, 0)), *SMOOTH)
+    run(world, 1)
+    exact = [300.0 * (i >= 5 - moving) for i in range(5)]
+    assert [ball.vx for ball in balls(world)] == pytest.approx(exact, abs=1e-6)
+
+
+def test_a_box_of_elastic_balls_creates_no_energy():
+    walls = [Block((0, y), (300, 50), **IDEAL) for y in (-250, 250)]
+    walls += [Block((x, 0), (50, 300), **IDEAL) for x in (-250, 250)]
+    gas = [
+        Ball((40 * i - 160, 40 * j - 160), vel=(97.0 * i - 300, 83.0 * j - 371), **IDEAL)
+        for i in range(9)
+        for j in range(9)
+    ]
+    world = build(Scene([*walls, *gas], gravity=(0, 0)), *SMOOTH)
+    before = kinetic(world)
+    seen = watch(world, 2, lambda: kinetic(world))
+    assert max(seen) < before * (1 + 1e-9)
