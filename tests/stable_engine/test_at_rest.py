@@ -1,0 +1,61 @@
+"""Piles come to rest: what lies still stays still, and sleeps."""
+
+import math
+
+import pytest
+from worlds_for_tests import balls, build
+
+from experiments.measures import run
+from experiments.scenes import BOUNCE, TOUCH, Ball, Scene, pile, slot
+
+AT_REST = 0.1  # px/s
+
+
+def neat(rows, columns, packed=True):
+    """Equal balls in rows, each between two of the row below it or right above one."""
+    radius, rise = 10.0, math.sqrt(3) * 10 if packed else 20.0
+    width = 20.0 * columns + radius * packed
+    left = -width / 2 + radius
+    row = [
+        Ball((left + 20 * i + radius * packed * (j % 2), -radius - rise * j))
+        for j in range(rows)
+        for i in range(columns)
+    ]
+    return Scene([*slot(width, 20 * (rows + 5)), *row])
+
+
+def fastest(world):
+    """The highest speed of any centre or rim, in px/s."""
+    return max(max(math.hypot(*ball.vel), abs(ball.omega) * ball.radius) for ball in balls(world))
+
+
+SIZES = [(5, 10), *(pytest.param(n, 40, marks=pytest.mark.soak) for n in (5, 8, 15))]
+
+
+@pytest.mark.parametrize("packed", [True, False])
+@pytest.mark.parametrize(("rows", "columns"), SIZES)
+def test_a_neat_pile_rests_and_sleeps(rows, columns, packed):
+    scene = neat(rows, columns, packed)
+    sleepy = build(scene, *TOUCH, "Sleep")
+    run(sleepy, 10)
+    assert sleepy.awake == []
+    world = build(scene, *TOUCH)
+    run(world, 10)
+    assert fastest(world) < AT_REST
+
+
+RAINED = [(40, 200), pytest.param(200, 600, marks=pytest.mark.soak)]
+
+
+@pytest.mark.parametrize("effects", [TOUCH, BOUNCE])
+@pytest.mark.parametrize(("count", "width"), RAINED)
+def test_a_rained_pile_rests_and_sleeps(count, width, effects):
+    scene = pile(count, width)
+    for body in scene.bodies:
+        body.restitution = 0.3
+    world = build(scene, *effects)
+    run(world, 10)
+    assert fastest(world) < AT_REST
+    sleepy = build(scene, *effects, "Sleep")
+    run(sleepy, 10)
+    assert sleepy.awake == []
