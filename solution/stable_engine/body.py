@@ -23,6 +23,14 @@ class Listeners:
     body_changed_hooks: list[Callable[..., Any]]
     lighter_hooks: list[Callable[..., Any]]
 
+    def set_bullet(self, body: Body, value: bool) -> None:
+        """Have a body be a bullet or not."""
+        raise NotImplementedError
+
+    def look_again(self, body: Body) -> None:
+        """Check in the next step what was set of this body."""
+        raise NotImplementedError
+
 
 class Island:
     """Bodies that fell asleep together and wake together. on_wake is called when they do."""
@@ -32,14 +40,14 @@ class Island:
         self.on_wake = on_wake
         for body in bodies:
             body.island = self
-            body.asleep = body.idle = True
+            body.sleeps = body.idle = True
             body.vx = body.vy = body.w = 0.0
 
     def wake(self) -> None:
         """Wake all its bodies."""
         for body in self.bodies:
             body.island = None
-            body.asleep = body.idle = False
+            body.sleeps = body.idle = False
             body.still = 0.0
         self.on_wake()
 
@@ -55,10 +63,10 @@ class Body:
     """
 
     __slots__ = (
-        *("shape", "radius", "hx", "hy", "m", "inv_mass", "inv_inertia"),
+        *("outline", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w"),
-        *("id", "world", "bullet", "idle", "asleep", "still", "island", "joint_count"),
+        *("id", "world", "is_bullet", "idle", "sleeps", "still", "calm", "island", "joint_count"),
     )
 
     def __init__(
@@ -74,13 +82,13 @@ class Body:
         require(mass > 0 or not bullet, "Body.mass", mass, "above 0 for a bullet")
         if isinstance(shape, Box):
             require(mass == 0, "Body.mass", mass, "0 for a Box, which is always static")
-            self.radius = 0.0
+            self.r = 0.0
             self.hx, self.hy = shape.half  # px, half extents of the bounding box
         elif isinstance(shape, Circle):
-            self.radius = self.hx = self.hy = shape.radius
+            self.r = self.hx = self.hy = shape.radius  # px
         else:
             refuse("Body.shape", shape, "a Circle or a Box")
-        self.shape = shape
+        self.outline = shape
         self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
         self.joint_count = 0  # of the world's joints that are tied to it
@@ -96,10 +104,11 @@ class Body:
         self.angle = 0.0  # rad, clockwise on the screen
         self.w = 0.0  # rad/s
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
-        self.bullet = bullet
+        self.is_bullet = bullet
         self.idle = mass == 0  # static or asleep
-        self.asleep = False
-        self.still = 0.0  # s, how long it has been below STILL_SPEED
+        self.sleeps = False
+        self.still = 0.0  # s, how long it has been slow enough to sleep
+        self.calm = 0.0  # px²/s², its speed when that began, squared
 
     def __repr__(self) -> str:
         mass = f", mass={self.m:g}, vel=({self.vx:g}, {self.vy:g})" if self.m else ""
@@ -107,13 +116,44 @@ class Body:
 
     def weigh(self, mass: float) -> None:
         """Take over a mass, and the inertia of a disc of that mass."""
-        twice = mass * (self.radius * self.radius)  # kg px², its inertia
+        twice = mass * (self.r * self.r)  # kg px², its inertia
         if mass and not (LEAST < mass < 1 / LEAST and LEAST < twice < 1 / LEAST):
-            found = f"{mass:g} with a radius of {self.radius:g}"
+            found = f"{mass:g} with a radius of {self.r:g}"
             require(False, "Body.mass", found, "neither so tiny nor so huge")
         self.m = float(mass)  # kg
         self.inv_mass = 1 / mass if mass else 0.0  # 1/kg
         self.inv_inertia = 2 / twice if mass else 0.0  # 1/(kg px²)
+
+    @property
+    def shape(self) -> Circle | Box:
+        """Return the shape, which stays the same."""
+        return self.outline
+
+    @property
+    def radius(self) -> float:
+        """Return the radius in px, 0 for a box."""
+        return self.r
+
+    @property
+    def asleep(self) -> bool:
+        """Return whether it lies still and is left out of the step."""
+        return self.sleeps
+
+    @property
+    def bullet(self) -> bool:
+        """Return whether it is stopped where it first touches a static body, however fast it is.
+
+        Setting it raises ValueError for a static body, and in a world without Bullets().
+        """
+        return self.is_bullet
+
+    @bullet.setter
+    def bullet(self, value: bool) -> None:
+        require(not (value and self.is_static), "Body.mass", 0, "above 0 for a bullet")
+        if self.world and bool(value) != self.is_bullet:
+            self.world.set_bullet(self, bool(value))
+        self.is_bullet = bool(value)
+        self.moved()
 
     @property
     def is_static(self) -> bool:
@@ -211,8 +251,8 @@ class Body:
         """Return whether a point (px) is in the body or on its edge."""
         x, y = pair("Body.contains's point", point)
         dx, dy = x - self.x, y - self.y
-        if self.radius:
-            return hypot(dx, dy) <= self.radius
+        if self.r:
+            return hypot(dx, dy) <= self.r
         return abs(dx) <= self.hx and abs(dy) <= self.hy
 
     def wake(self) -> None:
@@ -223,7 +263,10 @@ class Body:
     def moved(self) -> None:
         """Wake this body; if it is static, also wake what rested on it or touches it now."""
         self.wake()
-        if self.is_static and self.world:
+        if self.world is None:
+            return
+        self.world.look_again(self)
+        if self.is_static:
             for static_moved in self.world.static_moved_hooks:
                 static_moved(self)
 
@@ -231,6 +274,7 @@ class Body:
         """Wake, and have the effects take over what was set."""
         self.wake()
         if self.world:
+            self.world.look_again(self)
             for body_changed in self.world.body_changed_hooks:
                 body_changed(self)
 

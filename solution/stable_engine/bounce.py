@@ -20,6 +20,7 @@ class Bounce(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
+        self.resting_speed = RESTING_SPEED * world.unit
         self.contacts.lets_none_pass = True
         self.after_impact_hooks = world.hooks("after_impact")
 
@@ -32,16 +33,16 @@ class Bounce(Effect):
     def impact(self, h: float) -> None:
         touching = self.contacts.touching
         fastest = max([abs(c.closing_speed()) for c in touching], default=0)
-        if fastest <= RESTING_SPEED and not self.contacts.begun:
+        if fastest <= self.resting_speed and not self.contacts.begun:
             return
         self.h = h
-        impacts = Impacts(self.contacts, RESTING_SPEED)
+        impacts = Impacts(self.contacts, self.resting_speed)
         impacts.find()
         if impacts.due:
             impacts.resolve_all(self.parting_speed, self.after_impact_hooks)
         self.contacts.changed = True
         for c in touching:
-            if c.gap < 0 and separating(c):
+            if c.gap < 0 and self.is_separating(c):
                 c.gap = 0.0
 
     def parting_speed(self, c: Contact, closing: float) -> float:
@@ -62,12 +63,10 @@ class Bounce(Effect):
         crossing = max(speed * speed - fallen, 0.0)
         return sqrt(max(c.e * c.e * crossing + fallen, 0.0)) + lag
 
+    def is_separating(self, c: Contact) -> bool:
+        """Return whether a pair has bounced off. Pushed out as well, it would rise higher.
 
-def separating(c: Contact) -> bool:
-    """Return whether a pair has bounced off. The solver must not push it out as well, or it rises
-    higher.
-
-    So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that still
-    moves towards the wall would press the ball into it.
-    """
-    return c.closing_speed() < -RESTING_SPEED
+        So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that
+        still moves towards the wall would press the ball into it.
+        """
+        return c.closing_speed() < -self.resting_speed

@@ -25,12 +25,13 @@ class Bullets(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
+        self.resting_speed = RESTING_SPEED * world.unit
 
     def add(self, body: Body) -> None:
         self.bullets.append(body)
 
     def forget(self, body: Body) -> None:
-        if body.bullet:
+        if body.is_bullet:
             self.bullets.remove(body)
 
     def is_used(self) -> bool:
@@ -40,7 +41,7 @@ class Bullets(Effect):
         """Stop a bullet that did not bounce: a soft contact would give way too far."""
         if self.bullets:
             for c in self.contacts.touching:
-                if (c.a.bullet or c.b.bullet) and c.closing_speed() > RESTING_SPEED:
+                if (c.a.is_bullet or c.b.is_bullet) and c.closing_speed() > self.resting_speed:
                     c.push_apart(c.mn * c.closing_speed())
 
     def prepare(self, h: float) -> None:
@@ -48,6 +49,6 @@ class Bullets(Effect):
 
     def finish(self, h: float) -> None:
         for bullet, x, y in self.starts:
-            if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.radius:
-                overlap = OVERLAP * bullet.radius
-                self.contacts.sweep(bullet, (x, y), bullet.radius, overlap, h)
+            if hypot(bullet.x - x, bullet.y - y) > SWEEP_FROM * bullet.r:
+                overlap = OVERLAP * bullet.r
+                self.contacts.sweep(bullet, (x, y), bullet.r, overlap, h)

@@ -1,38 +1,97 @@
 """Name the effects that a scene needs and does not declare, or declares and does not use."""
 
+from collections.abc import Iterator
+from itertools import islice
+from math import hypot
+
 from .body import Body
 from .effect import WorldState
 from .joint import Joint
 
+FRAME = 1 / 60  # s
+FAST = 20.0  # radii in a frame
+SOON = 10.0  # s
+MOST = 50  # balls
+WEAK = 20.0  # units/s²
+
 
 def complaints(world: WorldState) -> list[str]:
     """Return one sentence for each effect that is missing, or declared and not used."""
-    return [*missing(world), *unused(world)]
+    return [*missing(world, world.bodies).values(), *unused(world), *odd_gravity(world)]
 
 
-def missing(world: WorldState) -> list[str]:
-    """Return a sentence for each effect that the scene calls for and does not declare.
+def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
+    """Return a sentence for each effect, by its name, that these bodies call for in vain.
 
     Friction and restitution that were given call for their effects, above 0 and where something
-    can move. A static body calls for contacts unless a joint is tied to it: it is there to be
-    touched. So do friction and restitution.
+    can move. So does what turns or is a belt. A static body calls for contacts unless a joint is
+    tied to it: it is there to be touched. So do friction and restitution, and balls that fly at
+    each other. One too fast for Contacts calls for bullets.
     """
-    bodies = world.bodies if len(world.bodies) > len(world.statics) else []
+    bodies = looked_at if len(world.bodies) > len(world.statics) else []
     reasons: dict[str, str] = {}
     for body in bodies:
         if body.friction_given and body.mu > 0:
             reasons.setdefault("Friction", f"{body!r} was given a friction of {body.mu:g}")
+        if "Contacts" in world.effects and (body.w or (body.is_static and (body.vx or body.vy))):
+            words = "turns" if body.w else "has a velocity, as a belt has,"
+            reasons.setdefault("Friction", f"{body!r} {words} and would drag nothing along")
         if body.restitution_given and body.e > 0:
             reasons.setdefault("Bounce", f"{body!r} was given a restitution of {body.e:g}")
         if body.is_static and not tied(body, world):
             reasons.setdefault("Contacts", f"{body!r} is static, and bodies would pass through it")
+        if world.statics and is_too_fast(body):
+            reasons.setdefault("Bullets", f"{body!r} moves by {FAST:g} radii in {FRAME:g} s")
     if "Friction" in reasons or "Bounce" in reasons:
         reasons.setdefault("Contacts", "without contacts, friction and restitution do nothing")
-    return [
-        f"This scene calls for {name}(), which it does not declare: {reason}. "
+    if "Contacts" not in world.effects and "Contacts" not in reasons:
+        for a, b in islice(meetings(world, bodies), 1):
+            reasons["Contacts"] = f"{a!r} and {b!r} would pass through each other"
+    if "Contacts" not in world.effects:
+        reasons.pop("Bullets", None)
+    return {
+        name: f"This scene calls for {name}(), which it does not declare: {reason}. "
         f"Declare it: World(effects=[..., {name}()])."
         for name, reason in reasons.items()
         if name not in world.effects
+    }
+
+
+def is_too_fast(body: Body) -> bool:
+    """Return whether a ball is so fast that it may get through a static body, and no bullet."""
+    return not body.is_static and hypot(body.vx, body.vy) * FRAME > FAST * body.r
+
+
+def meetings(world: WorldState, bodies: list[Body]) -> Iterator[tuple[Body, Body]]:
+    """Yield pairs of free balls that overlap or fly at each other, of the first MOST in the world.
+
+    They fall alike, so that each flies straight as the other sees it. Those on joints do not.
+    """
+    new = set(bodies)
+    free = [body for body in world.bodies if not (body.is_static or body.joint_count)][:MOST]
+    for a in free:
+        for b in free:
+            if a.id < b.id and (a in new or b in new) and will_meet(a, b):
+                yield a, b
+
+
+def will_meet(a: Body, b: Body) -> bool:
+    """Return whether two balls overlap, or come to touch within SOON seconds as they fly."""
+    x, y = a.x - b.x, a.y - b.y
+    vx, vy = a.vx - b.vx, a.vy - b.vy
+    speed2 = vx * vx + vy * vy
+    nearest = max(0.0, min(SOON, -(x * vx + y * vy) / speed2)) if speed2 else 0.0  # s from now
+    return hypot(x + vx * nearest, y + vy * nearest) < a.r + b.r
+
+
+def odd_gravity(world: WorldState) -> list[str]:
+    """Return a sentence if the gravity is so weak for the unit that the scene may be in metres."""
+    g = hypot(*world.g)
+    if not 0 < g < WEAK * world.unit:
+        return []
+    return [
+        f"A gravity of {g:g} is weak for lengths in pixels. "
+        "Is the scene in metres? Then say how long a pixel is, as in World(unit=0.01)."
     ]
 
 

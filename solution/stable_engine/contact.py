@@ -7,7 +7,6 @@ from pygame import Vector2
 from .body import Body
 
 GOLDEN_ANGLE = 2.399963  # rad
-MAX_PUSH_SPEED = 300.0  # px/s
 
 
 class Contact:
@@ -37,7 +36,7 @@ class Contact:
         self.mt = 0.0  # kg, effective mass along the tangent, filled in by Friction
         self.mu = 0.0  # friction of the pair, filled in by Friction
         self.e = 0.0  # restitution of the pair, filled in by Bounce
-        self.push = MAX_PUSH_SPEED  # px/s, overlap is pushed out no faster
+        self.push = 0.0  # px/s, overlap is pushed out no faster
         self.ax = self.ay = self.bx = self.by = 0.0  # 1/kg, along the normal
         self.tax = self.tay = self.tbx = self.tby = 0.0  # 1/kg, along the tangent
         self.aw = self.bw = 0.0  # 1/(kg px), of the spins
@@ -65,7 +64,7 @@ class Contact:
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
     """Unit normal from circle a to body b, in two numbers, and the gap between them in px."""
-    return circle_circle(a, b) if b.radius else circle_box(a, b)
+    return circle_circle(a, b) if b.r else circle_box(a, b)
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
@@ -76,9 +75,9 @@ def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
     dx, dy = b.x - a.x, b.y - a.y
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
-        return dx / distance, dy / distance, distance - (a.radius + b.radius)
+        return dx / distance, dy / distance, distance - (a.r + b.r)
     turn = (7919 * a.id + b.id) * GOLDEN_ANGLE
-    return cos(turn), sin(turn), -a.radius - b.radius
+    return cos(turn), sin(turn), -a.r - b.r
 
 
 def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
@@ -87,11 +86,11 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
     dx, dy = max(-b.hx, min(x, b.hx)) - x, max(-b.hy, min(y, b.hy)) - y
     distance = sqrt(dx * dx + dy * dy)
     if distance > 0:
-        return dx / distance, dy / distance, distance - a.radius
+        return dx / distance, dy / distance, distance - a.r
     out_x, out_y = b.hx - abs(x), b.hy - abs(y)
     if out_y <= out_x:
-        return 0.0, -copysign(1.0, y), -a.radius - out_y
-    return -copysign(1.0, x), 0.0, -a.radius - out_x
+        return 0.0, -copysign(1.0, y), -a.r - out_y
+    return -copysign(1.0, x), 0.0, -a.r - out_x
 
 
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
@@ -101,11 +100,11 @@ def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float
     nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.
     """
     a, b = c.a, c.b
-    if gap >= -a.radius or b.radius:
+    if gap >= -a.r or b.r:
         return nx, ny, gap
     nx, ny = c.nx, c.ny
     if abs(nx) > abs(ny):
         nx, ny = copysign(1.0, nx), 0.0
     else:
         nx, ny = 0.0, copysign(1.0, ny)
-    return nx, ny, (b.x - a.x) * nx + (b.y - a.y) * ny - b.hx * abs(nx) - b.hy * abs(ny) - a.radius
+    return nx, ny, (b.x - a.x) * nx + (b.y - a.y) * ny - b.hx * abs(nx) - b.hy * abs(ny) - a.r

@@ -5,7 +5,7 @@ from math import hypot
 
 from .body import Body
 from .broad_phase import FAR, Bounds, BroadPhase
-from .contact import MAX_PUSH_SPEED, Contact, collide, the_way_it_came
+from .contact import Contact, collide, the_way_it_came
 from .effect import Effect, WorldState
 from .soft import SAME_DIRECTION, Pace, softness
 from .sweep import NO_HIT, first_hit, moment_of_touch, stop_at_first_hit
@@ -14,12 +14,14 @@ from .validate import refuse
 FREQUENCY = 0.24  # of a contact of two balls, per substep; against a static body it is doubled
 DAMPING_RATIO = 10.0  # so high that overlap is pushed out without a bounce
 STIFFENING = 0.07  # of a substep, per step
-RESTING_SPEED = 30.0  # px/s, a slower impact does not bounce
-SPECULATIVE_SPEED = 10.0  # px/s, slower pairs get a contact before they touch
+# lengths are in units of the world, see World.unit
+RESTING_SPEED = 30.0  # 1/s, a slower impact does not bounce
+SPECULATIVE_SPEED = 10.0  # 1/s, slower pairs get a contact before they touch
 CORE = 0.5  # radii
 CORNER_PASSES = 4  # of keeping cores out: put back from one static body, a ball may meet another
-TOUCHING = 1e-6  # px, bodies that are no further apart touch, but for what numbers are rounded to
-REDETECT_DISTANCE = 1e-4  # px, contacts stay valid until a body has moved further
+MAX_PUSH_SPEED = 300.0  # 1/s, overlap is pushed out no faster
+TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers are rounded to
+REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
 
@@ -68,6 +70,8 @@ class Contacts(Effect):
 
     def attach(self, world: WorldState) -> None:
         super().attach(world)
+        self.touching_gap = TOUCHING * world.unit  # px
+        self.max_push_speed = MAX_PUSH_SPEED * world.unit  # px/s
         self.begin_contact_hooks = world.hooks("begin_contact")
 
     def detect(self, h: float) -> None:
@@ -82,9 +86,10 @@ class Contacts(Effect):
 
     def any_moved(self) -> bool:
         """Return whether any body is no longer where contacts were last found."""
+        far = REDETECT_DISTANCE * self.world.unit
         for last in self.broad_phase.bounds:
             body = last.body
-            if abs(body.x - last.x) + abs(body.y - last.y) > REDETECT_DISTANCE:
+            if abs(body.x - last.x) + abs(body.y - last.y) > far:
                 return True
         return False
 
@@ -95,15 +100,20 @@ class Contacts(Effect):
         a speculative contact lets them close the gap and no more. Fast ones may still miss each
         other, so they get none.
         """
-        margin = SPECULATIVE_SPEED * dt
+        slow, touching, push = (
+            SPECULATIVE_SPEED * self.world.unit,
+            self.touching_gap,
+            self.max_push_speed,
+        )
+        margin = slow * dt
         cache, found, deep = self.cache, {}, []
         pairs = self.broad_phase.near_pairs(self.world.awake, margin)
         any_fast = self.broad_phase.covers_ways
         for a, b in pairs:
             nx, ny, gap = collide(a, b)
             if (
-                gap > TOUCHING
-                and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > SPECULATIVE_SPEED)
+                gap > touching
+                and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > slow)
                 and not (any_fast and self.have_passed(a, b))
             ):
                 continue
@@ -121,24 +131,24 @@ class Contacts(Effect):
                 nx, ny, gap = the_way_it_came(c, nx, ny, gap)
                 if nx * c.nx + ny * c.ny < SAME_DIRECTION:
                     c.jn = c.jt = 0.0
-            c.nx, c.ny, c.gap, c.found, c.push = nx, ny, gap, gap, MAX_PUSH_SPEED
+            c.nx, c.ny, c.gap, c.found, c.push = nx, ny, gap, gap, push
             found[pair] = c
-            if gap < -a.radius or gap < -b.radius < 0:
+            if gap < -a.r or gap < -b.r < 0:
                 deep.append(c)
         self.cache = found
         if len(deep) > 1:
-            share_push(deep)
+            share_push(deep, push)
         return list(found.values())
 
     def have_passed(self, a: Body, b: Body) -> bool:
         """Return whether two free balls have touched on their way here, and are past each other."""
         if (
-            not b.radius
+            not b.r
             or self.last_dt <= 0
             or a.joint_count
             or b.joint_count
-            or a.bullet
-            or b.bullet
+            or a.is_bullet
+            or b.is_bullet
         ):
             return False
         return moment_of_touch(a, b, self.flown.get(a, self.last_dt))[0] > 0
@@ -261,7 +271,7 @@ class Contacts(Effect):
             for c in self.statics.contacts:
                 a, b = c.a, c.b
                 gap = (b.x - a.x) * c.nx + (b.y - a.y) * c.ny - c.reach + c.found - c.gap
-                if gap < -CORE * a.radius and self.let_no_deeper(c, gap):
+                if gap < -CORE * a.r and self.let_no_deeper(c, gap):
                     put_back.append(a)
             if not put_back:
                 break
@@ -273,8 +283,8 @@ class Contacts(Effect):
         """Stop a ball that has gone further than its radius where its core met a static body."""
         body = last.body
         distance = abs(body.x - last.x) + abs(body.y - last.y)
-        if distance > body.radius > 0 and not body.bullet:
-            self.sweep(body, (last.x, last.y), CORE * body.radius, 0.0, h)
+        if distance > body.r > 0 and not body.is_bullet:
+            self.sweep(body, (last.x, last.y), CORE * body.r, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
         """Put a ball back whose core got into a static body, or deeper than it was, and stop it.
@@ -286,8 +296,8 @@ class Contacts(Effect):
         nx, ny, now = the_way_it_came(c, *collide(a, b))
         if nx * c.nx + ny * c.ny < SAME_DIRECTION and self.went_through(c):
             nx, ny, now = c.nx, c.ny, gap
-        back = min(c.found, -CORE * a.radius) - now
-        if back <= TOUCHING:
+        back = min(c.found, -CORE * a.r) - now
+        if back <= self.touching_gap:
             return False
         a.x -= nx * back
         a.y -= ny * back
@@ -300,7 +310,7 @@ class Contacts(Effect):
         """Return whether the centre of a ball was in a static body in this step, at its start or
         later.
         """
-        if c.found < -c.a.radius:
+        if c.found < -c.a.r:
             return True
         for last in self.broad_phase.bounds:
             if last.body is c.a:
@@ -367,7 +377,7 @@ class Contacts(Effect):
                 c.a.wake()
             for other in world.bodies:
                 dx, dy = abs(other.x - body.x), abs(other.y - body.y)
-                if other.asleep and dx < other.hx + body.hx and dy < other.hy + body.hy:
+                if other.sleeps and dx < other.hx + body.hx and dy < other.hy + body.hy:
                     other.wake()
 
     def forget(self, body: Body) -> None:
@@ -391,7 +401,7 @@ class Contacts(Effect):
         """Keep the impulses between sleeping bodies: with a warm start a pile wakes calmly."""
         self.broad_phase.bounds = []
         self.cache = self.sleeping_cache | self.cache
-        self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.asleep}
+        self.sleeping_cache = {pair: c for pair, c in self.cache.items() if c.a.sleeps}
         self.pace.awake_changed(bool(self.sleeping_cache))
 
 
@@ -409,7 +419,7 @@ def in_touch(body: Body, contacts: list[Contact]) -> set[Body]:
     return found
 
 
-def share_push(deep: list[Contact]) -> None:
+def share_push(deep: list[Contact], push: float) -> None:
     """Push the slower, the more of these contacts a ball has: those with a centre in the other.
 
     Many balls in one place cannot part along all normals at once. Each would be pushed by all.
@@ -420,7 +430,7 @@ def share_push(deep: list[Contact]) -> None:
             crowd[body] = crowd.get(body, 0) + 1
     for c in deep:
         if not c.b.is_static:
-            c.push = MAX_PUSH_SPEED / max(crowd[c.a], crowd[c.b])
+            c.push = push / max(crowd[c.a], crowd[c.b])
 
 
 def pair_both_ways(a: Body, b: Body) -> set[tuple[int, int]]:

@@ -15,8 +15,26 @@ class Damping(Effect):
     rank = 0
 
     def __init__(self, linear: float = 0.05, angular: float = 0.3) -> None:
-        self.linear = not_negative("Damping.linear", linear)  # 1/s
-        self.angular = not_negative("Damping.angular", angular)  # 1/s
+        self.linear = linear
+        self.angular = angular
+
+    @property
+    def linear(self) -> float:
+        """Return the rate of velocity, in 1/s."""
+        return self.linear_rate
+
+    @linear.setter
+    def linear(self, value: float) -> None:
+        self.linear_rate = not_negative("Damping.linear", value)
+
+    @property
+    def angular(self) -> float:
+        """Return the rate of spin, in 1/s."""
+        return self.angular_rate
+
+    @angular.setter
+    def angular(self, value: float) -> None:
+        self.angular_rate = not_negative("Damping.angular", value)
 
     def is_used(self) -> bool:
         return self.linear > 0 or self.angular > 0

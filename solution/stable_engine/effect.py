@@ -22,6 +22,11 @@ class WorldState(Listeners):
     statics: list[Body]
     effects: dict[str, Effect]
 
+    @property
+    def unit(self) -> float:
+        """Return the length of a pixel in the lengths of the scene."""
+        raise NotImplementedError
+
     def remove(self, thing: Any) -> None:
         """Take a body or joint out: see World.remove."""
         raise NotImplementedError

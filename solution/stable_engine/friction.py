@@ -7,6 +7,8 @@ from .contacts import Contacts, Group
 from .effect import Effect, WorldState
 from .impacts import CONVERGED, passes_for
 
+CALM = 1e-7  # share of the limit; a smaller change is not worth its work
+
 
 class Friction(Effect):
     """Coulomb's law: the friction impulse is at most mu jn, with mu = sqrt(mu_a mu_b).
@@ -27,7 +29,7 @@ class Friction(Effect):
 
     def begin_contact(self, c: Contact) -> None:
         a, b = c.a, c.b
-        spin = a.radius * a.radius * a.inv_inertia + b.radius * b.radius * b.inv_inertia
+        spin = a.r * a.r * a.inv_inertia + b.r * b.r * b.inv_inertia
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
         c.mu = sqrt(a.mu * b.mu)
 
@@ -53,8 +55,8 @@ class Friction(Effect):
             for c in group.contacts:
                 a, b, tx, ty = c.a, c.b, -c.ny, c.nx
                 # the arms of two balls meet, or they would make spin from nothing
-                half = (c.reach + c.gap - a.radius - b.radius) / 2 if group.moves_b else 0.0
-                c.arm_a, c.arm_b = a.radius + half, b.radius + half
+                half = (c.reach + c.gap - a.r - b.r) / 2 if group.moves_b else 0.0
+                c.arm_a, c.arm_b = a.r + half, b.r + half
                 c.tax, c.tay, c.aw = tx * a.inv_mass, ty * a.inv_mass, c.arm_a * a.inv_inertia
                 c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, c.arm_b * b.inv_inertia
 
@@ -88,15 +90,17 @@ class Friction(Effect):
                 limit, before = c.mu * c.jn, c.jt
                 if limit or before:
                     a, b = c.a, c.b
-                    tx, ty = -c.ny, c.nx
                     rims = b.w * c.arm_b + a.w * c.arm_a
-                    jt = before - c.mt * ((b.vx - a.vx) * tx + (b.vy - a.vy) * ty - rims)
+                    jt = before - c.mt * ((b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims)
                     if jt > limit:
                         jt = limit
                     elif jt < -limit:
                         jt = -limit
                     c.jt = jt
                     jt -= before
+                    if abs(jt) <= CALM * limit:
+                        c.jt = before
+                        continue
                     a.vx -= c.tax * jt
                     a.vy -= c.tay * jt
                     a.w -= c.aw * jt
@@ -109,7 +113,7 @@ class Friction(Effect):
 def slip(c: Contact) -> float:
     """Return how fast (px/s) the rim of B moves along the tangent, seen from that of A."""
     a, b = c.a, c.b
-    rims = b.w * b.radius + a.w * a.radius
+    rims = b.w * b.r + a.w * a.r
     return (b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims
 
 
@@ -118,7 +122,7 @@ def drag(c: Contact, jt: float) -> None:
     a, b, tx, ty = c.a, c.b, -c.ny, c.nx
     a.vx -= tx * jt * a.inv_mass
     a.vy -= ty * jt * a.inv_mass
-    a.w -= a.radius * jt * a.inv_inertia
+    a.w -= a.r * jt * a.inv_inertia
     b.vx += tx * jt * b.inv_mass
     b.vy += ty * jt * b.inv_mass
-    b.w -= b.radius * jt * b.inv_inertia
+    b.w -= b.r * jt * b.inv_inertia

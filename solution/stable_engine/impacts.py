@@ -5,7 +5,7 @@ from typing import Any
 
 from .body import Body
 from .contact import Contact, collide
-from .contacts import TOUCHING, Contacts
+from .contacts import Contacts
 from .sweep import moment_of_touch
 
 ROUNDS = 20  # per contact: how often impacts are passed on within one step
@@ -42,6 +42,7 @@ class Impacts:
         self.touching = contacts.touching
         self.begun, self.flown = set(contacts.begun), contacts.flown
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
+        self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower ones are not due
         self.due: dict[Contact, Impact] = {}
 
@@ -129,7 +130,7 @@ class Impacts:
                 if not body.is_static:
                     self.beside.setdefault(body, []).append(c)
         held = {c.a for c in self.touching if c.b.is_static}
-        held |= {body for body in self.beside if body.joint_count or body.bullet}
+        held |= {body for body in self.beside if body.joint_count or body.is_bullet}
         self.free = self.beside.keys() - held
 
     def take_first(self) -> tuple[list[Contact], float]:
@@ -162,7 +163,7 @@ class Impacts:
         ahead, bodies, found = [body], {body}, dict[Contact, None]()
         while ahead:
             for c in self.beside[ahead.pop()]:
-                if c.gap > TOUCHING:
+                if c.gap > self.touching_gap:
                     continue
                 found[c] = None
                 for other in (c.a, c.b):

@@ -15,7 +15,7 @@ class Joint:
     when a and b are the same body or both static.
     """
 
-    __slots__ = ("a", "b", "distance", "dx", "dy", "m", "nx", "ny", "rest")
+    __slots__ = ("distance", "dx", "dy", "end_a", "end_b", "m", "nx", "ny", "pivot", "rest", "rhs")
     effect: ClassVar[str]  # the name of the effect that owns it
 
     def __init__(self, a: Body, b: Body) -> None:
@@ -26,14 +26,25 @@ class Joint:
         require(a is not b, name, f"the same body as a, at {a.pos}", "another body")
         static = a.is_static and b.is_static
         require(not static, name, f"static like a, at {b.pos}", "a body with mass")
-        self.a = a
-        self.b = b
+        self.end_a = a
+        self.end_b = b
+        self.pivot = self.rhs = 0.0  # see Network.solve
         self.weigh()
         self.measure()
         self.rest = self.distance  # px, its length
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.a!r}, {self.b!r}, length {self.rest:g})"
+
+    @property
+    def a(self) -> Body:
+        """Return the first end, which stays the same."""
+        return self.end_a
+
+    @property
+    def b(self) -> Body:
+        """Return the second end, which stays the same."""
+        return self.end_b
 
     @property
     def length(self) -> float:
@@ -51,21 +62,21 @@ class Joint:
 
     def changed(self) -> None:
         """Wake both ends, and have the effects take over what was set."""
-        self.b.wake()
-        self.a.changed()
+        self.end_b.wake()
+        self.end_a.changed()
 
     def wake(self) -> None:
         """Wake both ends."""
-        self.a.wake()
-        self.b.wake()
+        self.end_a.wake()
+        self.end_b.wake()
 
     def weigh(self) -> None:
         """Take over the masses of a and b."""
-        self.m = 1 / (self.a.inv_mass + self.b.inv_mass)  # kg, effective mass
+        self.m = 1 / (self.end_a.inv_mass + self.end_b.inv_mass)  # kg, effective mass
 
     def measure(self) -> None:
         """Update distance and direction from A to B."""
-        self.dx, self.dy = self.b.x - self.a.x, self.b.y - self.a.y  # px
+        self.dx, self.dy = self.end_b.x - self.end_a.x, self.end_b.y - self.end_a.y  # px
         self.distance = hypot(self.dx, self.dy)  # px
         if self.distance > 0:
             self.nx, self.ny = self.dx / self.distance, self.dy / self.distance
@@ -74,11 +85,11 @@ class Joint:
 
     def speed(self) -> float:
         """Return how fast B moves away from A, in px/s."""
-        return (self.b.vx - self.a.vx) * self.nx + (self.b.vy - self.a.vy) * self.ny
+        return (self.end_b.vx - self.end_a.vx) * self.nx + (self.end_b.vy - self.end_a.vy) * self.ny
 
     def apply_impulse(self, j: float) -> None:
         """Push B away from A by impulse j (kg px/s), and A by the opposite."""
-        a, b = self.a, self.b
+        a, b = self.end_a, self.end_b
         px, py = self.nx * j, self.ny * j
         a.vx -= px * a.inv_mass
         a.vy -= py * a.inv_mass
@@ -105,24 +116,24 @@ class Joints(Effect, Generic[AnyJoint]):
         self.awake_changed()
 
     def forget(self, body: Body) -> None:
-        for joint in [joint for joint in self.joints if body in (joint.a, joint.b)]:
+        for joint in [joint for joint in self.joints if body in (joint.end_a, joint.end_b)]:
             self.world.remove(joint)
 
     def body_changed(self, body: Body) -> None:
         for joint in self.joints:
-            if body in (joint.a, joint.b):
+            if body in (joint.end_a, joint.end_b):
                 joint.weigh()
 
     def static_moved(self, body: Body) -> None:
         for joint in self.joints:
-            if body in (joint.a, joint.b):
+            if body in (joint.end_a, joint.end_b):
                 joint.wake()
 
     def is_used(self) -> bool:
         return bool(self.joints)
 
     def links(self) -> list[tuple[Body, Body]]:
-        return [(joint.a, joint.b) for joint in self.awake]
+        return [(joint.end_a, joint.end_b) for joint in self.awake]
 
     def awake_changed(self) -> None:
-        self.awake = [joint for joint in self.joints if not (joint.a.idle and joint.b.idle)]
+        self.awake = [joint for joint in self.joints if not (joint.end_a.idle and joint.end_b.idle)]

@@ -1,10 +1,14 @@
 """Sleep: bodies at rest are left out of the step, so they cost nothing."""
 
+from math import hypot, sqrt
+
 from .body import Body, Island
 from .contacts import Contacts
 from .effect import Effect, WorldState
 
-STILL_SPEED = 3.0  # px/s, of the centre and of the rim
+# speeds are in units of the world per second, see World.unit
+STILL_SPEED = 3.0  # of the centre and of the rim
+GAINED_SPEED = 0.03  # in STILL_TIME; what gains more is not at rest, but on a gentle slope
 STILL_TIME = 0.5  # s
 
 
@@ -12,6 +16,7 @@ class Sleep(Effect):
     """Balls that touch or share a joint are an island, which sleeps once all of it has lain still.
 
     Only whole islands may sleep: a ball alone would hang in the air when its neighbours moved on.
+    And only one that rests on something static, or hangs on it; else it must not move at all.
     An island wakes when an awake ball touches it, and when anything is set that its rest hangs on:
     one of its balls or joints, a static body that it touches or hangs on, or the gravity.
     """
@@ -33,11 +38,13 @@ class Sleep(Effect):
 
     def finish(self, h: float) -> None:
         dt = h * self.world.substep_count
-        ready = False
+        ready, slow = False, STILL_SPEED * self.world.unit
+        slow2 = slow * slow
         for body in self.world.awake:
-            rim = abs(body.w) * body.radius
             speed2 = body.vx * body.vx + body.vy * body.vy
-            if speed2 < STILL_SPEED * STILL_SPEED and rim < STILL_SPEED:
+            if speed2 < slow2 and abs(body.w) * body.r < slow:
+                if not body.still:
+                    body.calm = speed2
                 body.still += dt
                 ready = ready or body.still > STILL_TIME
             else:
@@ -47,14 +54,34 @@ class Sleep(Effect):
 
     def put_to_sleep(self) -> None:
         """Put every island to sleep that has lain still for STILL_TIME."""
-        still = [i for i in self.find_islands() if min(b.still for b in i) > STILL_TIME]
+        still = [i for i in self.find_islands() if self.is_still(i)]
         for island in still:
             Island(island, self.update_awake)
         if still:
             self.update_awake()
 
+    def is_still(self, island: list[Body]) -> bool:
+        """Return whether an island has lain still for long, and nothing sets it in motion.
+
+        A ball that has gained speed begins anew.
+        """
+        if min([body.still for body in island]) <= STILL_TIME:
+            return False
+        gained = GAINED_SPEED * self.world.unit
+        for body in island:
+            if hypot(body.vx, body.vy) > sqrt(body.calm) + gained:
+                body.still = 0.0
+        if min([body.still for body in island]) == 0:
+            return False
+        moves = any([body.vx or body.vy or body.w for body in island])
+        return any([body in self.supported for body in island]) or not (moves or any(self.world.g))
+
     def find_islands(self) -> list[list[Body]]:
-        """Return the awake balls in groups, by union-find: connected ones get the same root."""
+        """Return the awake balls in groups, by union-find: connected ones get the same root.
+
+        Find out as well which balls touch something static, or are tied to it.
+        """
+        self.supported: set[Body] = set()
         parent = {body: body for body in self.world.awake}
 
         def root(body: Body) -> Body:
@@ -67,6 +94,8 @@ class Sleep(Effect):
             for a, b in links():
                 if not (a.idle or b.idle):
                     parent[root(a)] = root(b)
+                elif not (a.idle and b.idle):
+                    self.supported.add(b if a.idle else a)
         islands: dict[Body, list[Body]] = {}
         for body in self.world.awake:
             islands.setdefault(root(body), []).append(body)
@@ -81,4 +110,4 @@ class Sleep(Effect):
 
 def sleepers(contacts: Contacts) -> list[Body]:
     """Return the sleeping balls in a contact: one is only found where the other body is awake."""
-    return [body for c in contacts.touching for body in (c.a, c.b) if body.asleep]
+    return [body for c in contacts.touching for body in (c.a, c.b) if body.sleeps]

@@ -47,12 +47,12 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
     vx, vy = (a.vx, a.vy) if b.is_static else (a.vx - b.vx, a.vy - b.vy)
     dx, dy = vx * dt, vy * dt
     x, y = a.x - b.x - dx, a.y - b.y - dy
-    hit = hit_circle if b.radius else hit_box
-    fraction = hit(b, a.radius, x, y, dx, dy)
+    hit = hit_circle if b.r else hit_box
+    fraction = hit(b, a.r, x, y, dx, dy)
     if fraction >= NO_HIT:
         return 0.0, 0.0, 0.0
     x, y = x + dx * fraction, y + dy * fraction
-    if not b.radius:
+    if not b.r:
         x, y = x - max(-b.hx, min(x, b.hx)), y - max(-b.hy, min(y, b.hy))
     distance = hypot(x, y)
     return (1 - fraction) * dt, -x / distance, -y / distance
@@ -67,14 +67,14 @@ def first_hit(
     """
     fraction = NO_HIT
     for s in statics:
-        hit = hit_circle if s.radius else hit_box
+        hit = hit_circle if s.r else hit_box
         fraction = min(fraction, hit(s, radius, x - s.x, y - s.y, dx, dy))
     return fraction
 
 
 def hit_circle(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
     """Return the time of impact with a circle; the ball starts at (x, y) from the centre of s."""
-    return hit_point(s.radius + radius, x, y, dx, dy)
+    return hit_point(s.r + radius, x, y, dx, dy)
 
 
 def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:

@@ -11,7 +11,7 @@ from .body import Body
 from .check import complaints, missing
 from .effect import Effect, WorldState
 from .joint import Joint
-from .validate import pair, refuse, require, whole
+from .validate import pair, positive, refuse, require, whole
 
 Thing = TypeVar("Thing", bound=Body | Joint)
 
@@ -19,8 +19,10 @@ Thing = TypeVar("Thing", bound=Body | Joint)
 class World(WorldState):
     """Bodies, and the effects that the scene declares. No other effect runs a line of code.
 
-    gravity in px/s². Each step is made of that many substeps. Both can be set later on. Raises
-    ValueError when a value makes no sense, or an effect needs another one that is not declared.
+    gravity in px/s². Each step is made of that many substeps. Both can be set later on. unit is
+    the length of a pixel in the lengths of the scene: 0.01 for metres at 100 px each. What counts
+    as slow or as touching follows from it. Raises ValueError when a value makes no sense, or an
+    effect needs another one that is not declared.
     """
 
     def __init__(
@@ -28,13 +30,17 @@ class World(WorldState):
         gravity: Iterable[float] = (0, 980),
         substeps: int = 4,
         effects: Iterable[Effect] = (),
+        unit: float = 1.0,
     ) -> None:
+        self.lengths = positive("World.unit", unit)
         self.substep_count = whole("World.substeps", substeps)
         self.g = pair("World.gravity", gravity)  # px/s²
         self.bodies = []
         self.awake = []
         self.statics = []
         self.added = 0  # how many bodies ever were
+        self.unchecked: list[Body] = []  # bodies and ends of joints that are new or were set
+        self.warned: set[str] = set()  # the effects that a step has warned of
         self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
@@ -47,7 +53,7 @@ class World(WorldState):
         for effect in self.effects.values():
             effect.attach(self)
 
-        self.detect_hooks = [self.warn, *self.hooks("detect")]  # warns in the first step only
+        self.detect_hooks = self.hooks("detect")
         self.impact_hooks = self.hooks("impact")
         self.prepare_hooks = self.hooks("prepare")
         self.force_hooks = self.hooks("force")
@@ -79,6 +85,11 @@ class World(WorldState):
                 body.wake()
 
     @property
+    def unit(self) -> float:
+        """Return the length of a pixel in the lengths of the scene."""
+        return self.lengths
+
+    @property
     def substeps(self) -> int:
         """Return how many substeps make a step."""
         return self.substep_count
@@ -104,12 +115,13 @@ class World(WorldState):
     def add_body(self, body: Body) -> None:
         found = f"in a world already, at {body.pos}"
         require(body.world is None, "World.add's body", found, "a new one")
-        if body.bullet:
+        if body.is_bullet:
             self.need("Bullets", body).add(body)
         self.bodies.append(body)
         self.added += 1
         body.world, body.id = self, -self.added if body.is_static else self.added
         (self.statics if body.is_static else self.awake).append(body)
+        self.look_again(body)
 
     def add_joint(self, joint: Joint) -> None:
         effect = self.need(joint.effect, joint)
@@ -122,6 +134,20 @@ class World(WorldState):
         for body in (joint.a, joint.b):
             body.joint_count += 1
         effect.add(joint)
+
+    def set_bullet(self, body: Body, value: bool) -> None:
+        """Have a body be a bullet or not."""
+        bullets = self.need("Bullets", body)
+        if value:
+            bullets.add(body)
+        else:
+            bullets.forget(body)
+
+    def look_again(self, body: Body) -> None:
+        """Check in the next step what was added, or set of this body."""
+        if not self.unchecked:
+            self.detect_hooks = [self.warn, *self.hooks("detect")]
+        self.unchecked.append(body)
 
     def remove(self, thing: Body | Joint) -> None:
         """Take a body, rod or spring out. A body takes along the rods and springs tied to it.
@@ -164,16 +190,26 @@ class World(WorldState):
     def check(self) -> list[str]:
         """Say which effects the scene calls for and does not declare, and which it does not use.
 
-        One sentence each. If nobody asks, the first step warns of those that are not declared.
+        One sentence each. If nobody asks, a step warns of those that are not declared, when bodies
+        were added or set before it.
         """
-        self.detect_hooks = self.hooks("detect")
+        self.seen()
+        self.warned |= missing(self, self.bodies).keys()
         return complaints(self)
 
-    def warn(self, h: float) -> None:
-        """Warn once of effects that the scene needs and does not declare."""
+    def seen(self) -> list[Body]:
+        """Return what was to be checked, each body once, and have the next step check nothing."""
+        bodies, self.unchecked = list(dict.fromkeys(self.unchecked)), []
         self.detect_hooks = self.hooks("detect")
-        for sentence in missing(self):
-            warnings.warn(sentence, stacklevel=3)
+        return bodies
+
+    def warn(self, h: float) -> None:
+        """Warn of effects that were not warned of before and that new or set bodies call for."""
+        bodies = [body for body in self.seen() if body.world is self]
+        for name, sentence in missing(self, bodies).items():
+            if name not in self.warned:
+                self.warned.add(name)
+                warnings.warn(sentence, stacklevel=3)
 
     def step(self, dt: float) -> None:
         """Advance by dt seconds. Raises ValueError on a bad dt or a body with NaN or infinity."""

@@ -111,3 +111,58 @@ def test_after_the_first_step_the_check_costs_no_opcode_and_runs_no_line():
         with_check, without = (count_opcodes(lambda w=w: w.step(DT)) for w in (warned, never))
         assert with_check == without
         assert "check.py" not in with_check
+
+
+# ---------------------------------------------------------------- what used to be silent
+
+
+def told_by_a_step(world):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        world.step(DT)
+    return named([str(warning.message) for warning in told])
+
+
+def test_balls_that_fly_at_each_other_call_for_contacts():
+    world = World(gravity=(0, 0))
+    a, b = (world.add(Body(Circle(10), (x, 0), mass=1)) for x in (0, 500))
+    assert world.check() == []
+    a.vel = (100, 0)
+    assert told_by_a_step(world) == {"Contacts": True}
+    assert told_by_a_step(world) == {}
+    b.vel = (200, 5)
+    assert told_by_a_step(world) == {}
+
+
+@pytest.mark.parametrize("field", ["vel", "omega"])
+def test_a_belt_and_a_spinning_ball_call_for_friction(field):
+    world = world_with("Contacts")
+    assert world.check() == []
+    if field == "vel":
+        world.bodies[0].vel = (50, 0)
+    else:
+        world.bodies[1].omega = 5
+    assert told_by_a_step(world) == {"Friction": True}
+
+
+def test_a_ball_too_fast_for_contacts_calls_for_bullets():
+    world = world_with("Contacts")
+    world.bodies[1].vel = (1e6, 0)
+    assert named(world.check()) == {"Bullets": True}
+
+
+def test_what_is_added_or_set_after_the_first_step_is_checked_in_the_next():
+    world = world_with("Contacts")
+    assert told_by_a_step(world) == {}
+    ball = world.add(Body(Circle(10), (50, -200), mass=1, restitution=0.5))
+    assert told_by_a_step(world) == {"Bounce": True}
+    ball.friction = 0.5
+    assert told_by_a_step(world) == {"Friction": True}
+    world.add(Body(Circle(10), (90, -200), mass=1, restitution=0.5))
+    assert told_by_a_step(world) == {}
+    assert "check.py" not in files_run(lambda: world.step(DT))
+
+
+def test_a_scene_in_metres_is_asked_for_its_unit():
+    for gravity, unit, asked in ((9.8, 1.0, 1), (9.8, 0.01, 0), (980, 1.0, 0), (0, 1.0, 0)):
+        assert len(World((0, gravity), unit=unit).check()) == asked

@@ -8,7 +8,21 @@ from worlds_for_tests import balls, build
 
 from experiments.measures import run, watch
 from experiments.scenes import BOUNCE, DT, TOUCH, Ball, Block, G, Scene, chain, floor, on_floor
-from stable_engine import Body, Bounce, Box, Circle, Contacts, Friction, Rod, Spring, World
+from stable_engine import (
+    Body,
+    Bounce,
+    Box,
+    Bullets,
+    Circle,
+    Contacts,
+    Friction,
+    Rod,
+    Rods,
+    Sleep,
+    Spring,
+    Springs,
+    World,
+)
 
 SLEEPY = (*BOUNCE, "Sleep")
 
@@ -71,6 +85,109 @@ def test_setting_what_a_body_is_like_wakes_it_and_what_touches_it(field, value):
         run(world, 3)
         setattr(world.bodies[0], field, value)
         assert world.bodies[1] in world.awake
+
+
+# ---------------------------------------------------------------- all that can be set
+
+# What it is, and whether another value of it takes effect. What is not here cannot be set.
+SETTABLE = {
+    "Body.angle": (1.0, lambda body: body.angle > 0.9),
+    "Body.bullet": (True, lambda body: body.world.effects["Bullets"].bullets == [body]),
+    "Body.friction": (0.1, lambda body: contact_of(body).mu == pytest.approx(math.sqrt(0.06))),
+    "Body.mass": (3.0, lambda body: contact_of(body).mn == pytest.approx(3)),
+    "Body.omega": (5.0, lambda body: body.angle > 0.03),
+    "Body.pos": ((5.0, -10.0), lambda body: body.x == pytest.approx(5, abs=0.1)),
+    "Body.restitution": (0.9, lambda body: contact_of(body).e == 0.9),
+    "Body.vel": ((9.0, 0.0), lambda body: body.x > 0.05),
+    "Rod.length": (60.0, lambda rod: rod.a.pos.distance_to(rod.b.pos) > 50.1),
+    "Spring.damping": (50.0, lambda spring: spring.b.vy < 14),
+    "Spring.length": (90.0, lambda spring: spring.b.vy > 50),
+    "Spring.stiffness": (0.0, lambda spring: spring.b.vy == pytest.approx(G * DT)),
+    "World.gravity": ((500.0, 0.0), lambda world: world.bodies[1].vx > 1),
+    "World.substeps": (8, lambda world: world.substeps == 8),
+}
+FIXED = [
+    *("Body.shape", "Body.radius", "Body.asleep", "Body.is_static"),
+    *("Rod.a", "Rod.b", "Spring.a", "Spring.b", "World.unit", "Circle.radius", "Box.half"),
+]
+
+
+def contact_of(body):
+    return next(c for c in body.world.effects["Contacts"].touching if body in (c.a, c.b))
+
+
+def things():
+    """One of each kind of thing, in a world of balls on a floor, a rod and a spring."""
+    world = World(effects=[Contacts(), Friction(), Bounce(), Rods(), Springs(), Bullets(), Sleep()])
+    ground = world.add(Body(Box((500, 50)), (0, 50), restitution=1, friction=0.6))
+    ball = world.add(Body(Circle(10), (0, -10), mass=1, restitution=1))
+    peg = world.add(Body(Circle(5), (200, -200)))
+    rod = world.add(Rod(peg, world.add(Body(Circle(5), (200, -150), mass=1))))
+    spring = world.add(Spring(peg, world.add(Body(Circle(5), (200, -300), mass=1)), 1000.0))
+    spring.b.pos = (200, -301)
+    return {
+        **{"World": world, "Body": ball, "Rod": rod, "Spring": spring},
+        **{"Circle": ball.shape, "Box": ground.shape},
+    }
+
+
+@pytest.mark.parametrize("name", SETTABLE)
+def test_what_can_be_set_later_takes_effect(name):
+    kind, _, field = name.partition(".")
+    value, has_effect = SETTABLE[name]
+    there = things()
+    thing, world = there[kind], there["World"]
+    run(world, 0.5 if kind == "Body" and field != "mass" else 0.1)
+    if kind == "Spring":
+        thing.b.pos, thing.b.vel = (200, -301), (0, 0)
+    setattr(thing, field, value)
+    world.step(DT)
+    assert has_effect(thing)
+
+
+@pytest.mark.parametrize("name", FIXED)
+def test_what_would_take_no_effect_cannot_be_set(name):
+    kind, _, field = name.partition(".")
+    thing = things()[kind]
+    with pytest.raises(AttributeError):
+        setattr(thing, field, getattr(thing, field))
+
+
+@pytest.mark.parametrize("kind", ["World", "Body", "Rod", "Spring", "Circle", "Box"])
+def test_no_property_is_left_out(kind):
+    properties = {
+        f"{kind}.{name}"
+        for one in type(things()[kind]).__mro__
+        for name, value in vars(one).items()
+        if isinstance(value, property)
+    }
+    assert properties <= {*SETTABLE, *FIXED}
+
+
+def test_a_ball_made_a_bullet_later_is_stopped_and_one_made_none_is_swept_no_more():
+    world = World(gravity=(0, 0), effects=[Contacts(), Bullets()])
+    world.add(Body(Box((150, 1)), (0, 0)))
+    ball = world.add(Body(Circle(3), (0, -100), mass=1))
+    world.step(DT)
+    ball.bullet = True
+    ball.vel = (0, 200_000)
+    run(world, 0.1)
+    assert ball.y < 0
+    ball.bullet = False
+    assert world.effects["Bullets"].bullets == []
+    ball.bullet = True
+    world.remove(ball)
+    assert world.effects["Bullets"].bullets == []
+
+
+def test_a_bullet_in_a_world_without_bullets_is_refused_later_too():
+    world = World(effects=[Contacts()])
+    ground, ball = world.add(Body(Box((9, 9)), (0, 9))), world.add(Body(Circle(3), (0, -9), mass=1))
+    with pytest.raises(ValueError, match=r"needs Bullets\(\)"):
+        ball.bullet = True
+    assert not ball.bullet
+    with pytest.raises(ValueError, match=r"Body\.mass"):
+        ground.bullet = True
 
 
 # ---------------------------------------------------------------- pushing

@@ -1,0 +1,125 @@
+"""The same scene in other lengths, and when what moves slowly may sleep."""
+
+import math
+
+import pytest
+
+from experiments.measures import run, watch
+from experiments.scenes import DT, G
+from stable_engine import (
+    Body,
+    Bounce,
+    Box,
+    Bullets,
+    Circle,
+    Contacts,
+    Friction,
+    Rod,
+    Rods,
+    Sleep,
+    Spring,
+    Springs,
+    World,
+)
+
+
+def scene(length, names):
+    """Falling balls, a pendulum and a spring above a floor, with lengths in `length` per px."""
+    effects = [Contacts(), Friction(), Bounce(), Rods(), Springs(), Bullets()]
+    world = World((0, G * length), 4, [*effects, *names], unit=length)
+
+    def ball(x, y, vx=0.0, bullet=False):
+        shape = Circle(10 * length)
+        body = Body(shape, (x * length, y * length), 1.0, 0.6, 0.4, bullet)
+        body.vel = (vx * length, 0)
+        return world.add(body)
+
+    world.add(Body(Box((400 * length, 20 * length)), (0, 20 * length), 0, 0.6, 0.4))
+    ball(-300, -150, 60), ball(-200, -80, -20), ball(-100, -10.5), ball(0, -200, bullet=True)
+    peg = world.add(Body(Circle(5 * length), (150 * length, -200 * length)))
+    world.add(Rod(peg, ball(220, -200)))
+    world.add(Spring(peg, ball(150, -120), 40.0, 0.5, 60 * length))
+    return world
+
+
+@pytest.mark.parametrize("length", [0.01, 1 / 64, 1000.0])
+@pytest.mark.parametrize("names", [(), (Sleep,)])
+def test_the_same_scene_in_other_lengths_moves_alike(length, names):
+    pixels, other = (scene(one, [name() for name in names]) for one in (1.0, length))
+    for _ in range(360):
+        pixels.step(DT)
+        other.step(DT)
+        for a, b in zip(pixels.bodies, other.bodies, strict=True):
+            assert (b.x / length, b.y / length) == pytest.approx((a.x, a.y), abs=1e-7, rel=1e-9)
+            assert a.asleep == b.asleep
+
+
+def test_a_tower_of_metres_stands_like_one_of_pixels():
+    sinks = []
+    for length in (1.0, 0.01, 1000.0):
+        world = World((0, G * length), 4, [Contacts(), Friction()], unit=length)
+        world.add(Body(Box((100 * length, 10 * length)), (0, 10 * length)))
+        tower = [
+            world.add(Body(Circle(10 * length), (0, -10 * length * (2 * i + 1)), 1.0))
+            for i in range(10)
+        ]
+        run(world, 3)
+        sinks.append((tower[-1].y / length) + 190)
+    assert sinks == pytest.approx([sinks[0]] * 3, rel=1e-6)
+    assert abs(sinks[0]) < 1
+
+
+def test_a_unit_must_be_a_length():
+    for bad in (0, -1, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"World\.unit"):
+            World(unit=bad)
+
+
+# ---------------------------------------------------------------- sleep
+
+
+def sleepy_world(gravity, *effects, unit=1.0):
+    return World(gravity, 4, [Contacts(), Friction(), Sleep(), *effects], unit=unit)
+
+
+def test_a_toss_comes_down_whatever_the_unit():
+    """It is slow in its scene's lengths all the time, but nothing holds it."""
+    world = sleepy_world((0, 9.8))
+    ball = world.add(Body(Circle(0.1), (0, 0), 1.0))
+    ball.vel = (0, -2.9)
+    run(world, 3)
+    assert ball.y == pytest.approx(-2.9 * 3 + 9.8 / 2 * 3**2, rel=0.01)
+
+
+def test_what_no_force_stops_goes_on():
+    world = sleepy_world((0, 0))
+    ball = world.add(Body(Circle(10), (0, 0), 1.0))
+    ball.vel = (2.9, 0)
+    run(world, 10)
+    assert ball.x == pytest.approx(29, rel=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [0.1, 0.3, 1, 5])
+def test_a_ball_starts_to_roll_on_the_gentlest_slope(degrees):
+    angle = math.radians(degrees)
+    world = sleepy_world((G * math.sin(angle), G * math.cos(angle)))
+    world.add(Body(Box((5000, 50)), (0, 50)))
+    ball = world.add(Body(Circle(10), (0, -10), 1.0))
+    run(world, 4)
+    assert ball.x == pytest.approx(2 / 3 * G * math.sin(angle) * 4**2 / 2, rel=0.01)
+
+
+def test_a_ball_on_level_ground_sleeps():
+    world = sleepy_world((0, G))
+    world.add(Body(Box((5000, 50)), (0, 50)))
+    ball = world.add(Body(Circle(10), (0, -10), 1.0))
+    run(world, 1)
+    assert ball.asleep
+
+
+def test_balls_that_hold_each_other_do_not_hang_in_the_air():
+    world = sleepy_world((0, 1.0), Rods())
+    a, b = (world.add(Body(Circle(10), (x, 0), 1.0)) for x in (0, 50))
+    world.add(Rod(a, b))
+    assert all(watch(world, 2, lambda: bool(world.awake)))
+    assert a.y == pytest.approx(2, rel=0.01)
