@@ -36,6 +36,7 @@ OUT = Path("build/effects")
 
 FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
 FILES["Contacts"] += ["contact.py", "broad_phase.py", "sweep.py"]
+FILES["Bounce"] += ["impacts.py"]
 
 
 @dataclass
@@ -190,10 +191,11 @@ STABLE_WORK = [
     ("pairs", contact.collide, 1),
     ("contact solves", contacts.Contacts.solve, rows_of),
     ("contact solves", contacts.Contacts.relax, rows_of),
+    ("friction solves", friction.Friction.solve, rows_of),
     ("friction solves", friction.Friction.relax, rows_of),
     ("rod solves", rods.Rods.solve, awake),
     ("rod solves", rods.Rods.relax, awake),
-    ("spring forces", springs.Springs.force, awake),
+    ("spring forces", springs.Springs.solve, awake),
     ("sweeps", sweep.first_hit, 1),
 ]
 LESSON_WORK = [

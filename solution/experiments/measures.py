@@ -5,6 +5,8 @@ Geometry comes from the scene's data and the places of the bodies, never from an
 
 import math
 
+import numpy as np
+
 from .scenes import DT, Ball, G
 
 
@@ -112,16 +114,40 @@ def energy(engine, dt=DT):
     """Return the energy of all balls (kg px²/s²): flight, spin, height and springs."""
     scene = engine.scene
     gx, gy = scene.gravity
-    total = 0.0
+    total, lags = 0.0, lag_velocities(engine, dt)
     for i in scene.moving():
-        body, state, lag = scene.bodies[i], engine.read(i), engine.lag(dt)
-        vx, vy = state.vx + gx * lag, state.vy + gy * lag
+        body, state = scene.bodies[i], engine.read(i)
+        vx, vy = state.vx + lags[i][0], state.vy + lags[i][1]
         flight = (vx**2 + vy**2) / 2 + (body.radius * state.omega) ** 2 / 4
         total += body.mass * (flight - gx * state.x - gy * state.y)
     for s in scene.springs:
         a, b = engine.read(s.a), engine.read(s.b)
         total += s.stiffness / 2 * (math.hypot(b.x - a.x, b.y - a.y) - s.length) ** 2
     return total
+
+
+def lag_velocities(engine, dt):
+    """Return by what gravity changes the velocity of each ball (px/s) over the engine's lag.
+
+    Rods take up what is along them: a ball that hangs at rest gains none.
+    """
+    scene, lag, place = engine.scene, engine.lag(dt), {}
+    for i in scene.moving():
+        place[i] = len(place)
+    kicks = np.tile(np.array(scene.gravity, float) * lag, (len(place), 1))
+    if scene.rods and "Rods" in scene.effects:
+        along = np.zeros((len(scene.rods), len(place), 2))
+        weights = np.array([scene.bodies[i].mass for i in place])[:, None]
+        for row, (a, b) in zip(along, scene.rods, strict=True):
+            here, there = engine.read(a), engine.read(b)
+            for i, sign in ((a, -1), (b, 1)):
+                if i in place:
+                    row[place[i]] = sign * (there.x - here.x), sign * (there.y - here.y)
+        lines = along.reshape(len(scene.rods), -1)
+        shares = (along / weights).reshape(len(scene.rods), -1)
+        pulls = np.linalg.lstsq(lines @ shares.T, lines @ kicks.ravel(), rcond=None)[0]
+        kicks -= (shares.T @ pulls).reshape(-1, 2)
+    return dict(zip(place, kicks.tolist(), strict=True))
 
 
 def swing_energy(engine, dt=DT):

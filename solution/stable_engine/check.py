@@ -13,11 +13,13 @@ FAST = 20.0  # radii in a frame
 SOON = 10.0  # s
 MOST = 50  # balls
 WEAK = 20.0  # units/s²
+SHAKY = 0.15  # where a load of 3 g swings, a ball turns by more than 1 rad in a substep
 
 
 def complaints(world: WorldState) -> list[str]:
     """Return one sentence for each effect that is missing, or declared and not used."""
-    return [*missing(world, world.bodies).values(), *unused(world), *odd_gravity(world)]
+    told = [*missing(world, world.bodies).values(), *unused(world)]
+    return [*told, *odd_gravity(world), *shaky_rods(world)]
 
 
 def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
@@ -110,3 +112,29 @@ def unused(world: WorldState) -> list[str]:
         for name, effect in world.effects.items()
         if not effect.is_used()
     ]
+
+
+def shaky_rods(world: WorldState) -> list[str]:
+    """Return a sentence if a light ball on rods carries so much that it shakes faster than steps.
+
+    What it carries is at most what is on its rods and all that are tied to them.
+    """
+    rods: list[Joint] = getattr(world.effects.get("Rods"), "joints", [])
+    h, g = FRAME / 2 / world.substep_count, hypot(*world.g)
+    load: dict[Body, float] = {}
+    for _ in rods:  # at the latest after so many rounds, each ball knows the heaviest
+        before = dict(load)
+        for rod in rods:
+            ends = [body for body in (rod.a, rod.b) if not body.is_static]
+            heaviest = max([load.get(body, body.m) for body in ends])
+            load |= dict.fromkeys(ends, heaviest)
+        if load == before:
+            break
+    for rod in rods:
+        for body in (rod.a, rod.b):
+            if not body.is_static and h * h * g * load[body] > SHAKY * body.m * rod.rest:
+                return [
+                    f"{body!r} is on a rod with up to {load[body]:g} kg: it may shake faster than "
+                    "the substeps can follow. Take more substeps, or masses closer to each other."
+                ]
+    return []

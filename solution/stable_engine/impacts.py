@@ -142,21 +142,20 @@ class Impacts:
         return [c for c in early if due[c].speed >= hardest], earliest
 
     def settle(self, body: Body, ago: float, reached: dict[Body, float]) -> None:
-        """Stop what closes in slowly in the island of a ball, at once, when it was hit."""
+        """Stop what closes in slowly in the island of a ball that was hit, at once.
+
+        Where joints or static bodies have a part in it, the solver does.
+        """
         slow = self.island_of(body, reached)
         hit = balls_of(slow)
-        if len(slow) < 2:
+        if len(slow) < 2 or not self.free.issuperset(hit):
             return
-        if ago > 0 and self.free.issuperset(hit):
-            fly(hit, -ago)
-            for c in slow:
-                c.nx, c.ny, c.gap = collide(c.a, c.b)
-            self.resolve(slow, [0.0] * len(slow))
-            fly(hit, ago)
-            self.look_around(hit, True)
-        else:
-            self.resolve(slow, [0.0] * len(slow))
-            self.look_around(hit, False)
+        fly(hit, -ago)
+        for c in slow:
+            c.nx, c.ny, c.gap = collide(c.a, c.b)
+        self.resolve(slow, [0.0] * len(slow))
+        fly(hit, ago)
+        self.look_around(hit, True)
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:
         """Return the contacts that lead from a ball on. Takes their balls off the reached."""

@@ -2,7 +2,10 @@
 
 from .body import Body
 from .joint import Joint, Joints
+from .network import Network, connect
 from .validate import not_negative
+
+LEAST_DRAG = 1e-12  # share of the mass: one without drag would have no row in the network
 
 
 class Spring(Joint):
@@ -11,7 +14,7 @@ class Spring(Joint):
     stiffness is force per px of stretch (kg/s²), damping is force per px/s (kg/s).
     """
 
-    __slots__ = ("c", "k")
+    __slots__ = ("c", "crowd", "drag", "j", "k", "pull")
     effect = "Springs"
 
     def __init__(
@@ -23,6 +26,10 @@ class Spring(Joint):
         length: float | None = None,
     ) -> None:
         super().__init__(a, b)
+        self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
+        self.crowd = 0.0  # 1/s², the most that it may swing with, from all springs at its ends
+        self.pull = 0.0  # kg px/s, that of its stretch in a substep
+        self.drag = 0.0  # kg, impulse per px/s at which its ends part
         self.k = not_negative("Spring.stiffness", stiffness)
         self.c = not_negative("Spring.damping", damping)
         if length is not None:
@@ -50,20 +57,64 @@ class Spring(Joint):
 
 
 class Springs(Joints[Spring]):
-    """Spring forces that stay stable at any stiffness, while a soft spring keeps its energy.
+    """Springs as soft constraints, solved together: stable at any stiffness and damping.
 
-    The divisor is that of an implicit step: it limits a stiff spring to what one substep can
-    follow, and is nearly 1 for a soft one. What a substep cannot follow is damped. Kept, it would
-    grow without end where a rod or a contact holds the same ball.
+    A soft spring pulls by the stretch it has, and keeps its energy. A stiff one would swing wider
+    and wider: it pulls by the stretch that it will have after the move, which damps what a substep
+    cannot follow. Impulses add up from substep to substep, so that a chain hangs as Hooke says.
     """
 
     rank = 1
 
-    def force(self, h: float) -> None:
+    def __init__(self) -> None:
+        super().__init__()
+        self.networks: list[Network[Spring]] = []
+        self.is_stale = False
+
+    def add(self, spring: Spring) -> None:
+        super().add(spring)
+        self.is_stale = True
+
+    def awake_changed(self) -> None:
+        super().awake_changed()
+        self.is_stale = True
+
+    def body_changed(self, body: Body) -> None:
+        super().body_changed(body)
+        self.is_stale = True
+
+    def prepare(self, h: float) -> None:
+        if self.is_stale:
+            self.is_stale = False
+            self.networks = connect(self.awake)
+            self.find_crowds()
+
+    def find_crowds(self) -> None:
+        """Find out for each spring how fast it may swing, with all springs at its ends."""
+        sums: dict[Body, float] = {}
+        for spring in self.awake:
+            for body in (spring.end_a, spring.end_b):
+                sums[body] = sums.get(body, 0.0) + spring.k * body.inv_mass
+        for spring in self.awake:
+            spring.crowd = sums[spring.end_a] + sums[spring.end_b]
+
+    def warm_start(self, h: float) -> None:
         for spring in self.awake:
             spring.measure()
-            k, c = spring.k, spring.c
-            turn2 = h * h * k / spring.m  # rad², by how far it swings in a substep
-            c += h * k * (1 - 1 / (1 + turn2 * turn2 * turn2))
-            force = -k * (spring.distance - spring.rest) - c * spring.speed()
-            spring.apply_impulse(h * force / (1 + h * (c + h * k) / spring.m))
+            k = spring.k
+            turn2 = h * h * spring.crowd  # rad², by how far it swings in a substep
+            ahead = 1 - 1 / (1 + turn2 * turn2 * turn2)  # how much the stretch to come counts
+            spring.pull = -h * k * (spring.distance - spring.rest)
+            spring.drag = max(h * (spring.c + ahead * h * k), LEAST_DRAG * spring.m)
+            spring.apply_impulse(spring.j)
+
+    def solve(self, h: float) -> None:
+        for spring in self.awake:
+            give = 1 / spring.drag
+            spring.pivot = 1 / spring.m + give
+            spring.rhs = (spring.pull - spring.j) * give - spring.speed()
+        for network in self.networks:
+            network.solve()
+        for spring in self.awake:
+            spring.apply_impulse(spring.rhs)
+            spring.j += spring.rhs

@@ -19,7 +19,9 @@ from mini_engine import SLOP
 
 KIT = Path(__file__).parents[2]
 SUBSTEPS = 4
-SOLVES = 2 * SUBSTEPS  # a contact or rod is solved and relaxed once in each substep
+SOLVES = (
+    2 * SUBSTEPS
+)  # a contact, its friction, or a rod is solved and relaxed once in each substep
 SMALL, LARGE = 10, 25
 HEAP = 10
 
@@ -106,7 +108,7 @@ def test_what_was_done_is_what_the_scene_holds(results, size):
         touching = done["contacts"] if "Contacts" in line["effects"] else 0
         assert done["contact solves"] == SOLVES * touching
         assert done["friction solves"] == (
-            SUBSTEPS * touching if "Friction" in line["effects"] else 0
+            SOLVES * touching if "Friction" in line["effects"] else 0
         )
         assert done["rod solves"] == (SOLVES * 10 if "Rods" in line["effects"] else 0)
         assert done["spring forces"] == (SUBSTEPS * 10 if "Springs" in line["effects"] else 0)
@@ -127,8 +129,8 @@ def test_prices_are_differences_and_add_up(results):
 
 def test_ten_rods_cost_the_same_among_many_balls(results):
     few, many = lines_of(results, SMALL), lines_of(results, LARGE)
-    for title in ("10 rods", "10 springs"):
-        assert many[title]["price"] == pytest.approx(few[title]["price"], rel=0.05)
+    for title in ("10 rods", "10 springs"):  # among few balls, more of them share a ball
+        assert few[title]["price"] / 1.25 < many[title]["price"] < 1.05 * few[title]["price"]
     assert many["contacts"]["price"] > 2 * few["contacts"]["price"]
 
 

@@ -1,0 +1,138 @@
+"""Joints that share balls, solved together: elimination in a sparse matrix (LDLᵀ)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Generic
+
+from .body import Body
+from .joint import AnyJoint, Joint
+
+
+class Coupling:
+    """What an impulse on one joint does to the speed of another one.
+
+    They share a ball, or both share one with a joint that is eliminated before them. The matrix is
+    symmetric: once the order is known, `one` is eliminated before `other`.
+    """
+
+    __slots__ = ("one", "other", "share", "value", "weight")
+
+    def __init__(self, one: Joint, other: Joint) -> None:
+        self.one = one
+        self.other = other
+        self.weight = 0.0  # 1/kg, of the balls they share; negative between links of a chain
+        self.value = 0.0  # 1/kg, the entry of the matrix
+        self.share = 0.0  # how much of the row of `one` is taken off that of `other`
+
+
+Fill = tuple[Coupling, Coupling, Coupling]
+
+
+class Row:
+    """A joint, its couplings to later ones, and what eliminating it does to their couplings."""
+
+    __slots__ = ("couplings", "fills", "joint")
+
+    def __init__(self, joint: Joint, couplings: list[Coupling], fills: list[Fill]) -> None:
+        self.joint = joint
+        self.couplings = couplings
+        self.fills = fills
+
+
+class Network(Generic[AnyJoint]):
+    """Connected joints in the order of elimination: always the one with the fewest couplings left.
+
+    A chain or a tree of joints so costs as much per joint as a pass that treats each alone.
+    """
+
+    def __init__(self, joints: list[AnyJoint]) -> None:
+        self.joints = joints
+        beside = couple(joints)
+        self.couplings = [c for joint in beside for c in beside[joint].values() if c.one is joint]
+        self.filled: list[Coupling] = []
+        self.rows: list[Row] = []
+        while beside:
+            joint = min(beside, key=lambda one: len(beside[one]))
+            self.rows.append(self.eliminate(joint, beside))
+        self.backwards = self.rows[::-1]
+
+    def eliminate(self, joint: Joint, beside: dict[Joint, dict[Joint, Coupling]]) -> Row:
+        """Take a joint out of those that are left, and couple its neighbours to each other."""
+        couplings: list[Coupling] = []
+        fills: list[Fill] = []
+        for other, c in beside.pop(joint).items():
+            del beside[other][joint]
+            c.one, c.other = joint, other
+            for before in couplings:
+                there = beside[other].get(before.other)
+                if there is None:
+                    there = Coupling(before.other, other)
+                    beside[other][before.other] = beside[before.other][other] = there
+                    self.filled.append(there)
+                fills.append((before, c, there))
+            couplings.append(c)
+        return Row(joint, couplings, fills)
+
+    def solve(self) -> None:
+        """Find the impulses that together give each joint its speed.
+
+        A joint brings pivot, the change of its speed by a unit of impulse on it (1/kg), and rhs,
+        the change of speed that it wants (px/s). Afterwards rhs holds its impulse (kg px/s).
+        """
+        for c in self.couplings:
+            one, other = c.one, c.other
+            c.value = c.weight * (one.nx * other.nx + one.ny * other.ny)
+        for c in self.filled:
+            c.value = 0.0
+        for row in self.rows:
+            if row.couplings:
+                joint = row.joint
+                pivot, rhs = joint.pivot, joint.rhs
+                for c in row.couplings:
+                    share = c.share = c.value / pivot
+                    other = c.other
+                    other.pivot -= share * c.value
+                    other.rhs -= share * rhs
+                for c, d, filled in row.fills:
+                    filled.value -= c.share * d.value
+        for row in self.backwards:
+            joint = row.joint
+            rhs = joint.rhs / joint.pivot
+            for c in row.couplings:
+                rhs -= c.share * c.other.rhs
+            joint.rhs = rhs
+
+
+def couple(joints: Sequence[Joint]) -> dict[Joint, dict[Joint, Coupling]]:
+    """Return the couplings of joints that share balls, by both joints."""
+    beside: dict[Joint, dict[Joint, Coupling]] = {joint: {} for joint in joints}
+    at: dict[Body, list[tuple[Joint, float]]] = {}
+    for joint in joints:
+        for body, sign in ((joint.end_a, -1.0), (joint.end_b, 1.0)):
+            if body.is_static:
+                continue
+            for other, there in at.setdefault(body, []):
+                c = beside[joint].get(other)
+                if c is None:
+                    c = beside[joint][other] = beside[other][joint] = Coupling(other, joint)
+                c.weight += sign * there * body.inv_mass
+            at[body].append((joint, sign))
+    return beside
+
+
+def connect(joints: list[AnyJoint]) -> list[Network[AnyJoint]]:
+    """Return the networks of joints, one for each set that balls connect."""
+    beside, networks = couple(joints), []
+    seen: set[Joint] = set()
+    for joint in joints:
+        if joint not in seen:
+            ahead: list[Joint] = [joint]
+            found: set[Joint] = {joint}
+            while ahead:
+                new = [other for other in beside[ahead.pop()] if other not in found]
+                found.update(new)
+                ahead += new
+            seen |= found
+            networks.append(Network([one for one in joints if one in found]))
+    return networks

@@ -1,0 +1,141 @@
+"""Rods and springs: what energy and equilibrium ask of them."""
+
+import math
+from itertools import pairwise
+
+import pytest
+from worlds_for_tests import balls, build
+
+from experiments.engines import Stable
+from experiments.measures import energy, run, watch, worst_stretch
+from experiments.scenes import DT, Ball, G, Scene, Spring, chain
+
+# ---------------------------------------------------------------- rods keep energy
+
+
+def swinging(links, length, masses=1.0):
+    """A chain of rods, let go from the horizontal."""
+    peg = Ball((0, 0), 4, mass=0)
+    row = [Ball((length * (i + 1), 0), 4, masses) for i in range(links)]
+    return Scene([peg, *row], ("Rods",), [(i, i + 1) for i in range(links)])
+
+
+def energy_error(scene, seconds):
+    """The worst error of the energy, as a share of what it falls by from the horizontal to rest."""
+    engine = Stable(scene)
+    depth = 0.0
+    for a, b in scene.rods:
+        depth += math.dist(scene.bodies[a].pos, scene.bodies[b].pos) * sum(
+            scene.bodies[i].mass for i in range(b, len(scene.bodies))
+        )
+    start = energy(engine, DT)
+    seen = watch(engine, seconds, lambda: energy(engine, DT))
+    return max(abs(now - start) for now in seen) / (depth * G)
+
+
+def test_a_double_pendulum_keeps_its_energy():
+    assert energy_error(swinging(2, 100.0), 20) < 0.01
+
+
+def test_a_triple_pendulum_keeps_its_energy():
+    assert energy_error(swinging(3, 100.0), 10) < 0.02
+
+
+def test_a_whip_keeps_its_energy():
+    assert energy_error(swinging(40, 20.0), 5) < 0.03
+
+
+@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0, 10_000.0, 100_000.0])
+def test_no_rod_of_a_hanging_chain_stretches_whatever_hangs_on_it(ratio):
+    engine = Stable(chain(10, (0.0, 20.0), bob=ratio))
+    assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 0.01
+
+
+@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0, 10_000.0, 100_000.0])
+def test_a_swinging_chain_stretches_by_less_than_a_link_or_the_check_says_so(ratio):
+    engine = Stable(chain(10, (20.0, 0.0), bob=ratio))
+    assert any("substeps" in sentence for sentence in engine.complaints) == (ratio > 100)
+    if ratio <= 100:
+        assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 20
+
+
+def test_a_closed_frame_of_rods_turns_with_its_energy():
+    """A square with both diagonals has one rod too many: it must still turn as one."""
+    corners = [(-50, -50), (50, -50), (50, 50), (-50, 50)]
+    frame = [Ball(at, 5, vel=(-4 * at[1], 4 * at[0])) for at in corners]
+    rods = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 2), (1, 3)]
+    engine = Stable(Scene(frame, ("Rods",), rods, gravity=(0, 0)))
+    start = energy(engine)
+    run(engine, 10)
+    assert energy(engine) == pytest.approx(start, rel=0.01)
+    assert worst_stretch(engine) < 0.1
+
+
+# ---------------------------------------------------------------- springs hang at their stretch
+
+
+def spring_chain(count, stiffness, damping, exact=True):
+    """Balls of 1 kg on springs of 20 px, hanging at the stretch of equilibrium, or not stretched.
+
+    The spring above the last i balls carries i G, so it is stretched by i G / stiffness.
+    """
+    lengths = [20 + exact * (count - i) * G / stiffness for i in range(count)]
+    heights = [sum(lengths[: i + 1]) for i in range(count)]
+    bodies = [Ball((0, 0), 4, mass=0), *(Ball((0, y), 4) for y in heights)]
+    springs = [Spring(i, i + 1, stiffness, damping, 20.0) for i in range(count)]
+    return Scene(bodies, ("Springs",), springs=springs)
+
+
+def hang_errors(scene, world):
+    """How far each spring is from its exact stretch, as a share of that."""
+    count, spring = len(scene.springs), scene.springs[0]
+    ends = world.bodies
+    found = [math.dist((a.x, a.y), (b.x, b.y)) - 20 for a, b in pairwise(ends)]
+    exact = [(count - i) * G / spring.stiffness for i in range(count)]
+    return [abs(a / b - 1) for a, b in zip(found, exact, strict=True)]
+
+
+@pytest.mark.parametrize("damping", [0.0, 1.0, 200.0, 1e5])
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8])
+@pytest.mark.parametrize("count", [1, 5, pytest.param(20, marks=pytest.mark.soak)])
+def test_a_chain_of_springs_stays_at_its_exact_stretch(count, stiffness, damping):
+    scene = spring_chain(count, stiffness, damping)
+    world = build(scene)
+    run(world, 3)
+    assert max(hang_errors(scene, world)) < 1e-3
+
+
+@pytest.mark.parametrize(("stiffness", "damping"), [(1e3, 50), (1e4, 200), (1e6, 1000), (1e8, 0)])
+def test_a_chain_of_damped_springs_comes_to_its_exact_stretch(stiffness, damping):
+    scene = spring_chain(5, stiffness, damping, exact=False)
+    world = build(scene)
+    run(world, 10)
+    assert max(hang_errors(scene, world)) < 1e-3
+
+
+@pytest.mark.parametrize("damping", [0.0, 1.0, 1e3, 1e6])
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e9])
+@pytest.mark.parametrize("substeps", [1, 4])
+def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
+    """Thirty springs on one ball: what holds for one must hold for their sum."""
+    ring = [
+        Ball((100 * math.cos(i * math.tau / 30), 100 * math.sin(i * math.tau / 30)), mass=0)
+        for i in range(30)
+    ]
+    springs = [Spring(i, 30, stiffness, damping, 90.0) for i in range(30)]
+    scene = Scene([*ring, Ball((5, 3))], ("Springs",), springs=springs, gravity=(0, 0))
+    engine = Stable(scene, substeps)
+    (ball,) = balls(engine.world)
+    assert max(watch(engine, 5, lambda: math.hypot(ball.x, ball.y))) < 1.5 * math.hypot(5, 3)
+
+
+def test_a_critically_damped_spring_follows_the_closed_form():
+    omega, stretch = 5.0, 50.0
+    bodies = [Ball((0, 0), mass=0), Ball((100 + stretch, 0))]
+    springs = [Spring(0, 1, omega**2, 2 * omega, 100)]
+    world = build(Scene(bodies, ("Springs",), springs=springs, gravity=(0, 0)))
+    for i in range(240):
+        world.step(DT)
+        t = (i + 1) * DT
+        exact = 100 + stretch * (1 + omega * t) * math.exp(-omega * t)
+        assert world.bodies[1].x == pytest.approx(exact, abs=0.02 * stretch)
