@@ -63,10 +63,13 @@ class BroadPhase:
         self.bounds: list[Bounds] = []  # in the order of the last sweep
         self.sorted = False
         self.upright = False  # whether the sweep goes along y
-        self.covers_ways = False  # whether boxes of fast balls cover their ways
+        self.fast: list[
+            tuple[Bounds, float, float]
+        ] = []  # whose boxes cover their ways from (x, y)
 
     def take(self, bodies: list[Body]) -> None:
         """Begin anew, with these bodies."""
+        self.fast = []
         self.bounds = [Bounds(body, place) for place, body in enumerate(bodies)]
         self.sorted = False
 
@@ -78,11 +81,10 @@ class BroadPhase:
         left, right = min([b.x - b.hx for b in awake]) - margin, max([b.x + b.hx for b in awake])
         top, bottom = min([b.y - b.hy for b in awake]) - margin, max([b.y + b.hy for b in awake])
         upright = bottom - top > right - left
-        if self.covers_ways:
-            self.update_fast(upright, margin)
-        else:
-            for one in self.bounds:
-                one.update(upright, margin)
+        for one in self.bounds:
+            one.update(upright, margin)
+        for one, x, y in self.fast:
+            one.cover_way(upright, x, y)
         self.sort(upright)
         if upright:
             left, right, top, bottom = top, bottom, left, right
@@ -103,14 +105,6 @@ class BroadPhase:
                         pairs.append((a, b) if a.id > b.id else (b, a))
             active.append(one)
         return pairs
-
-    def update_fast(self, upright: bool, margin: float) -> None:
-        """Update the boxes, those of fast balls with their ways."""
-        for one in self.bounds:
-            x, y = one.x, one.y
-            one.update(upright, margin)
-            if abs(one.x - x) + abs(one.y - y) > FAR * one.body.hx:
-                one.cover_way(upright, x, y)
 
     def sort(self, upright: bool) -> None:
         """Put the boxes into the order in which the sweep meets them."""

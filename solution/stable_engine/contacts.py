@@ -108,13 +108,13 @@ class Contacts(Effect):
         margin = slow * dt
         cache, found, deep = self.cache, {}, []
         pairs = self.broad_phase.near_pairs(self.world.awake, margin)
-        any_fast = self.broad_phase.covers_ways
+        any_fast = bool(self.broad_phase.fast)
         for a, b in pairs:
             nx, ny, gap = collide(a, b)
             if (
                 gap > touching
                 and (gap > margin or hypot(b.vx - a.vx, b.vy - a.vy) > slow)
-                and not (any_fast and self.have_passed(a, b))
+                and not (any_fast and self.have_passed(a, b, gap))
             ):
                 continue
             pair = a.id, b.id
@@ -140,16 +140,11 @@ class Contacts(Effect):
             share_push(deep, push)
         return list(found.values())
 
-    def have_passed(self, a: Body, b: Body) -> bool:
+    def have_passed(self, a: Body, b: Body, gap: float) -> bool:
         """Return whether two free balls have touched on their way here, and are past each other."""
-        if (
-            not b.r
-            or self.last_dt <= 0
-            or a.joint_count
-            or b.joint_count
-            or a.is_bullet
-            or b.is_bullet
-        ):
+        if (abs(a.vx - b.vx) + abs(a.vy - b.vy)) * self.last_dt <= gap or not b.r:
+            return False
+        if a.joint_count or b.joint_count or a.is_bullet or b.is_bullet:
             return False
         return moment_of_touch(a, b, self.flown.get(a, self.last_dt))[0] > 0
 
@@ -258,14 +253,15 @@ class Contacts(Effect):
         The core is half as wide as the ball, so that one that slides is not held up at a seam.
         """
         self.flown, self.last_dt = {}, h * self.world.substep_count
-        any_fast = False
+        fast = []
         for last in self.broad_phase.bounds:
             body = last.body
             distance = abs(body.x - last.x) + abs(body.y - last.y)
             if distance > FAR * body.hx:
-                any_fast = True
-                self.stop_core(last, h)
-        self.broad_phase.covers_ways = any_fast and self.lets_none_pass
+                fast.append((last, last.x, last.y))
+                if distance > body.r:
+                    self.stop_core(last, h)
+        self.broad_phase.fast = fast if self.lets_none_pass else []
         for _ in range(CORNER_PASSES):
             put_back = []
             for c in self.statics.contacts:

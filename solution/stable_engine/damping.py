@@ -40,6 +40,8 @@ class Damping(Effect):
         return self.linear > 0 or self.angular > 0
 
     def force(self, h: float) -> None:
+        if not self.is_used():
+            return
         keep_vel, keep_omega = exp(-self.linear * h), exp(-self.angular * h)
         for body in self.world.awake:
             body.vx *= keep_vel
