@@ -57,6 +57,7 @@ class Contacts(Effect):
         self.begun: list[Contact] = []  # those of touching that are new in this step
         self.changed = False  # whether contacts are new in this step, so that rows must be too
         self.lets_none_pass = False  # whether balls that touched on their way count: for Bounce
+        self.friction_warms = False  # whether Friction warm starts both, in one pass
         self.last_dt = 0.0  # s, of the step before
         self.flown: dict[Body, float] = {}  # s, how long a ball flew before it was stopped
         self.broad_phase = BroadPhase()
@@ -186,6 +187,8 @@ class Contacts(Effect):
         self.h = h
 
     def warm_start(self, h: float) -> None:
+        if self.friction_warms:
+            return
         for group in self.groups:
             moves_b = group.moves_b
             for c in group.contacts:

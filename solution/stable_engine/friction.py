@@ -21,6 +21,7 @@ class Friction(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
+        self.contacts.friction_warms = True
         self.balls, self.statics = Group(moves_b=True), Group(moves_b=False)
         self.groups = [self.balls, self.statics]
 
@@ -32,6 +33,8 @@ class Friction(Effect):
         spin = a.r * a.r * a.inv_inertia + b.r * b.r * b.inv_inertia
         c.mt = 1 / (a.inv_mass + b.inv_mass + spin)
         c.mu = sqrt(a.mu * b.mu)
+        if c.mu == 0:
+            c.jt = 0.0
 
     def after_impact(self, group: list[Contact], impulses: list[float]) -> None:
         given = [0.0] * len(group)
@@ -61,19 +64,25 @@ class Friction(Effect):
                 c.tbx, c.tby, c.bw = tx * b.inv_mass, ty * b.inv_mass, c.arm_b * b.inv_inertia
 
     def warm_start(self, h: float) -> None:
-        for group in self.groups:
+        """Warm start both impulses of a contact: one pass costs less than one for each."""
+        for group in self.contacts.groups:
             moves_b = group.moves_b
             for c in group.contacts:
-                jt = c.jt
+                a, b, jn, jt = c.a, c.b, c.jn, c.jt
                 if jt:
-                    a, b = c.a, c.b
-                    a.vx -= c.tax * jt
-                    a.vy -= c.tay * jt
+                    a.vx -= c.ax * jn + c.tax * jt
+                    a.vy -= c.ay * jn + c.tay * jt
                     a.w -= c.aw * jt
                     if moves_b:
-                        b.vx += c.tbx * jt
-                        b.vy += c.tby * jt
+                        b.vx += c.bx * jn + c.tbx * jt
+                        b.vy += c.by * jn + c.tby * jt
                         b.w -= c.bw * jt
+                elif jn:
+                    a.vx -= c.ax * jn
+                    a.vy -= c.ay * jn
+                    if moves_b:
+                        b.vx += c.bx * jn
+                        b.vy += c.by * jn
 
     def solve(self, h: float) -> None:
         """Rub where contacts press now: a pile in which only relax rubbed would never rest."""
