@@ -37,6 +37,11 @@ class Friction(Effect):
             c.jt = 0.0
 
     def after_impact(self, group: list[Contact], impulses: list[float]) -> None:
+        if len(group) == 1:
+            c, limit = group[0], group[0].mu * impulses[0]
+            if limit:
+                drag(c, max(-limit, min(limit, -c.mt * slip(c))))
+            return
         given = [0.0] * len(group)
         for _ in range(passes_for(len(group))):
             largest = 0.0

@@ -53,14 +53,17 @@ class Impacts:
 
     def look(self, c: Contact, is_new: bool = False) -> None:
         """Enter a pair that closes in fast."""
-        self.due.pop(c, None)
         speed, ago = c.closing_speed(), 0.0
-        if (speed > self.slow and c.gap < 0) or is_new:
+        if speed <= self.slow and not is_new:
+            self.due.pop(c, None)
+            return
+        if c.gap < 0 or is_new:
             now = c.nx, c.ny, c.gap
             ago = self.turn_back(c)
             speed = c.closing_speed()
             if speed <= self.slow:
                 c.nx, c.ny, c.gap = now
+        self.due.pop(c, None)
         if speed > self.slow:
             self.due[c] = Impact(ago, speed)
 
@@ -105,12 +108,14 @@ class Impacts:
         """Resolve the first impacts that are due, and enter whom they reached, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
-        if not self.free.issuperset(hit):
+        if ago > 0 and not self.free.issuperset(hit):
             ago = 0.0
         wanted = [parting_speed(c, c.closing_speed()) for c in group]
-        fly(hit, -ago)
+        if ago > 0:
+            fly(hit, -ago)
         self.resolve(group, wanted)
-        fly(hit, ago)
+        if ago > 0:
+            fly(hit, ago)
         for body in hit:
             reached[body] = ago
         self.look_around(hit, ago > 0)
@@ -136,6 +141,9 @@ class Impacts:
     def take_first(self) -> tuple[list[Contact], float]:
         """Return the earliest contacts, of these the hardest, and how long (s) ago they touched."""
         due = self.due
+        if len(due) == 1:
+            ((c, impact),) = due.items()
+            return [c], impact.ago
         earliest = max([impact.ago for impact in due.values()])
         early = [c for c, impact in due.items() if impact.ago >= earliest - SAME * self.last_dt]
         hardest = max([due[c].speed for c in early]) * (1 - SAME)
@@ -178,6 +186,9 @@ class Impacts:
         Normal impulses come first, then friction with them as its limits: so no energy is created.
         """
         impulses = [0.0] * len(group)
+        if len(group) == 1:
+            impulses[0] = max(group[0].mn * (wanted[0] + group[0].closing_speed()), 0.0)
+            group[0].push_apart(impulses[0])
         for _ in range(passes_for(len(group))):
             largest = 0.0
             for i, c in enumerate(group):
@@ -192,8 +203,8 @@ class Impacts:
 
 
 def passes_for(count: int) -> int:
-    """Return how many passes over so many contacts may be made."""
-    return 1 if count == 1 else min(PASSES, WORK // count)
+    """Return how many passes over so many contacts may be made: none over one, which is simple."""
+    return 0 if count == 1 else min(PASSES, WORK // count)
 
 
 def balls_of(group: list[Contact]) -> list[Body]:
