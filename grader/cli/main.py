@@ -97,7 +97,9 @@ def grade_command(
     ] = None,
     jobs: Annotated[
         int,
-        typer.Option(min=0, help="Checks, or submissions of a class, at a time; 0 for one per core."),
+        typer.Option(
+            min=0, help="Checks, or submissions of a class, at a time; 0 for one per core."
+        ),
     ] = 0,
     isolation: Confinement = "auto",
     seed: SecretSeed = None,
