@@ -292,7 +292,8 @@ def test_no_line_is_longer_than_80_columns(hand_in, monkeypatch: pytest.MonkeyPa
     assert re.search(r"^ {14}\S", wide, re.MULTILINE)  # words that go on below hang
     monkeypatch.setenv("COLUMNS", "76")
     narrow = check(Path(), "8b")
-    words = [line for line in narrow.splitlines() if ".html" not in line]
+    in_one_piece = re.compile(r"\.html|Run it")  # to be copied
+    words = [line for line in narrow.splitlines() if not in_one_piece.search(line)]
     assert max(map(len, words)) <= 76
 
 
@@ -392,7 +393,7 @@ def test_what_was_printed_and_what_runs_it_again_are_shown(hand_in):
     fill_in(tree, INTEGRATORS, _8a=code)
     out = check(tree, "8a")
     assert re.search(r"^    Printed   .*x is \d", out, re.MULTILINE), out
-    (script,) = re.findall(r"Run it\s+python\S*\s+(\S+\.py)\s", out)
+    (script,) = re.findall(r"Run it\s+\S*python\S*\s+(\S+\.py)\s", out)
     again = subprocess.run(
         [sys.executable, os.path.abspath(script)], cwd=tree, capture_output=True, encoding="utf-8"
     )

@@ -175,11 +175,12 @@ def without_work(monkeypatch: pytest.MonkeyPatch, place: Path) -> None:
         raise Begun
 
     monkeypatch.chdir(place)
-    for module in (grade, executor, making, dashboard, verify):
+    for module in (grade, executor, making, verify):
         monkeypatch.setattr(module, "start_worker", begin)
+    monkeypatch.setattr(dashboard, "grade_with_replays", begin)
     for module in (verify, mutants):
         monkeypatch.setattr(module, "run_in_processes", begin)
-    monkeypatch.setattr(executor.Pool, "_start", begin)
+    monkeypatch.setattr(executor.Pool, "__enter__", begin)
 
 
 def list_all(folder: Path) -> dict[Path, bytes]:

@@ -112,10 +112,10 @@ def test_one_command_grades_a_folder_in_it(tmp_path: Path, results: str):
 
 @pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
 def test_who_names_no_folder_is_told(tmp_path: Path):
-    done = subprocess.run(
-        ["make", "contained", "ENGINE=false"], cwd=KIT, stdout=subprocess.PIPE, text=True
-    )
-    assert done.returncode != 0 and "is no folder of submissions" in done.stdout
+    for more, said in ((), "needs SUBMISSIONS=folder"), (("SUBMISSIONS=none",), "is no folder of"):
+        command = ["make", "contained", "ENGINE=false", *more]
+        done = subprocess.run(command, cwd=KIT, capture_output=True, text=True)
+        assert done.returncode != 0 and said in done.stdout + done.stderr
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
