@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-FOR_CLASS = ("jobs", "roster", "adjust", "cluster")  # for a class alone
+FOR_CLASS = ("roster", "adjust", "cluster")  # for a class alone
 
 
 class Commands(TyperGroup):
@@ -161,7 +161,9 @@ def refuse_what_is_ignored(
     if class_ and not find_spec("grader.classroom"):
         raise Stop("--class needs the whole kit, and this is the students' grader: leave it out")
     if path is None:
-        refuse_ignored(context, (*FOR_ONE, *FOR_CLASS, "out"), "without a submission: name one")
+        refuse_ignored(
+            context, (*FOR_ONE, *FOR_CLASS, "out", "jobs"), "without a submission: name one"
+        )
     elif class_:
         refuse_ignored(context, FOR_ONE, "with --class, which is for more than one submission")
     else:

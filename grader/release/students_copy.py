@@ -29,6 +29,7 @@ from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric, visible
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
 from grader.release.practice import make_practice
+from grader.release.recordings import Record, record_anew
 from grader.source.cut import prune_modules, with_bodies
 from grader.source.regions import read_source
 
@@ -52,7 +53,9 @@ def list_hidden_checks(rubric: Rubric) -> list[str]:
     return [name for name in dict.fromkeys(named) if name not in shown]
 
 
-def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> None:
+def write_copy(
+    folder: Path, wrong: Iterable[Tree], course: Course = FULL, record: Record = record_anew
+) -> None:
     """Write the package into `folder`, with what a course has of the checks.
 
     The next question of a check may depend on an answer. So wrong submissions are asked as well:
@@ -60,13 +63,20 @@ def write_copy(folder: Path, wrong: Iterable[Tree], course: Course = FULL) -> No
     """
     checks = write_code(folder, course)
     # First, while nothing notes what the closed forms are asked: it asks hidden checks as well.
-    (checks / PRACTICE).write_bytes(make_practice(course))
-    table = record_answers(wrong, visible(course.rubric))
+    (checks / PRACTICE).write_bytes(record("practice", lambda: make_practice(course)))
+    answers = record("answers", lambda: encode_table(record_answers(wrong, visible(course.rubric))))
+    noted = json.loads(answers)
     exacts = checks / "exact.py"
     text = read_source(exacts) if exacts.exists() else ""
-    asked = {name: each for name, each in table.oracles.items() if f"def {name}(" in text}
-    noted = msgspec.to_builtins(msgspec.structs.replace(table, oracles=asked))
-    write_file(checks / "recorded.json", json.dumps(noted, separators=(",", ":"), sort_keys=True))
+    asked = noted["oracles"].items()
+    noted["oracles"] = {name: each for name, each in asked if f"def {name}(" in text}
+    write_file(checks / "recorded.json", encode_table(noted).decode())
+
+
+def encode_table(table: object) -> bytes:
+    """Return a table as JSON, always the same for the same content."""
+    plain = msgspec.to_builtins(table)
+    return json.dumps(plain, separators=(",", ":"), sort_keys=True).encode()
 
 
 def write_code(folder: Path, course: Course = FULL, whole: bool = False) -> Path:

@@ -40,7 +40,7 @@ def test_full_marks_end_with_status_0(todos: list[str], points: int):
 
 def test_less_than_full_marks_end_with_status_1(tmp_path: Path):
     target = tmp_path / "marks.json"
-    done = grader("grade", "starter", "--todo", "8a", "--json", target)
+    done = grader("grade", "starter", "--todo", "8a", "--jobs", "2", "--json", target)
     assert done.returncode == 1
     assert json.loads(target.read_text(encoding="utf-8"))["points"] == 0
 
@@ -102,7 +102,7 @@ def test_there_are_three_hints_for_every_todo():
             "starter --roster missing.csv --cluster nowhere:1 --adjust none.toml",
             "--roster, --adjust, --cluster would be ignored without --class",
         ),
-        ("starter --jobs 0", "--jobs would be ignored without --class"),
+        ("--jobs 2", "--jobs would be ignored without a submission"),
         ("--class", "--class needs the submissions"),
         ("--json marks.json --out marks", "--out, --json would be ignored without a submission"),
         ("--class tests/bank --json marks.json", "--json would be ignored with --class"),

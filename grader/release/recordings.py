@@ -1,0 +1,51 @@
+"""Keep what takes minutes to record, in build/recorded, until something changes that decides it.
+
+What is kept is found by a key, which hashes all that it was made from.
+"""
+
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import msgspec
+
+from grader.bank.kept import hash_contents, hash_lines, hash_surroundings, make_key
+from grader.bank.members import members
+from grader.judge.course import Course
+from grader.judge.grade import KIT
+from grader.report.files import write_whole
+
+FOLDER = KIT / "build" / "recorded"
+RECORDING = ("bank", "player", "questions", "release")  # rooms of the grader that take part
+
+Record = Callable[[str, Callable[[], bytes]], bytes]  # by the name of what is recorded
+
+
+def record_anew(what: str, make: Callable[[], bytes]) -> bytes:
+    """Keep nothing."""
+    return make()
+
+
+class Recordings:
+    """What was recorded for the release of a course."""
+
+    def __init__(self, course: Course, folder: Path = FOLDER) -> None:
+        self.folder, self.key = folder, make_record_key(course)
+
+    def __call__(self, what: str, make: Callable[[], bytes]) -> bytes:
+        """Return what was recorded under this name, or record it now."""
+        path = self.folder / f"{what}-{self.key}"
+        with suppress(FileNotFoundError):
+            return path.read_bytes()
+        content = make()
+        write_whole(content, path)
+        return content
+
+
+def make_record_key(course: Course) -> str:
+    """Hash who is asked what, by which code, with which libraries, and this machine."""
+    rooms = [KIT / "grader" / room for room in RECORDING]
+    code = [row for room in rooms for row in hash_contents(room, "__pycache__")]
+    asked = msgspec.json.encode([course, course.rubric]).decode()
+    wrong = [make_key(member) for member in members(KIT, course) if member.kind == "wrong"]
+    return hash_lines([hash_surroundings(), asked, *code, *wrong])
