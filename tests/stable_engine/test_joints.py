@@ -1,7 +1,7 @@
 """Rods and springs: what energy and equilibrium ask of them."""
 
 import math
-from itertools import pairwise
+from itertools import pairwise, product
 
 import pytest
 from worlds_for_tests import balls, build
@@ -113,9 +113,14 @@ def test_a_chain_of_damped_springs_comes_to_its_exact_stretch(stiffness, damping
     assert max(hang_errors(scene, world)) < 1e-3
 
 
-@pytest.mark.parametrize("damping", [0.0, 1.0, 1e3, 1e6])
-@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e9])
-@pytest.mark.parametrize("substeps", [1, 4])
+CORNERS = {(1e2, 0.0, 1), (1e2, 1e6, 4), (1e9, 0.0, 4), (1e9, 1e6, 1)}
+STARS = [
+    pytest.param(*each, marks=[] if each in CORNERS else pytest.mark.soak)
+    for each in product([1e2, 1e4, 1e6, 1e9], [0.0, 1.0, 1e3, 1e6], [1, 4])
+]
+
+
+@pytest.mark.parametrize(("stiffness", "damping", "substeps"), STARS)
 def test_a_star_of_springs_never_gains_energy(stiffness, damping, substeps):
     """Thirty springs on one ball: what holds for one must hold for their sum."""
     ring = [
