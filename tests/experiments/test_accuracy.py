@@ -40,7 +40,8 @@ def test_the_exact_end_agrees_with_a_reference_solution(make):
     if isinstance(system.start[0], float):  # math.sin takes no complex number
         start = start.real
     span = (0, system.seconds)
-    integrate = pytest.importorskip("scipy.integrate")  # takes long to import
+    from scipy import integrate  # takes long to import
+
     found = integrate.solve_ivp(rates, span, start, method="DOP853", rtol=1e-13, atol=1e-13)
     x, v = found.y[:, -1]
     assert smooth.measure_distance(system, x, v) < 1e-8 * system.size
