@@ -3,6 +3,7 @@
 import gc
 import os
 import shutil
+import sys
 import time
 from collections.abc import Callable
 from functools import partial
@@ -29,6 +30,8 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 for name in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS"):
     os.environ.pop(name, None)  # that of `make test` is not the make of a student
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # or each of many commands compiles the kit anew
+sys.dont_write_bytecode = False
 
 KIT = Path(__file__).parents[1]
 os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
