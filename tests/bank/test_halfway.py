@@ -21,11 +21,11 @@ INSIDE = [Disc(5, -15, 8), Disc(-33, 4, 8), Disc(3, 12, 8), Disc(35, 1, 8)]
 
 
 def drawn() -> list[str]:
-    """One of every second TODO, by the hash of its name; `make verify` asks for all."""
+    """Return one state of every fifth TODO, by the hash of its name; `make verify` asks for all."""
     found: dict[str, str] = {}
     for name in sorted((s.name for s in STATES), key=lambda n: sha256(n.encode()).hexdigest()):
         found.setdefault(name.partition("-")[0], name)
-    return sorted(found.values())[::2]
+    return sorted(found.values())[2::5]
 
 
 @pytest.mark.parametrize("name", drawn())

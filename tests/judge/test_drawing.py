@@ -93,13 +93,13 @@ def test_the_seed_and_the_name_decide():
 
 
 def test_numbers_between_two_are_all_that_can_come():
-    @given(examples=2000, n=between(-7, 195))
+    @given(examples=400, n=between(-7, 60))
     def spread(lab, n: int) -> None:
         lab.append(n)
 
     found = drawn(spread)
-    assert (found[0], min(found), max(found)) == (0, -7, 195)
-    assert len(set(found)) > 180
+    assert (found[0], min(found), max(found)) == (0, -7, 60)
+    assert len(set(found)) > 50
 
 
 def test_a_failing_property_ends_with_the_simplest_example():

@@ -16,12 +16,13 @@ from grader.report.terminal import Printer
 @pytest.mark.parametrize(
     ("file", "old", "new", "todo", "words"),
     [
-        (
+        pytest.param(
             "pymunk_scene.py",
             "    space.damping = 0.95",
             "    space.damping = 0.95\n    space.iterations = 20",
             "7a",
             "An experiment: space.iterations is 20, not 10.",
+            marks=pytest.mark.soak,
         ),
         (
             "pymunk_scene.py",

@@ -31,7 +31,7 @@ from grader.protocol import (
     Vec,
 )
 
-QUICK, CAMPAIGN = 3_000, 100_000  # messages
+QUICK, CAMPAIGN = 1_500, 100_000  # messages
 
 
 class NoWorker:

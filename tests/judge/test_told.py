@@ -40,6 +40,7 @@ def telling(tree: Path, told: str) -> Path:
     return tree
 
 
+@pytest.mark.soak
 def test_numbers_of_a_run_with_the_reference_are_not_told(tmp_path: Path):
     tree, pages = telling(tmp_path / "tree", str(TOLD)), tmp_path / "pages"
     result = grade_with_replays(tree, ONLY_1, pages, shared_worker())
@@ -71,7 +72,7 @@ RAISES = """
     "name",
     [
         "__file__ + '/../../../../../../etc/passwd'",
-        "__file__.replace('integrators', '\\u202egrators')",
+        pytest.param("__file__.replace('integrators', '\\u202egrators')", marks=pytest.mark.soak),
     ],
 )
 def test_only_files_of_the_submission_are_told_as_places(tmp_path: Path, name: str):
@@ -127,7 +128,7 @@ denied()
     [
         "raise ValueError(WORDS)",
         pytest.param("raw(WORDS.encode())", marks=pytest.mark.soak),
-        "os._exit(42 if WORDS[0] == 'q' else 7)",
+        pytest.param("os._exit(42 if WORDS[0] == 'q' else 7)", marks=pytest.mark.soak),
         pytest.param("os.kill(os.getpid(), 10 if WORDS[0] == 'q' else 12)", marks=pytest.mark.soak),
         pytest.param("return WORDS", marks=pytest.mark.soak),
     ],
