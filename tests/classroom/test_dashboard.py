@@ -219,6 +219,7 @@ def column(screen: Screen, number: int) -> list[str]:
     return rows.evaluate_all(f"rows => rows.map(row => row.cells[{number}].textContent.trim())")
 
 
+@pytest.mark.soak
 def test_a_click_sorts_and_another_turns_it_round(screen: Screen):
     names = column(screen, 0)
     head = screen.page.locator("#table thead th").nth(1)
@@ -234,6 +235,7 @@ def test_a_click_sorts_and_another_turns_it_round(screen: Screen):
     assert column(screen, 0) == names == sorted(names)
 
 
+@pytest.mark.soak
 def test_search_and_choices_narrow_the_table(screen: Screen):
     screen.page.get_by_label("Search").fill("STUDENT 01")
     assert column(screen, 0) == [f"student {number:03}" for number in range(10, 20)]
@@ -244,6 +246,7 @@ def test_search_and_choices_narrow_the_table(screen: Screen):
         assert column(screen, 0) == [name]
 
 
+@pytest.mark.soak
 def test_a_count_shows_whom_it_counts(screen: Screen):
     makers = [number for number in range(MANY) if number % 4 == 1]
     mistakes = screen.page.locator(".mistakes tbody button")
@@ -257,6 +260,7 @@ def test_a_count_shows_whom_it_counts(screen: Screen):
         assert len(column(screen, 0)) == int(button.inner_text())
 
 
+@pytest.mark.soak
 def test_a_hostile_class_is_quiet_in_the_browser(browser: Any, tmp_path: Path):
     shown = Screen(browser, make_class(tmp_path / "class", 6, "'; {:03}", HOSTILE))
     shown.page.locator("#table thead button").last.click()

@@ -194,16 +194,18 @@ def test_the_solution_is_green(tmp_path: Path):
     assert run.outputs["points"] == run.outputs["max-points"]
 
 
+@pytest.mark.soak
 def test_the_starter_is_red_and_nothing_is_held_against_it(tmp_path: Path):
     run = in_agreement(run_workflow(checkout_of("starter", tmp_path), tmp_path / "runner"))
     assert run.status == 1 and run.outputs["points"] == "0"
     assert run.annotations == []  # not started is no mistake
 
 
+@pytest.mark.soak
 def test_a_mistake_is_annotated_on_its_line(tmp_path: Path):
     checkout = with_integrators(checkout_of("starter", tmp_path))
     make_mistake("8c-equal-weights", checkout)
-    run = in_agreement(run_workflow(checkout, tmp_path / "runner", installed=False))
+    run = in_agreement(run_workflow(checkout, tmp_path / "runner"))
     assert run.status == 1
     ((kind, held, message),) = run.annotations
     assert kind == "error" and held["title"].startswith("TODO 8c: ")
@@ -342,6 +344,7 @@ def test_reports_do_not_mix_with_what_a_submission_brings(tmp_path: Path):
     assert len(list((checkout / "report").iterdir())) == 1
 
 
+@pytest.mark.soak
 def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
     done = grade(
@@ -352,6 +355,7 @@ def test_gitlab_gets_the_files_and_no_command_of_github(tmp_path: Path):
     assert ci_readers.junit_cases((tmp_path / "report" / "junit.xml").read_bytes())
 
 
+@pytest.mark.soak
 def test_a_folder_of_the_repository_is_named_in_the_annotations(tmp_path: Path):
     checkout = checkout_of("solution", tmp_path)
     make_mistake("8c-equal-weights", checkout)
@@ -376,6 +380,7 @@ def test_the_course_says_from_how_many_points_on_a_run_is_green(
     assert ended.value.exit_code == status
 
 
+@pytest.mark.soak
 def test_the_policy_is_an_option_of_grade():
     done = run_grader("grade", KIT / "starter", "--todo", "8c", "--at-least", "0")
     assert done.exit_code == 0, done.output

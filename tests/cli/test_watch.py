@@ -122,6 +122,7 @@ def test_what_a_save_touched_comes_first_and_other_programs_not_at_all(open_sess
     assert graded == [{"8b"}, of_program("integrators") - {"8b"}]
 
 
+@pytest.mark.soak
 def test_a_watch_of_one_todo_checks_no_other(open_session, graded):
     session = open_session(options=Options(reference=None, only=frozenset({"8a"})))
     graded.clear()
@@ -153,6 +154,7 @@ def test_a_function_that_breaks_others_takes_their_points_too(open_session):
     assert session.is_up_to_date()
 
 
+@pytest.mark.soak
 def test_given_code_is_watched_as_well(open_session):
     session = open_session("solution")
     out = session.save(WORLD, put("self.apply_damping(dt)\n", "pass\n"))
@@ -160,6 +162,7 @@ def test_given_code_is_watched_as_well(open_session):
     assert session.is_up_to_date()
 
 
+@pytest.mark.soak
 def test_lines_that_move_are_nothing_new_but_known(open_session):
     session = open_session()
     out = session.save(SOLVER, lambda text: f"# mine\n{text}")
@@ -189,6 +192,7 @@ def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded):
     assert session.is_up_to_date()
 
 
+@pytest.mark.soak
 def test_a_tree_that_was_broken_from_the_start_can_be_mended(hand_in, worker: WarmWorker):
     few = Options(reference=None, only=frozenset({"8a"}))
     session = Session(hand_in("solution", integrators_py="def (:\n"), worker, few)

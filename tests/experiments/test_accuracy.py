@@ -28,6 +28,7 @@ SYSTEMS = pytest.mark.parametrize("make", smooth.SYSTEMS)
 # ---------------------------------------------------------------- integrators
 
 
+@pytest.mark.soak
 @SYSTEMS
 def test_the_exact_end_agrees_with_a_reference_solution(make):
     system = make()
@@ -76,6 +77,7 @@ def rk4_with_equal_weights(x, v, dt, accel):
     return x + dt / 4 * (v1 + v2 + v3 + v4), v + dt / 4 * (a1 + a2 + a3 + a4)
 
 
+@pytest.mark.soak
 def test_a_wrong_method_misses_its_order():
     methods = [*smooth.METHODS[:2], verlet_with_one_force, rk4_with_equal_weights]
     for row in smooth.study_system(smooth.make_spring(), methods)["methods"][2:]:
@@ -98,9 +100,13 @@ def test_a_method_that_raises_or_blows_up_is_named_and_does_not_end_the_study():
     assert not any(row["bounded"] for row in smooth.study_energy([raises] * 4))
 
 
-def test_rk4_drifts_above_verlets_bounded_error_at_equal_evaluations():
-    rows = {row["method"]: row for row in smooth.study_energy()}
-    rk4, verlet = rows["rk4"], rows["velocity_verlet"]
+@pytest.fixture(scope="module")
+def energies():
+    return {row["method"]: row for row in smooth.study_energy()}
+
+
+def test_rk4_drifts_above_verlets_bounded_error_at_equal_evaluations(energies):
+    rk4, verlet = energies["rk4"], energies["velocity_verlet"]
     assert rk4["peaks"][0] < verlet["peaks"][0] / 10
     assert rk4["peaks"][59] == pytest.approx(1.8e-3, rel=0.15)  # as measured by another program
     assert verlet["peaks"][59] == pytest.approx(6.7e-4, rel=0.05)
@@ -108,9 +114,8 @@ def test_rk4_drifts_above_verlets_bounded_error_at_equal_evaluations():
     assert 10 < crossing < 60
 
 
-def test_only_symplectic_methods_keep_the_energy_of_an_orbit_bounded():
-    bounded = {row["method"]: row["bounded"] for row in smooth.study_energy()}
-    assert bounded == {
+def test_only_symplectic_methods_keep_the_energy_of_an_orbit_bounded(energies):
+    assert {method: row["bounded"] for method, row in energies.items()} == {
         "explicit_euler": False,
         "semi_implicit_euler": True,
         "velocity_verlet": True,

@@ -24,11 +24,12 @@ SOLVES = (
 )  # a contact, its friction, or a rod is solved and relaxed once in each substep
 SMALL, LARGE = 10, 25
 HEAP = 10
+SOAK = pytest.mark.soak
 
 
-@pytest.fixture(scope="module")
-def results():
-    return effects.measure((SMALL, LARGE), heaps=(HEAP,))
+@pytest.fixture(scope="module", params=[(SMALL,), pytest.param((SMALL, LARGE), marks=SOAK)])
+def results(request):
+    return effects.measure(request.param, heaps=(HEAP,))
 
 
 @pytest.fixture(scope="module")
@@ -36,8 +37,9 @@ def heap():
     return effects.settled(SMALL)
 
 
-def lines_of(results, size):
-    return {line["title"]: line for line in results["prices"][str(size)]}
+def prices_of(results):
+    """Return the price list of each size, its lines by their titles."""
+    return [{line["title"]: line for line in lines} for lines in results["prices"].values()]
 
 
 # ---------------------------------------------------------------- the counter
@@ -98,9 +100,8 @@ def test_every_effect_is_on_the_list():
     assert {name for row in ROWS for name in row.effects} == set(EFFECTS)
 
 
-@pytest.mark.parametrize("size", [SMALL, LARGE])
-def test_what_was_done_is_what_the_scene_holds(results, size):
-    for title, line in lines_of(results, size).items():
+def test_what_was_done_is_what_the_scene_holds(results):
+    for title, line in [each for lines in prices_of(results) for each in lines.items()]:
         done = line["done"]
         if title == "all asleep":
             assert not any(done.values())
@@ -119,24 +120,25 @@ def test_what_was_done_is_what_the_scene_holds(results, size):
 
 def test_prices_are_differences_and_add_up(results):
     """The sum of the parts is the whole, to 1 %: no effect makes another one dearer."""
-    for size in (SMALL, LARGE):
-        lines = lines_of(results, size)
+    for lines in prices_of(results):
         parts = sum(lines[title]["price"] for title in results["stacked"])
         assert parts == pytest.approx(lines["all of them together"]["price"], rel=0.01)
         bounce, friction = lines["bounce"], lines["friction"]
         assert bounce["price"] == bounce["opcodes"] - friction["opcodes"] > 0
 
 
+@SOAK
+@pytest.mark.parametrize("results", [(SMALL, LARGE)], indirect=True)
 def test_ten_rods_cost_the_same_among_many_balls(results):
-    few, many = lines_of(results, SMALL), lines_of(results, LARGE)
+    few, many = prices_of(results)
     for title in ("10 rods", "10 springs"):  # among few balls, more of them share a ball
         assert few[title]["price"] / 1.25 < many[title]["price"] < 1.05 * few[title]["price"]
     assert many["contacts"]["price"] > 2 * few["contacts"]["price"]
 
 
 def test_sleepers_cost_next_to_nothing_however_many(results):
-    asleep = [lines_of(results, size)["all asleep"]["opcodes"] for size in (SMALL, LARGE)]
-    assert asleep[0] == asleep[1] < 100
+    asleep = {lines["all asleep"]["opcodes"] for lines in prices_of(results)}
+    assert len(asleep) == 1 and max(asleep) < 100
 
 
 def test_an_undeclared_effect_runs_no_opcode(results):
@@ -209,6 +211,7 @@ def test_everything_is_written(results, tmp_path, capsys, monkeypatch):
         assert row.title in printed
 
 
+@SOAK
 def test_bars_show_every_effect(results, tmp_path):
     bars = [("effects-stacked", effects_report.make_bars(results))]
     assert "effects-stacked" in figures.draw_figures(bars, tmp_path)

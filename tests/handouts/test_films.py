@@ -136,10 +136,12 @@ def lesson(browser: Any, handout_pages: Path) -> Iterator[Screen]:
     assert screen.complaints == []
 
 
+@pytest.mark.soak
 def test_no_page_waits_for_films(lesson: Screen) -> None:
     assert "films/" not in lesson.page.content().partition("</head>")[0]
 
 
+@pytest.mark.soak
 def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, handout_pages: Path) -> None:
     screen = Screen(browser, handout_pages / "lab-sheet.html")
     for way in ("keys", "pointer"):
@@ -171,6 +173,7 @@ def test_a_prediction_is_made_by_keys_or_pointer(browser: Any, handout_pages: Pa
     screen.page.close()
 
 
+@pytest.mark.soak
 def test_the_tower_tells_what_was_recorded(lesson: Screen) -> None:
     screen = lesson
     figure, films = shown(screen, "tower"), film("tower")["films"]
@@ -210,6 +213,7 @@ def test_the_tower_tells_what_was_recorded(lesson: Screen) -> None:
     )
 
 
+@pytest.mark.soak
 def test_drawings_are_no_white_slabs_in_the_dark(lesson: Screen) -> None:
     """White paper comes out as dark as the page; what is drawn in black, bright."""
     screen = lesson

@@ -40,6 +40,7 @@ def test_prices_add_up_to_those_of_all_together() -> None:
         assert sum(prices.values()) == pytest.approx(together, rel=0.01)
 
 
+@pytest.mark.soak
 def test_what_is_declared_is_paid_for(screen: Screen) -> None:
     figure, prices = opened(screen, "effects-stacked"), json.loads(SCRIPT)["prices"]
     words, drawing = figure.locator("output"), figure.locator("svg[role]")
@@ -111,6 +112,7 @@ def told(curve: dict[str, Any], place: int, unit: str) -> str:
     return f"{curve['name']}: sink {number:g}{unit}; time per frame of 1/60 s: "
 
 
+@pytest.mark.soak
 def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
     figure = opened(screen, "accuracy-dials-tower-sink")
     words, keys = figure.locator("output"), screen.page.keyboard
@@ -130,12 +132,14 @@ def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
     assert words.inner_text() == "All curves are switched off."
 
 
+@pytest.mark.soak
 def test_a_figure_with_two_axes_along_has_a_choice(screen: Screen) -> None:
     figure = opened(screen, "accuracy-smooth-spring")
     figure.locator("select").select_option("how often the force was asked for")
     assert "; how often the force was asked for: " in figure.locator("output").inner_text()
 
 
+@pytest.mark.soak
 def test_what_holds_how_far_is_read_by_keys_and_pointer(screen: Screen) -> None:
     lines = RESULTS["hard-cases.md"]
     figure = opened(screen, "hard-cases-limits")
@@ -162,6 +166,7 @@ ENGINES_BY_TOWER = sorted(
 )
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize(
     "name",
     [

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from page_readers import Screen, chromium
+from samples import sample
 
 import integrators
 import mini_engine
@@ -115,6 +116,7 @@ class Counted:
         pass
 
 
+@pytest.mark.soak
 def test_the_purse_is_that_of_the_reference(screen: Screen) -> None:
     lengths = [4 + 0.25 * n for n in range(POINTS)]  # ms
     for length, frames in zip(
@@ -130,6 +132,7 @@ def test_the_purse_is_that_of_the_reference(screen: Screen) -> None:
             assert frame["waiting"] / 1000 + seconds == pytest.approx(rest, abs=1e-9)
 
 
+@pytest.mark.soak
 def test_a_disc_gives_way_as_the_grader_has_it(screen: Screen) -> None:
     rng = random.Random(2)
     floor = Lever(0.0, 1.0, 0.0, 0.0)
@@ -167,6 +170,7 @@ def test_rods_are_those_of_the_grader(screen: Screen) -> None:
         assert (found["speedA"], found["speedB"]) == pytest.approx((a, b), abs=1e-7)
 
 
+@pytest.mark.soak
 def test_chains_are_those_of_the_grader_pass_by_pass(screen: Screen) -> None:
     rng = random.Random(5)
     inputs: list[Any] = []
@@ -189,6 +193,7 @@ def test_chains_are_those_of_the_grader_pass_by_pass(screen: Screen) -> None:
         )
 
 
+@pytest.mark.soak
 def test_a_sliding_ball_comes_as_far_as_its_speed_says(screen: Screen) -> None:
     times = [0.6 * n / POINTS for n in range(POINTS + 1)]
     found = computed(screen, "laws.sliding", [[300.0, 0.5, t] for t in times])
@@ -199,6 +204,7 @@ def test_a_sliding_ball_comes_as_far_as_its_speed_says(screen: Screen) -> None:
         assert (there["way"], there["turned"]) == pytest.approx((way, turned), abs=0.05)
 
 
+@pytest.mark.soak
 def test_a_sliding_ball_rolls_at_the_speed_of_the_grader(screen: Screen) -> None:
     speeds = [float(number) for number in range(1, POINTS)]
     answers = computed(screen, "laws.sliding", [[each, 0.4, 60.0] for each in speeds])
@@ -207,6 +213,7 @@ def test_a_sliding_ball_rolls_at_the_speed_of_the_grader(screen: Screen) -> None
         assert found["rim"] == pytest.approx(found["speed"]) and found["rolls"]
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("name", METHODS)
 def test_a_step_on_a_spring_is_that_of_the_grader(screen: Screen, name: str) -> None:
     rng = random.Random(4)
@@ -237,7 +244,7 @@ def slide(screen: Screen, name: str, label: str, value: float) -> None:
     figure(screen, name).get_by_label(label).fill(str(value))
 
 
-@pytest.mark.parametrize("name", MOVED)
+@pytest.mark.parametrize("name", sample(MOVED, 4))
 def test_every_one_is_drawn_and_says_what_it_shows(screen: Screen, name: str) -> None:
     found = figure(screen, name)
     assert found.locator("svg g *").count() > 5
@@ -261,6 +268,7 @@ def test_the_circle_is_moved_by_keys(screen: Screen) -> None:
     assert "60 px + 4 px = 64 px" in words(screen, "contact")
 
 
+@pytest.mark.soak
 def test_the_circle_is_dragged(screen: Screen) -> None:
     found = figure(screen, "contact")
     found.scroll_into_view_if_needed()
@@ -286,12 +294,14 @@ def test_long_frames_are_cut_and_short_ones_lose_nothing(screen: Screen) -> None
     assert "Nothing is lost" in words(screen, "accumulator")
 
 
+@pytest.mark.soak
 def test_a_rate_does_not_care_for_steps_and_a_share_does(screen: Screen) -> None:
     for hertz, left in ((60, "54.7"), (120, "29.9"), (240, "9.0")):
         slide(screen, "damping", "steps a second", hertz)
         assert f"{left} % after a second. The rate leaves 54.9 %" in words(screen, "damping")
 
 
+@pytest.mark.soak
 def test_energy_grows_drifts_or_stays(screen: Screen) -> None:
     figure(screen, "integrators").get_by_label("velocity Verlet").check()
     slide(screen, "integrators", "swings", 300)
@@ -303,6 +313,7 @@ def test_energy_grows_drifts_or_stays(screen: Screen) -> None:
     assert drift is not None and float(drift[1]) < 50
 
 
+@pytest.mark.soak
 def test_an_impulse_through_the_centre_does_not_turn(screen: Screen) -> None:
     handle = figure(screen, "effective-mass").locator(".handle")
     handle.focus()
@@ -315,6 +326,7 @@ def test_an_impulse_through_the_centre_does_not_turn(screen: Screen) -> None:
     assert "0.250 + 0.000" in words(screen, "effective-mass")
 
 
+@pytest.mark.soak
 def test_what_a_pass_gave_too_much_is_taken_back_by_the_total_alone(screen: Screen) -> None:
     assert "ask for +4. Clamping each change gives 11: 7 too much" in words(screen, "accumulated")
     for number in range(1, 5):
@@ -322,6 +334,7 @@ def test_what_a_pass_gave_too_much_is_taken_back_by_the_total_alone(screen: Scre
     assert "Both rules give 10" in words(screen, "accumulated")
 
 
+@pytest.mark.soak
 def test_sliding_becomes_rolling(screen: Screen) -> None:
     slide(screen, "rolling", "time", 0.5)
     assert "It rolls at 200 px/s, two thirds of 300 px/s" in words(screen, "rolling")
@@ -329,6 +342,7 @@ def test_sliding_becomes_rolling(screen: Screen) -> None:
     assert "On ice it keeps its 300 px/s" in words(screen, "rolling")
 
 
+@pytest.mark.soak
 def test_a_ball_rolls_in_real_time_and_stops_when_it_is_told(screen: Screen) -> None:
     """The page's clock is ours: no moment can be missed, however busy the machine is."""
     slide(screen, "rolling", "friction", 0.5)
@@ -348,6 +362,7 @@ def test_a_ball_rolls_in_real_time_and_stops_when_it_is_told(screen: Screen) -> 
     screen.page.clock.resume()
 
 
+@pytest.mark.soak
 def test_rods_lose_what_is_off_pass_by_pass(screen: Screen) -> None:
     assert "Rod AB is 30.0 px too long: bias -720 px/s." in words(screen, "rod")
     assert "After 2 passes their ends part at -113 and -360 px/s" in words(screen, "rod")
@@ -355,6 +370,7 @@ def test_rods_lose_what_is_off_pass_by_pass(screen: Screen) -> None:
     assert "part at -612 and -360 px/s" in words(screen, "rod")
 
 
+@pytest.mark.soak
 def test_a_step_takes_a_fifth_of_a_rods_error(screen: Screen) -> None:
     """Where the rods do not disturb each other: a heavy middle, the far end as meant."""
     found = figure(screen, "rod")

@@ -575,6 +575,7 @@ def test_nobody_waits_at_a_pipe(classroom, name):
     assert "data.py" not in names_in(Found("ben", (folder,)))
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("name", ["{}/integrators.py", "{}/mini_engine/__init__.py"])
 def test_a_program_a_thousand_times_takes_no_longer_than_its_files(classroom, name):
     folder = write(classroom / "ann", {name.format(number): "" for number in range(3000)})

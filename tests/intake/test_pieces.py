@@ -9,6 +9,7 @@ from pathlib import Path
 
 import packed
 import pytest
+from samples import sample
 from whole_bank import bank
 
 from grader.errors import Stop
@@ -84,7 +85,7 @@ def test_a_class_of_archives_is_a_class(tmp_path):
         assert not taken.troubles
 
 
-@pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])
+@pytest.mark.parametrize("kind", sample(["tar.gz", "7z", "rar"], 3))
 def test_no_archive_reaches_outside(tmp_path, kind):
     for name in ("../up.py", "a/../../up.py"):
         found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {name: "x"}))
@@ -93,7 +94,7 @@ def test_no_archive_reaches_outside(tmp_path, kind):
     assert [path.name for path in tmp_path.iterdir()] == [f"ann.{kind}"]
 
 
-@pytest.mark.parametrize("kind", ["tar.gz", "7z", "rar"])
+@pytest.mark.parametrize("kind", sample(["rar", "7z", "tar.gz"], 3))
 def test_what_is_no_archive_is_a_sentence(tmp_path, kind):
     good = KINDS[kind](PROGRAM)
     for content in (b"", b"hello", good[: len(good) // 2], good[:20] + bytes(200)):
@@ -123,7 +124,7 @@ def test_a_file_may_be_as_large_as_a_submission():
     assert repack.MAX_CONTENT == MAX_BYTES  # a script of its own, repack can import nothing
 
 
-@pytest.mark.parametrize("kind", ["tar.xz", "7z"])
+@pytest.mark.parametrize("kind", sample(["7z", "tar.xz"], 2))
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
     bomb = bytes(repack.MAX_CONTENT + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))

@@ -713,6 +713,7 @@ def test_the_picture_changes_and_tells_the_numbers_under_the_mouse(screen: Scree
     assert cells[0] == cells[1] != ""
 
 
+@pytest.mark.soak
 def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Path):
     shown = Screen(browser, pages / "1-overlap_from_outside_points_into_the_box.html")
     box = shown.page.locator("#picture").bounding_box()
@@ -728,7 +729,8 @@ def test_a_body_under_the_mouse_is_the_one_in_the_table(browser: Any, pages: Pat
     assert shown.complaints == []
 
 
-@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.soak)])
+@pytest.mark.soak
+@pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_pages_open_without_a_complaint(browser: Any, pages: Path, scheme: str):
     shown = Screen(browser, next(pages.glob("*.html")), color_scheme=scheme)
     dark = "22, 25, 34" in shown.page.evaluate("getComputedStyle(document.body).backgroundColor")
@@ -746,6 +748,7 @@ def test_a_replay_is_for_all(browser: Any, pages: Path):
     assert barriers(browser, first, last) == []
 
 
+@pytest.mark.soak
 def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):
     line = Line("call", HOSTILE, [Moment(0.0, 0, [AT_REST], [], [])], code=HOSTILE)
     both = pair_runs([Run(HOSTILE, [line, line], {1: DISC}, {1: HOSTILE})], [])
@@ -758,6 +761,7 @@ def test_hostile_words_do_nothing_in_a_browser(browser: Any, tmp_path: Path):
     assert shown.complaints == []
 
 
+@pytest.mark.soak
 def test_the_script_can_be_copied(browser: Any, pages: Path):
     context = browser.new_context(permissions=["clipboard-read", "clipboard-write"])
     path = pages / "1-overlap_from_outside_points_into_the_box.html"
@@ -833,6 +837,7 @@ def test_friction_is_drawn_with_its_limit(pages: Path):
     assert any(abs(row[6]) > row[7] + 0.01 for row in rows), "that is the mistake"
 
 
+@pytest.mark.soak
 def test_lines_in_the_picture_are_named(browser: Any, arms: Replay, screen: Screen, tmp_path: Path):
     screen.page.keyboard.press("End")
     assert "how far friction may turn it" in screen.page.locator("#legend").inner_text()

@@ -116,6 +116,7 @@ def test_the_solution_succeeds(tmp_path: Path):
     assert (run.checkout / "report.html").stat().st_size > 1000
 
 
+@pytest.mark.soak
 def test_no_marks_are_no_error_and_a_folder_named_as_the_report_makes_room(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
     (checkout / "report.html").mkdir()
@@ -136,6 +137,7 @@ def test_the_page_says_how_many_points_there_are_to_have():
     assert len(hidden) == 6 and f"Six checks, {100 - most} points, ask" in guide
 
 
+@pytest.mark.soak
 def test_a_mistake_costs_its_todo_and_is_told(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
     shutil.copyfile(KIT / "solution" / "integrators.py", checkout / "integrators.py")
@@ -151,6 +153,7 @@ def test_a_mistake_costs_its_todo_and_is_told(tmp_path: Path):
     assert told["TODO 8c"]["file"] == "integrators.py"
 
 
+@pytest.mark.soak
 def test_without_the_runners_variables_it_is_no_grade(tmp_path: Path):
     checkout = checkout_of("starter", tmp_path)
     run = without_download(checkout, SUBMISSION_TAG="", COURSE_FILE=SHORT)

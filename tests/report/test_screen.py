@@ -91,6 +91,7 @@ def test_what_is_next_where_nothing_fails():
     assert choose_todo(result.with_todos([passed("1")])) is None
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(shutil.which("make") is None, reason="there is no make")
 def test_make_says_nothing_of_its_own(hand_in):
     tree = hand_in("starter")

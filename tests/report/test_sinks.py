@@ -2,18 +2,15 @@
 
 import base64
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import ci_readers
 import msgspec
 import pytest
+from command_line import run_grader
 
 from grader.errors import Stop
-from grader.judge.grade import KIT
 from grader.judge.result import CheckResult, Result, State, TodoResult, Where
 from grader.report.files import write_json
 from grader.report.sinks.classroom50 import write_classroom50
@@ -261,27 +258,20 @@ def test_classroom50_needs_its_runner():
 # ---------------------------------------------------------------- the command
 
 
-def export(*args: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "grader", "export", *map(str, args)]
-    wide = {**os.environ, "COLUMNS": "500"}
-    return subprocess.run(command, cwd=KIT, env=wide, capture_output=True, encoding="utf-8")
-
-
 def test_export_writes_what_it_prints(tmp_path: Path):
     write_json(result(states=EVERY), tmp_path / "ann.json")
-    printed = export("junit", tmp_path / "ann.json")
-    assert printed.returncode == 0, printed.stderr
+    printed = run_grader("export", "junit", tmp_path / "ann.json")
+    assert printed.exit_code == 0, printed.stderr
     assert len(ci_readers.junit_cases(printed.stdout.encode())) == len(EVERY)
-    done = export("junit", tmp_path / "ann.json", "--out", tmp_path / "new" / "junit.xml")
-    assert done.returncode == 0 and done.stdout == ""
+    done = run_grader("export", "junit", tmp_path / "ann.json", "--out", tmp_path / "new/junit.xml")
+    assert done.exit_code == 0 and done.stdout == ""
     assert (tmp_path / "new" / "junit.xml").read_text(encoding="utf-8") == printed.stdout
 
 
 def test_export_of_what_is_no_result_ends_with_a_sentence(tmp_path: Path):
     (tmp_path / "ann.json").write_bytes(msgspec.json.encode({"points": 100}))
-    done = export("markdown", tmp_path / "ann.json")
-    assert done.returncode == 2 and "is no result of the grader" in done.stderr
-    assert "Traceback" not in done.stderr
+    done = run_grader("export", "markdown", tmp_path / "ann.json")
+    assert done.exit_code == 2 and "is no result of the grader" in done.stderr
 
 
 def test_a_file_is_written_in_the_place_of_a_link_and_not_through_it(tmp_path: Path):
@@ -294,7 +284,7 @@ def test_a_file_is_written_in_the_place_of_a_link_and_not_through_it(tmp_path: P
 
 
 def test_a_folder_is_many_results_and_only_tables_take_many(tmp_path: Path):
-    done = export("junit", tmp_path)
-    assert done.returncode == 2 and done.stdout == ""
+    done = run_grader("export", "junit", tmp_path)
+    assert done.exit_code == 2 and done.stdout == ""
     said = " ".join(done.stderr.split())
     assert f"{tmp_path} is a folder, and junit takes one result; csv and jsonl take many" in said

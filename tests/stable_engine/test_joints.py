@@ -4,6 +4,7 @@ import math
 from itertools import pairwise, product
 
 import pytest
+from samples import sample
 from worlds_for_tests import balls, build
 
 from experiments.engines import Stable
@@ -41,17 +42,18 @@ def test_a_triple_pendulum_keeps_its_energy():
     assert energy_error(swinging(3, 100.0), 10) < 0.02
 
 
+@pytest.mark.soak
 def test_a_whip_keeps_its_energy():
     assert energy_error(swinging(40, 20.0), 5) < 0.03
 
 
-@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0, 10_000.0, 100_000.0])
+@pytest.mark.parametrize("ratio", sample([1.0, 100.0, 1000.0, 10_000.0, 100_000.0], 4))
 def test_no_rod_of_a_hanging_chain_stretches_whatever_hangs_on_it(ratio):
     engine = Stable(chain(10, (0.0, 20.0), bob=ratio))
     assert max(watch(engine, 5, lambda: worst_stretch(engine))) < 0.01
 
 
-@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0, 10_000.0, 100_000.0])
+@pytest.mark.parametrize("ratio", sample([100.0, 1.0, 1000.0, 10_000.0, 100_000.0], 2))
 def test_a_swinging_chain_stretches_by_less_than_a_link_or_the_check_says_so(ratio):
     engine = Stable(chain(10, (20.0, 0.0), bob=ratio))
     assert any("substeps" in sentence for sentence in engine.complaints) == (ratio > 100)
@@ -97,7 +99,7 @@ def hang_errors(scene, world):
 
 @pytest.mark.parametrize("damping", [0.0, 1.0, 200.0, 1e5])
 @pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e6, 1e8])
-@pytest.mark.parametrize("count", [1, 5, pytest.param(20, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", sample([5, 1, 20], 3))
 def test_a_chain_of_springs_stays_at_its_exact_stretch(count, stiffness, damping):
     scene = spring_chain(count, stiffness, damping)
     world = build(scene)
@@ -113,7 +115,7 @@ def test_a_chain_of_damped_springs_comes_to_its_exact_stretch(stiffness, damping
     assert max(hang_errors(scene, world)) < 1e-3
 
 
-CORNERS = {(1e2, 0.0, 1), (1e2, 1e6, 4), (1e9, 0.0, 4), (1e9, 1e6, 1)}
+CORNERS = {(1e2, 1e6, 4), (1e9, 0.0, 4)}
 STARS = [
     pytest.param(*each, marks=[] if each in CORNERS else pytest.mark.soak)
     for each in product([1e2, 1e4, 1e6, 1e9], [0.0, 1.0, 1e3, 1e6], [1, 4])
