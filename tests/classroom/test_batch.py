@@ -209,17 +209,6 @@ def test_adjustments_stay_on_top_and_results_as_they_are(classroom):
     assert graded(classroom).outcomes[0].final == 1
 
 
-def test_marks_for_the_lms_are_those_after_adjustments(classroom):
-    graded(classroom, adjustments=Adjustments(adjust=[Adjust("ann", "ill", points=2)]))
-    (classroom / "list.csv").write_text("Email address\nann@x\nben@x\n", encoding="utf-8")
-    out = classroom / "marks.csv"
-    files = [str(classroom / "list.csv"), "--results", str(classroom.parent / "out")]
-    done = run_grader("marks", *files, "--out", out)
-    assert done.exit_code == 0 and "ann: ill: set to 2" in done.output
-    rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
-    assert [row["Grade"] for row in rows] == ["100.0", "50.0"]
-
-
 def test_the_same_files_from_two_people_are_mentioned(classroom):
     shutil.copy(classroom / "ann" / "integrators.py", classroom / "cem" / "integrators.py")
     assert "the same files were handed in by ann, cem" in graded(classroom).notes
@@ -263,12 +252,6 @@ def test_and_where_only_comparing_goes_wrong(classroom, monkeypatch):
     assert graded(classroom).names == ["ann", "cem"]
 
 
-def test_names_and_words_are_harmless_in_the_table(classroom):
-    (classroom / "ben").rename(classroom / "=1+1")
-    with open(graded(classroom).book.table, encoding="utf-8-sig", newline="") as file:
-        assert [row["name"] for row in csv.DictReader(file)] == ["'=1+1", "ann", "cem"]
-
-
 def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypatch):
     monkeypatch.setattr(grading, "open_executor", lambda wanted: FragilePool(wanted.options, 1))
     (classroom / "roster.csv").write_text(
@@ -285,17 +268,6 @@ def test_results_land_beside_the_class_unless_said_otherwise(classroom, monkeypa
 
 
 @pytest.mark.soak
-def test_a_process_that_falls_over_takes_one_submission_with_it(classroom):
-    for name in ("killer", "killer-2", "raiser", *(f"more{n}" for n in range(3))):
-        shutil.copytree(classroom / "ann", classroom / name)
-    with open_class(classroom) as intake, FragilePool(Options(), 2) as pool:
-        run = grade_class(start(intake, classroom), pool, QUIET)
-    troubles = {each.name: each.trouble for each in run.outcomes if each.trouble}
-    assert troubles.keys() == {"killer", "killer-2", "raiser"}
-    assert "twice" in troubles["killer"] and "fell over" in troubles["raiser"]
-    assert run.counts == {"graded": 6, "kept": 0, "trouble": 3}
-
-
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="one of them forks")
 def test_a_judge_that_reaches_a_limit_leaves_the_others_as_they_were(classroom, tmp_path):
     limits = {

@@ -12,6 +12,7 @@ from counting import count_calls
 from page_readers import HOSTILE, Reader
 from points_pool import Inline
 from rich.console import Console
+from samples import sample
 from whole_bank import bank
 
 from grader.classroom import grading
@@ -82,7 +83,7 @@ def dressed(package: Package) -> Package:
     return Package("copy", files)
 
 
-@pytest.mark.parametrize("name", ["whole-very-terse", "whole-functional-style"])
+@pytest.mark.parametrize("name", sample(["whole-very-terse", "whole-functional-style"], 2))
 def test_a_copy_is_shown_however_it_is_dressed(right, name):
     (pair,) = find_pairs(
         [make_prints(p) for p in [*(right[n] for n in WHOLE), dressed(right[name])]]
@@ -131,6 +132,7 @@ def test_what_many_have_tells_nothing(right):
     assert find_pairs(many) == []
 
 
+@pytest.mark.soak
 def test_the_same_pairs_whatever_the_hash_seed_is():
     text = "a = b + c * d - e / f\n" * 9
     code = f"from grader.classroom.similarity import hash_runs; print(sorted(hash_runs({text!r})))"

@@ -16,8 +16,9 @@ import packed
 import pytest
 from classes import TITLE, Student
 from command_line import run_grader
-from points_pool import Inline, PointsPool
+from points_pool import Inline
 from rich.console import Console
+from samples import sample
 from whole_bank import bank
 
 from grader.classroom import grading
@@ -167,7 +168,7 @@ def test_there_is_a_class_of_every_system():
     assert set(SYSTEMS) == set(BY_NAME)
 
 
-@pytest.fixture(params=SYSTEMS)
+@pytest.fixture(params=sample(SYSTEMS, 3))
 def graded(request, tmp_path_factory, in_one_process) -> Iterator[Class]:
     place = tmp_path_factory.mktemp("term")
     folder, roster, students = exported(place, request.param)
@@ -270,46 +271,6 @@ def has_page(graded: Class, student: Student) -> bool:
     return (graded.results / f"{graded.name(student)}.html").is_file()
 
 
-# ---------------------------------------------------------------- the same bytes
-
-
-@pytest.mark.soak  # test_batch.py kills a class and runs it again
-@pytest.mark.parametrize("system", ["blackboard", "canvas", "moodle"])
-def test_stopped_twice_the_bytes_are_the_same(tmp_path, monkeypatch, system):
-    here(monkeypatch)
-    kept = []
-    for name, stops in (("once", 0), ("again", 2)):
-        folder, roster, _ = exported(tmp_path / name, system)
-        options = ClassOptions(Options(), roster=roster)
-        monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline(3))
-        for _ in range(stops):
-            with pytest.raises(KeyboardInterrupt):
-                run_class(folder, options, QUIET)
-        kept.append(bytes_of(monkeypatch, folder, options, lambda wanted: Inline()))
-    assert kept[0] == kept[1] and len(kept[0]) > 12
-
-
-@pytest.mark.soak
-def test_on_two_workers_the_bytes_are_the_same(tmp_path, monkeypatch):
-    kept = []
-    for jobs in (1, 2):
-        folder, roster, _ = exported(tmp_path / str(jobs), "moodle")
-        options = ClassOptions(Options(), roster=roster, jobs=jobs)
-        pool = lambda wanted: PointsPool(wanted.options, wanted.jobs)  # noqa: E731
-        kept.append(bytes_of(monkeypatch, folder, options, pool))
-    assert kept[0] == kept[1] and len(kept[0]) > 12
-
-
-def bytes_of(monkeypatch, folder: Path, options: ClassOptions, executor) -> dict[str, bytes]:
-    """Return what a run leaves behind; another run grades nothing again."""
-    monkeypatch.setattr(grading, "open_executor", executor)
-    run_class(folder, options, QUIET)
-    run = run_class(folder, options, QUIET)
-    assert run.counts["graded"] == 0
-    files = [run.book.table, *sorted(run.book.folder.iterdir())]
-    return {path.name: path.read_bytes() for path in files}
-
-
 def test_a_column_of_ones_own_says_who_is_who(tmp_path, in_one_process):
     folder, roster, _ = exported(tmp_path, "brightspace")
     first, *rows = roster.read_text(encoding="utf-8").splitlines()
@@ -407,7 +368,7 @@ def grouped(roster: Path, system: str, group: list[Student], students: list[Stud
 
 @pytest.mark.parametrize(
     "system",
-    [SYSTEMS[0], *(pytest.param(each, marks=pytest.mark.soak) for each in SYSTEMS[1:])],
+    sample(SYSTEMS, 9),
 )
 def test_each_of_a_group_has_a_mark_and_a_page_of_their_own(tmp_path, in_one_process, system):
     """Kim was late and Hana handed in nothing; Ian has a decision of his own, and no files."""

@@ -4,7 +4,7 @@ import re
 from concurrent.futures import Future
 from contextlib import AbstractContextManager
 
-from grader.classroom.executor import Graded, Pool
+from grader.classroom.executor import Graded
 from grader.intake.found import Package
 from grader.judge.grade import Options
 from grader.judge.result import CheckResult, Result, TodoResult
@@ -24,15 +24,8 @@ def stand_in(package: Package, options: Options) -> Graded:
     return as_json(Result(1, package.name, points, FULL, 0, ["processes"], [todo])), 0.5
 
 
-class PointsPool(Pool):
-    work = staticmethod(stand_in)
-
-
 class Inline(AbstractContextManager["Inline"]):
-    """The same in this process; stopped, as by Ctrl-C, when it has graded `patience`."""
-
-    def __init__(self, patience: int = 1000) -> None:
-        self.patience = patience
+    """Find the points at once, in this process."""
 
     def __exit__(self, *_: object) -> None:
         pass
@@ -41,9 +34,6 @@ class Inline(AbstractContextManager["Inline"]):
         return 1
 
     def submit(self, package: Package) -> "Future[Graded]":
-        self.patience -= 1
-        if self.patience < 0:
-            raise KeyboardInterrupt
         future: Future[Graded] = Future()
         future.set_result(stand_in(package, Options()))
         return future

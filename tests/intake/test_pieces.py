@@ -16,7 +16,7 @@ from grader.errors import Stop
 from grader.intake import archives, repack
 from grader.intake.found import CannotTake, Found, Package
 from grader.intake.listing import open_class
-from grader.intake.packing import open_submission, pack, read_package
+from grader.intake.packing import open_submission, read_package
 from grader.intake.pieces import strip_additions
 from grader.judge.grade import KIT
 from grader.judge.submission import MAX_BYTES, plain_files
@@ -68,13 +68,13 @@ KINDS = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_archives_of_all_kinds_are_read(tmp_path, kind):
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](under("work")))
-    assert {name: content.decode() for name, content in pack(found).files} == PROGRAM
+    assert {name: content.decode() for name, content in read_package(found).files} == PROGRAM
 
 
 def test_an_archive_is_what_it_is_whatever_its_name_says(tmp_path):
-    assert names(pack(one(tmp_path, "a.zip", packed.as_rar(PROGRAM)))) == ALL
-    assert names(pack(one(tmp_path, "b.zip", packed.as_7z(PROGRAM)))) == ALL
-    assert names(pack(one(tmp_path, "c.rar", packed.as_tar(PROGRAM)))) == ALL
+    assert names(read_package(one(tmp_path, "a.zip", packed.as_rar(PROGRAM)))) == ALL
+    assert names(read_package(one(tmp_path, "b.zip", packed.as_7z(PROGRAM)))) == ALL
+    assert names(read_package(one(tmp_path, "c.rar", packed.as_tar(PROGRAM)))) == ALL
 
 
 def test_a_class_of_archives_is_a_class(tmp_path):
@@ -90,7 +90,7 @@ def test_no_archive_reaches_outside(tmp_path, kind):
     for name in ("../up.py", "a/../../up.py"):
         found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {name: "x"}))
         with pytest.raises(CannotTake, match=r"outside|broken"):
-            pack(found)
+            read_package(found)
     assert [path.name for path in tmp_path.iterdir()] == [f"ann.{kind}"]
 
 
@@ -99,12 +99,12 @@ def test_what_is_no_archive_is_a_sentence(tmp_path, kind):
     good = KINDS[kind](PROGRAM)
     for content in (b"", b"hello", good[: len(good) // 2], good[:20] + bytes(200)):
         with pytest.raises(CannotTake, match=r"broken|holds no file"):
-            pack(one(tmp_path, f"ann.{kind}", content))
+            read_package(one(tmp_path, f"ann.{kind}", content))
 
 
 def test_an_encrypted_archive_asks_for_one_without_a_password(tmp_path):
     with pytest.raises(CannotTake, match="password"):
-        pack(one(tmp_path, "ann.7z", packed.as_7z(PROGRAM, password="secret")))
+        read_package(one(tmp_path, "ann.7z", packed.as_7z(PROGRAM, password="secret")))
 
 
 def test_links_in_a_tar_are_left_out(tmp_path):
@@ -117,7 +117,7 @@ def test_links_in_a_tar_are_left_out(tmp_path):
         link = tarfile.TarInfo(name)
         link.type, link.linkname = kind, to
         links.append(link)
-    assert names(pack(one(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links)))) == ALL
+    assert names(read_package(one(tmp_path, "a.tgz", packed.as_tar(PROGRAM, "gz", *links)))) == ALL
 
 
 def test_a_file_may_be_as_large_as_a_submission():
@@ -128,7 +128,7 @@ def test_a_file_may_be_as_large_as_a_submission():
 def test_a_bomb_of_one_file_gives_the_program_alone(tmp_path, kind):
     bomb = bytes(repack.MAX_CONTENT + 1)
     found = one(tmp_path, f"ann.{kind}", KINDS[kind](PROGRAM | {"big.bin": bomb}))
-    package = pack(found)
+    package = read_package(found)
     assert names(package) == ALL and package.notes == ["left out big.bin: size limit reached"]
 
 
@@ -179,11 +179,11 @@ def test_a_library_that_is_not_here_is_named(monkeypatch):
 
 def test_the_programs_may_lie_anywhere(tmp_path):
     deep = write(tmp_path, under("a/b/c/d/e/f"))
-    assert names(pack(deep)) == ALL and not pack(deep).notes
+    assert names(read_package(deep)) == ALL and not read_package(deep).notes
 
 
 def test_a_folder_for_each_program_is_put_together_and_said(tmp_path):
-    package = pack(
+    package = read_package(
         write(
             tmp_path,
             {
@@ -206,27 +206,27 @@ def test_one_program_beside_an_archive_of_the_others(tmp_path):
             tmp_path / str(number),
             {"integrators.py": "x = 1\n", f"engine.{kind}": KINDS[kind](others)},
         )
-        assert names(pack(found)) == ALL
+        assert names(read_package(found)) == ALL
 
 
 def test_an_archive_that_cannot_be_read_is_not_passed_over(tmp_path):
     found = write(tmp_path, {"integrators.py": "x = 1\n", "engine.rar": "Rar!\x1a\x07\x01\x00"})
     with pytest.raises(CannotTake, match=r"engine\.rar: the archive"):
-        pack(found)
+        read_package(found)
 
 
 def test_beside_all_programs_an_archive_is_mentioned_and_not_opened(tmp_path):
-    package = pack(write(tmp_path, PROGRAM | {"old.zip": "no zip"}))
+    package = read_package(write(tmp_path, PROGRAM | {"old.zip": "no zip"}))
     assert "old.zip was not opened: all programs lie beside it" in package.notes
 
 
 def test_a_folder_around_the_work_may_bear_a_programs_name(tmp_path):
-    package = pack(write(tmp_path, under("mini_engine")))
+    package = read_package(write(tmp_path, under("mini_engine")))
     assert names(package) == ALL
 
 
 def test_the_nearer_of_two_counts_and_the_other_is_said(tmp_path):
-    package = pack(write(tmp_path, PROGRAM | {"old/integrators.py": "x = 0\n"}))
+    package = read_package(write(tmp_path, PROGRAM | {"old/integrators.py": "x = 0\n"}))
     assert dict(package.files)["integrators.py"] == b"x = 1\n"
     assert any("old/integrators.py was left out" in note for note in package.notes)
 
@@ -243,33 +243,33 @@ def test_a_name_of_ones_own_stays(name):
 
 def test_a_changed_name_inside_the_package(tmp_path):
     changed = {key: text for key, text in PROGRAM.items() if "solver" not in key}
-    package = pack(write(tmp_path, changed | {"mini_engine/solver (1).py": "# mine\n"}))
+    package = read_package(write(tmp_path, changed | {"mini_engine/solver (1).py": "# mine\n"}))
     assert {name: content.decode() for name, content in package.files} == PROGRAM
 
 
 @pytest.mark.parametrize("second", ["integrators (1).py", "mini_engine/solver-2.py"])
 def test_where_two_fit_a_person_must_choose_unless_they_are_the_same(tmp_path, second):
     with pytest.raises(CannotTake, match="more than one program"):
-        pack(write(tmp_path / "two", PROGRAM | {second: "other\n"}))
+        read_package(write(tmp_path / "two", PROGRAM | {second: "other\n"}))
     first = second.replace(" (1)", "").replace("-2", "")
     assert set(ALL) <= set(
-        names(pack(write(tmp_path / "same", PROGRAM | {second: PROGRAM[first]})))
+        names(read_package(write(tmp_path / "same", PROGRAM | {second: PROGRAM[first]})))
     )
 
 
 def test_the_packages_files_without_their_folder(tmp_path):
     loose = {name.removeprefix("mini_engine/"): text for name, text in PROGRAM.items()}
     del loose["__init__.py"]
-    package = pack(write(tmp_path, loose))
+    package = read_package(write(tmp_path, loose))
     assert names(package) == [name for name in ALL if "__init__" not in name]
     assert any("mini_engine" in note for note in package.notes)
 
 
 def test_the_package_in_a_folder_of_another_name(tmp_path):
     other = {name.replace("mini_engine/", "mini_engine (1)/"): t for name, t in PROGRAM.items()}
-    assert names(pack(write(tmp_path / "a", other))) == ALL
+    assert names(read_package(write(tmp_path / "a", other))) == ALL
     other = {name.replace("mini_engine/", "my engine/"): t for name, t in PROGRAM.items()}
-    assert names(pack(write(tmp_path / "b", other))) == ALL
+    assert names(read_package(write(tmp_path / "b", other))) == ALL
 
 
 def test_canvas_loose_files_of_one_name_are_for_a_person(tmp_path):
@@ -279,13 +279,13 @@ def test_canvas_loose_files_of_one_name_are_for_a_person(tmp_path):
         open_class(tmp_path / "class") as taken,
         pytest.raises(CannotTake, match="more than one"),
     ):
-        pack(taken.found[0])
+        read_package(taken.found[0])
 
 
 def test_a_second_of_an_lms_is_known_again(tmp_path):
     write(tmp_path / "class", {"roebo_7_1_integrators-3.py": "a", "roebo_7_2_helper-1.py": ""})
     with open_class(tmp_path / "class") as taken:
-        package = pack(taken.found[0])
+        package = read_package(taken.found[0])
     assert names(package) == ["helper.py", "integrators.py"]
     assert package.notes == ["integrators-3.py is taken as integrators.py"]
 
@@ -299,7 +299,7 @@ def test_what_deserves_points_is_taken_in_whole(tmp_path):
     for member in bank():
         if member.kind == "right" and member.name.startswith(("copies", "structure", "imports-m")):
             member.build(KIT, tmp_path / member.name)
-            package = pack(Found("ann", (tmp_path / member.name,)))
+            package = read_package(Found("ann", (tmp_path / member.name,)))
             there = {
                 path.relative_to(tmp_path / member.name).as_posix()
                 for path in plain_files(tmp_path / member.name)

@@ -20,7 +20,6 @@ from grader.errors import Stop
 from grader.intake.roster import list_people
 from grader.intake.systems import read_roster
 from grader.release.nbgrader_course import INSTRUCTOR
-from grader.text import escape_formula
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section,Essay (1),Physics engine (4711),Final Score
@@ -166,33 +165,6 @@ def test_the_shipped_settings_name_the_notebooks():
 
     marking = load_marking(INSTRUCTOR / "marks.toml")
     assert sorted(marking.shares) == NAMES and sum(marking.shares.values()) == 100
-
-
-# ---------------------------------------------------------------- what a spreadsheet would run
-
-
-@pytest.mark.parametrize(
-    "cell", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "  =1", "\uff1d1", "\u00a0=1", "\n=1"]
-)
-def test_a_formula_becomes_text(cell):
-    assert escape_formula(cell) == f"'{cell}"
-
-
-@pytest.mark.parametrize("cell", ["Zoë", "O'Brien", "3-4", "a=b", "12.5", "", "    Points"])
-def test_what_is_no_formula_stays(cell):
-    assert escape_formula(cell) == cell
-
-
-def test_no_cell_of_a_hostile_list_is_a_formula(tmp_path):
-    bad = ["=1", "+1", "-1", "@x", "\t=2", '"=3', "a\n=4"]
-    buffer = io.StringIO()
-    csv.writer(buffer).writerows([["First name", "Last name", "Email address"]])
-    csv.writer(buffer).writerows([each, each, f"u{i}@x"] for i, each in enumerate(bad))
-    roster = listed(tmp_path, buffer.getvalue())
-    made = make_marks(roster, roster.choose_key(), Scores({}, MARKING))
-    cells = [cell for row in rows(made)[1:] for cell in row]
-    assert len(cells) == 5 * len(bad)
-    assert not any(cell.startswith(("=", "+", "-", "@", "\t")) for cell in cells)
 
 
 # ---------------------------------------------------------------- what cannot be read

@@ -215,6 +215,7 @@ def test_gravity(gravity):
 @pytest.mark.parametrize("substeps", [0, -1, 2.5, NAN])
 def test_substeps(substeps):
     refused("World.substeps", substeps, lambda: World(substeps=substeps))
+    refused("World.substeps", substeps, lambda: setattr(World(), "substeps", substeps))
 
 
 @pytest.mark.parametrize("rate", [-0.1, NAN, INF])

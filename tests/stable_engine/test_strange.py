@@ -326,12 +326,3 @@ def test_an_error_in_a_callback_leaves_a_world_that_goes_on():
         world.step(DT)
     run(world, 2)
     assert world.awake == []
-
-
-@pytest.mark.parametrize("value", [0, -1, 2.5, "4"])
-def test_substeps_set_later_are_checked(value):
-    world = World()
-    with pytest.raises(ValueError, match=r"World\.substeps is .* a whole number above 0"):
-        world.substeps = value
-    world.substeps = 2
-    assert world.substeps == 2
