@@ -8,7 +8,7 @@ import pytest
 from command_line import run_grader
 
 from grader.classroom.course_check import Files, find_problems
-from grader.release import build
+from grader.cli import classroom
 
 GOOD = "Email address,Group\nann@x.edu,1\nben@x.edu,1\n"
 
@@ -31,7 +31,7 @@ def told(place: Path, **texts: str) -> list[str]:
 
 
 def test_of_what_is_well_nothing_is_said(place, monkeypatch):
-    monkeypatch.setattr(build, "prove_cut", lambda course: None)  # as test_courses.py has it
+    monkeypatch.setattr(classroom, "find_release_problems", lambda path: [])  # see test_courses.py
     assert told(place, adjust="[[adjust]]\nstudent = 'ann'\nadd = 1\nreason = 'x'\n") == []
     words = ["course-check", str(place / "class"), "--roster", str(place / "list.csv")]
     done = run_grader(*words)

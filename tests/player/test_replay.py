@@ -62,7 +62,7 @@ DISC = BodyLook(0, [ShapeLook([(0.0, 0.0)], 10.0)], 1.0, 50.0)
 
 
 def grade_mistakes(once: Once, name: str, todos: set[str]) -> Path:
-    """The solution with a mistake in each of several TODOs, and beside it what grading makes of some.
+    """Make the solution with mistakes in several TODOs, and beside it what grading some finds.
 
     One of the processes that run the tests grades it for all.
     """
