@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from grader.text import SEPARATORS, SIGNS, escape_inside, format_csv
 
 GRADER = Path(__file__).parents[1] / "grader"
-CELLS = st.text(st.sampled_from("=+-@;|,\t\r\n \"'a1\uff1d"), max_size=8)
+CELLS = st.text(st.sampled_from("=+-@;|,\t\r\n\u00a0 \"'a1\uff1d"), max_size=8)
 
 
 def formulas(text: str, delimiter: str) -> list[str]:
@@ -49,7 +49,16 @@ def test_every_sign_that_a_spreadsheet_takes_for_another_is_known():
     assert found == set(SIGNS)
 
 
-@pytest.mark.parametrize("cell", ["3; 4", "a=b; c-d", "1 - 2", "x, -y", "-", "| a |", "a\nb"])
+@pytest.mark.parametrize(
+    "cell",
+    [
+        *("3; 4", "a=b; c-d", "1 - 2", "x, -y", "-", "| a |", "a\nb"),
+        "O'Brien",
+        "3-4",
+        "12.5",
+        "  x",
+    ],
+)
 def test_honest_words_stay(cell: str):
     assert next(csv.reader(io.StringIO(format_csv([[cell]]), newline=""))) == [cell]
 

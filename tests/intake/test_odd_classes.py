@@ -284,6 +284,13 @@ def test_canvas_names_in_every_script_have_their_owner(tmp_path: Path, name: str
     assert [each.name for each in taken(tmp_path / "class", people).found] == ["ann", "ben"]
 
 
+def test_the_same_upload_twice_is_one(tmp_path: Path):
+    content = packed.as_zip(WORK)
+    put(tmp_path, {"leeann_1_10_work.zip": content, "leeann_1_11_work-1.zip": content})
+    (found,) = taken(tmp_path).found
+    assert dict(read_package(found).files)["integrators.py"] == SOURCE.encode()
+
+
 def test_a_blackboard_user_with_an_underscore_is_known_without_a_receipt(tmp_path: Path):
     people = people_of(
         tmp_path / "list.csv", "Last Name,First Name,Username\nSix,Kay,kl_6\nSeven,Lea,6\n"
