@@ -1,6 +1,7 @@
 """Grade a class from start to end: take it in, grade it, write its pages and show it."""
 
-from contextlib import AbstractContextManager
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,9 +15,10 @@ from grader.classroom.cluster import connect
 from grader.classroom.dashboard import list_notes, read_class, write_dashboard
 from grader.classroom.executor import Executor, Pool
 from grader.classroom.fingerprint import make_key
-from grader.classroom.similarity import find_pairs, write_pairs
+from grader.classroom.similarity import find_pairs, read_prints, write_pairs
 from grader.intake.listing import open_class
 from grader.intake.names import list_names
+from grader.intake.roster import ClassList
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
@@ -35,12 +37,14 @@ class ClassOptions:
     roster: Path | None = None  # roster.csv of the class folder, if there is one
     adjust: Path | None = None  # adjustments.toml of the class folder, if there is one
     cluster: str = ""  # the address of a Dask scheduler
+    people: ClassList | None = None  # of the roster, if left out
+    earlier: Sequence[Path] = ()  # classes of earlier years, to compare with
 
 
 def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     """Grade the class at `path`, show it, and say where the results are."""
     path = path.resolve()
-    people = read_class_list(path, wanted.roster)
+    people = wanted.people or read_class_list(path, wanted.roster)
     course = wanted.options.course
     adjustments = load_adjustments(wanted.adjust or find_file(path, "adjustments.toml"), course)
     book = Book(wanted.out or path.with_name(f"{path.stem}-results"))
@@ -52,8 +56,7 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
         others = absent if people.names else adjustments.find_unused(names)
         grade_class(run, executor, console, others)
         if len(run.outcomes) <= LONGEST_PAGE:
-            by_name = {each.name: each for each in intake.found}
-            write_pairs(book.folder, find_pairs(run.prints), by_name)
+            write_similar(run, wanted.earlier)
         if absent:
             run.notes.append(f"nothing was handed in by {list_names(absent)}")
         if unlisted := people.list_unlisted(names):
@@ -61,6 +64,18 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     show_class(run, console)
     console.print(write_page(run), soft_wrap=True)
     return run
+
+
+def write_similar(run: Run, earlier: Sequence[Path]) -> None:
+    """Write the page of similar pairs, within the class and with classes of earlier years."""
+    with ExitStack() as stack:
+        found, prints = {each.name: each for each in run.intake.found}, list(run.prints)
+        here = {each.name for each in prints}
+        for folder in earlier:
+            others, more = read_prints(stack, folder, read_class_list(folder, None), folder.stem)
+            found |= others
+            prints += more
+        write_pairs(run.book.folder, find_pairs(prints, of=here), found)
 
 
 def write_page(run: Run) -> str:

@@ -6,8 +6,9 @@ of the grader, `check` included.
 
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack, suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import msgspec
 import typer
@@ -29,12 +30,14 @@ from grader.cli.shared import (
     require_folder_target,
 )
 from grader.errors import Stop
-from grader.judge.course import WrongCourse, read_course
+from grader.judge.course import Course, WrongCourse, read_course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.text import clean, listed
 
 if TYPE_CHECKING:
     from grader.classroom.dashboard import Entry
+    from grader.classroom.marks import Scores
+    from grader.intake import roster as lists
 
 app = typer.Typer()
 course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
@@ -311,42 +314,60 @@ def feedback_command(
     course: CourseFile = None,
 ) -> None:
     """Write everybody's page for the way back. Exit status 1: somebody was left out."""
+    from grader.intake.systems import find_file
+
+    listed = roster or (find_file(submissions, "roster.csv") if submissions else None)
+    return_feedback(for_, results, Sources(submissions, listed, key, read_course(course)), out)
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What pages are made of besides the results."""
+
+    submissions: Path | None
+    roster: Path | None
+    key: str
+    course: Course
+    people: "lists.ClassList | None" = None
+
+
+def return_feedback(recipient: str, results: Path, sources: Sources, out: Path | None) -> NoReturn:
+    """Write everybody's page for whoever takes it, and end with the status of the command."""
     from grader.classroom import feedback
     from grader.classroom.dashboard import read_class, write_dashboard
     from grader.intake.listing import open_class
-    from grader.intake.systems import BY_NAME, find_file, read_class_list, read_roster
+    from grader.intake.systems import BY_NAME, read_class_list, read_roster
     from grader.report.files import write_whole
 
     systems = [name for name, system in BY_NAME.items() if system.takes_feedback]
-    if for_ not in (*systems, *OTHER_RECIPIENTS):
+    if recipient not in (*systems, *OTHER_RECIPIENTS):
         known = ", ".join((*systems, *OTHER_RECIPIENTS))
-        raise typer.BadParameter(f"{for_!r} is not one of {known}", param_hint="--for")
-    check_target = require_folder_target if for_ in OTHER_RECIPIENTS else require_file_target
+        raise typer.BadParameter(f"{recipient!r} is not one of {known}", param_hint="--for")
+    check_target = require_folder_target if recipient in OTHER_RECIPIENTS else require_file_target
     check_target(out, "--out")
-    taken = read_course(course)
+    submissions, roster = sources.submissions, sources.roster
     entries = read_class(results)
-    write_dashboard(results, entries, taken)
+    write_dashboard(results, entries, sources.course)
     results = results.resolve()
-    graded = feedback.GradedClass(entries, results, taken)
-    if for_ == "nbgrader":
+    graded = feedback.GradedClass(entries, results, sources.course)
+    if recipient == "nbgrader":
         made, target = feedback.place_for_nbgrader(graded), Path("feedback")
-    elif for_ == "email":
-        listed = roster or (find_file(submissions, "roster.csv") if submissions else None)
-        if listed is None:
+    elif recipient == "email":
+        if roster is None:
             raise Stop("addresses are in the class list: name it with --roster")
-        book = read_roster(listed)
-        made = feedback.address_pages(book, book.choose_key(key), graded)
+        book = read_roster(roster)
+        made = feedback.address_pages(book, book.choose_key(sources.key), graded)
         target = results.with_name(f"{results.name}-mail")
     else:
         if submissions is None:
-            raise Stop(f"{for_} knows files by the names it gave: name --submissions")
-        people = read_class_list(submissions, roster)
+            raise Stop(f"{recipient} knows files by the names it gave: name --submissions")
+        people = sources.people or read_class_list(submissions, roster)
         with open_class(submissions, people) as intake:
             require_same_class(entries, intake.names, results, submissions)
-            made = feedback.answer_export(BY_NAME[for_], intake, graded, people)
-        target = results.with_name(f"{results.name}-{for_}.zip")
+            made = feedback.answer_export(BY_NAME[recipient], intake, graded, people)
+        target = results.with_name(f"{results.name}-{recipient}.zip")
     target = out or target
-    if for_ in OTHER_RECIPIENTS:
+    if recipient in OTHER_RECIPIENTS:
         for file, content in made.files.items():
             write_whole(content, target / file)
     else:
@@ -388,7 +409,6 @@ def marks_command(
         Scores,
         compare_totals,
         load_marking,
-        make_marks,
         make_parts,
     )
     from grader.classroom.nbgrader.gradebook import read_parts
@@ -408,9 +428,18 @@ def marks_command(
         notes += compare_totals(marking, read_course(taken))
     else:
         parts = read_parts(course or Path("."), marking)
-    made = make_marks(listed, column, Scores(parts, marking, so_far, others_known))
+    write_marks(listed, column, Scores(parts, marking, so_far, others_known), out, notes)
+
+
+def write_marks(
+    listed: "lists.Roster", column: str, scores: "Scores", out: Path, notes: list[str]
+) -> NoReturn:
+    """Write the file for the LMS, and end with the status of the command."""
+    from grader.classroom.marks import make_marks
+
+    made = make_marks(listed, column, scores)
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_bytes(made.text.encode(made.encoding))
     print_notes([*notes, *made.notes])
-    console.print(f"{made.given} of {len(listed.rows)} marks are in {out}")
+    console.print(f"{made.given} of {len(listed.rows)} marks are in {out}", soft_wrap=True)
     raise typer.Exit(0 if made.given == len(listed.rows) else 1)

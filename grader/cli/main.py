@@ -9,7 +9,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
@@ -38,9 +38,6 @@ from grader.judge.outer import MOST_MEMORY, WHOLE, go_on_within
 from grader.judge.result import Result
 from grader.report.files import write_json
 from grader.report.terminal import Printer, show_isolation
-
-if TYPE_CHECKING:
-    from grader.classroom.grading import ClassOptions
 
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -140,6 +137,7 @@ def grade_command(
     elif class_:
         # Imported here: students have none of it, and it would add 80 ms to every start.
         from grader.classroom.grading import ClassOptions
+        from grader.cli.classes import grade_folder
 
         grade_folder(path, ClassOptions(options, out, jobs, roster, adjust, cluster))
     elif ci is not None:
@@ -223,17 +221,6 @@ def grade_in_ci(path: Path, folder: Path, output: Output, options: Options) -> N
     finish(result, output)
 
 
-def grade_folder(path: Path, wanted: "ClassOptions") -> NoReturn:
-    from grader.classroom.grading import run_class
-
-    try:
-        run = run_class(path, wanted, console)
-    except KeyboardInterrupt:
-        words = "stopped; what is graded stays, and the same command goes on from there"
-        raise Stop(words) from None
-    raise typer.Exit(2 if any(outcome.mark is None for outcome in run.outcomes) else 0)
-
-
 def demonstrate(options: Options) -> None:
     """Grade the shipped trees, to show that the grader works here."""
     require_checkout("grade", ", or name a submission")
@@ -294,9 +281,9 @@ def make_app() -> typer.Typer:
     )
     apps = [app, student.app, export.app]
     if find_spec("grader.classroom"):  # students get none of these folders
-        from grader.cli import classroom, dev, questions
+        from grader.cli import classes, classroom, dev, questions
 
-        apps += [classroom.app, dev.app, questions.app]
+        apps += [classes.app, classroom.app, dev.app, questions.app]
         whole.add_typer(dev.maintainers, name="dev")
         whole.registered_commands += map(hide, dev.maintainers.registered_commands)
     else:

@@ -1,7 +1,7 @@
 """Define the command `questions`: sheets about students' programs, and marks for the answers."""
 
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
@@ -20,6 +20,10 @@ from grader.errors import Stop
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.text import plural
+
+if TYPE_CHECKING:
+    from grader.intake.roster import ClassList
+    from grader.questions.making import Making
 
 TALLY = KIT / "build" / "questions" / "tally.json"
 
@@ -76,20 +80,31 @@ def questions_command(
     ignored, when = (("student",), "with") if class_ else (("roster",), "without")
     refuse_ignored(context, ignored, f"{when} --class")
     # Imported here: all of it would add a tenth of a second to every start.
-    from grader.questions.making import Making, make_class, make_one
+    from grader.intake.systems import read_class_list
+    from grader.questions.making import Making
 
     options = Options(shipped_reference(), isolation, course=read_course(course))
     making = Making(out, options, seed, practice, results, tally)
+    people = read_class_list(path, roster) if class_ else None
+    make_sheets(making, path, people, student)
+
+
+def make_sheets(
+    making: "Making", path: Path, people: "ClassList | None", student: str = ""
+) -> NoReturn:
+    """Make the sheets of a class, or of one submission where there are no `people`."""
+    from grader.questions.making import make_class, make_one
+
     try:
-        if class_:
-            made = make_class(making, path, roster, console)
+        if people is not None:
+            made = make_class(making, path, people, console)
         else:
             made = [make_one(making, path, student)]
     except KeyboardInterrupt:
         words = "stopped; sheets that are made stay, and the same command makes them again"
         raise Stop(words) from None
     print_notes([each.words for each in made])
-    print_note(f"{plural(sum(each.sheet is not None for each in made), 'sheet')} in {out}")
+    print_note(f"{plural(sum(each.sheet is not None for each in made), 'sheet')} in {making.out}")
     raise typer.Exit(0 if all(each.sheet for each in made) else 1)
 
 

@@ -14,7 +14,7 @@ from grader.intake.found import CannotTake, Found
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
 from grader.intake.packing import open_submission, pack
-from grader.intake.systems import read_class_list
+from grader.intake.roster import ClassList
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options
 from grader.judge.result import Result
@@ -126,10 +126,9 @@ def make_one(making: Making, path: Path, student: str) -> SheetResult:
 
 
 def make_class(
-    making: Making, path: Path, roster: Path | None, console: Console
+    making: Making, path: Path, people: ClassList, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    people = read_class_list(path, roster)
     opened = open_class(path, people)
     with opened as intake, closing(start_worker()) as worker:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]

@@ -1,0 +1,224 @@
+"""Define `grader class`: a class from its first day to its marks, in a folder that remembers."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, NoReturn
+
+import typer
+
+from grader.cli.shared import (
+    Confinement,
+    Jobs,
+    SecretSeed,
+    console,
+    print_note,
+    print_notes,
+    require_checkout,
+    require_folder_target,
+)
+from grader.errors import Stop
+from grader.judge.children import count_cores
+from grader.judge.grade import Options, shipped_reference
+from grader.text import plural
+
+if TYPE_CHECKING:
+    from grader.classroom.folder import ClassFolder
+    from grader.classroom.grading import ClassOptions
+
+app = typer.Typer()
+class_app = typer.Typer(help="A class, in a folder that remembers it.", no_args_is_help=True)
+app.add_typer(class_app, name="class")
+
+Folder = Annotated[Path, typer.Argument(help="The folder of the class.")]
+OtherCourse = Annotated[
+    bool, typer.Option("--other-course", help="Replace results of another course.")
+]
+
+
+@class_app.command("new")
+def new_command(
+    folder: Folder,
+    roster: Annotated[
+        Path | None, typer.Option(help="The class list, as the learning system exports it.")
+    ] = None,
+    submissions: Annotated[
+        Path | None, typer.Option(help="The export: a zip or folder; may come later.")
+    ] = None,
+    course: Annotated[
+        Path | None, typer.Option(help="What is asked; the kit's course.toml if left out.")
+    ] = None,
+    seed: SecretSeed = None,
+    earlier: Annotated[
+        list[Path] | None, typer.Option(help="An earlier class to compare with; repeatable.")
+    ] = None,
+    other_course: OtherCourse = False,
+) -> None:
+    """Make a class, or change what it remembers. Exit status 1: there are problems."""
+    require_folder_target(folder, "the class")
+    from grader.classroom.course_check import Files, find_problems
+    from grader.classroom.folder import FILE, remember_class, shorten_path
+
+    paths = {"roster": roster, "submissions": submissions, "course": course}
+    for name, path in paths.items():
+        if path is not None and not path.exists():
+            raise Stop(f"--{name} {path}: there is no such file: name one that exists")
+    named: dict[str, object] = {
+        name: shorten_path(path, folder) for name, path in paths.items() if path is not None
+    }
+    if seed is not None:
+        named["seed"] = seed
+    if earlier:
+        named["earlier"] = [shorten_path(path, folder) for path in earlier]
+    made = remember_class(folder, named, other_course)
+    there = made.submissions if made.submissions.exists() else None
+    files = Files(made.roster, made.settings.key, made.decisions, None, there)
+    problems = list(find_problems(files, made.course_path))
+    print_notes(describe_class(made))
+    print_notes(problems or ["No problems found."])
+    print_note(f"The class is in {folder / FILE}. Next: grader class grade {folder}")
+    raise typer.Exit(1 if problems else 0)
+
+
+def describe_class(made: "ClassFolder") -> list[str]:
+    """Return what the class is, a line each."""
+    course, students = made.course, len(made.list_people().names)
+    listed = f"{plural(students, 'student')} in {made.roster}" if made.roster else "no class list"
+    todos = ", ".join(todo.id for todo in course.rubric.counted)
+    here = "" if made.submissions.exists() else ", not there yet"
+    return [
+        f"course:      {course.title}, {course.rubric.max_points} points, TODO {todos}",
+        f"students:    {listed}" + f" ({made.settings.system})" * bool(made.settings.system),
+        f"submissions: {made.submissions}{here}",
+    ]
+
+
+@class_app.command("grade")
+def grade_command(
+    folder: Folder = Path("."),
+    jobs: Jobs = 0,
+    isolation: Confinement = "auto",
+    cluster: Annotated[str, typer.Option(help="Grade on the Dask cluster at this address.")] = "",
+    other_course: OtherCourse = False,
+) -> None:
+    """Grade what is new; make the pages, the table and the mails.
+
+    Exit status 0: all graded, 2: some need you, or nothing could be graded.
+    """
+    if cluster and jobs:
+        raise Stop("--jobs would be ignored with --cluster: its workers say how many at a time")
+    known = open_folder(folder)
+    submissions = known.find_submissions()
+    if not other_course:
+        known.refuse_other_course("grade all of it again with --other-course")
+    from grader.classroom.grading import ClassOptions
+
+    options = Options(shipped_reference(), isolation, seed=known.settings.seed, course=known.course)
+    wanted = ClassOptions(
+        options,
+        known.results,
+        jobs or count_cores(),
+        adjust=known.decisions,
+        cluster=cluster,
+        people=known.list_people(),
+        earlier=known.earlier,
+    )
+    grade_folder(submissions, wanted, folder)
+
+
+def open_folder(folder: Path) -> "ClassFolder":
+    from grader.classroom.folder import read_class_folder
+
+    return read_class_folder(folder)
+
+
+def grade_folder(path: Path, wanted: "ClassOptions", folder: Path | None = None) -> NoReturn:
+    """Grade a class, and end with the status of the command."""
+    from grader.classroom.grading import run_class
+
+    try:
+        run = run_class(path, wanted, console)
+    except KeyboardInterrupt:
+        words = "stopped; what is graded stays, and the same command goes on from there"
+        raise Stop(words) from None
+    open_ones = [each for each in run.outcomes if each.mark is None]
+    if open_ones and folder is not None:
+        print_note(f"{len(open_ones)} need you: grader class review {folder}")
+    raise typer.Exit(2 if open_ones else 0)
+
+
+@class_app.command("marks")
+def marks_command(
+    folder: Folder = Path("."),
+    so_far: Annotated[bool, typer.Option(help="Count what waits for a person as 0.")] = False,
+    others_known: Annotated[
+        bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
+    ] = False,
+) -> None:
+    """Write marks.csv, the gradebook with the marks in it. Exit status 1: some have none."""
+    known = open_folder(folder)
+    results, path = known.find_results(), known.find_roster("a gradebook")
+    from grader.classroom.dashboard import read_class
+    from grader.classroom.marks import ENGINE, USUAL_TOTAL, Marking, Scores, make_parts
+    from grader.cli.classroom import write_marks
+    from grader.intake.systems import read_roster
+
+    course, listed = known.course, read_roster(path)
+    marking = Marking(course.title, {ENGINE: 1}, course.out_of or USUAL_TOTAL)
+    outcomes = [each.outcome for each in read_class(results)]
+    notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
+    scores = Scores(make_parts(outcomes), marking, so_far, others_known)
+    column = listed.choose_key(known.settings.key)
+    write_marks(listed, column, scores, folder / "marks.csv", notes)
+
+
+@class_app.command("feedback")
+def feedback_command(
+    folder: Folder = Path("."),
+    for_: Annotated[
+        str, typer.Option("--for", help="Who takes it, if not the class's system: email, nbgrader.")
+    ] = "",
+) -> None:
+    """Write everybody's page for the way back. Exit status 1: somebody was left out."""
+    known = open_folder(folder)
+    results = known.find_results()
+    from grader.cli.classroom import OTHER_RECIPIENTS, Sources, return_feedback
+    from grader.intake.systems import BY_NAME
+
+    system = BY_NAME.get(known.settings.system)
+    recipient = for_ or (system.name if system and system.takes_feedback else "email")
+    roster = known.find_roster("a mail") if recipient == "email" else known.roster
+    name = "feedback" if recipient in OTHER_RECIPIENTS else "feedback.zip"
+    sources = Sources(
+        known.submissions, roster, known.settings.key, known.course, known.list_people()
+    )
+    return_feedback(recipient, results, sources, folder / name)
+
+
+@class_app.command("questions")
+def questions_command(
+    folder: Folder = Path("."),
+    practice: Annotated[
+        bool, typer.Option("--practice", help="Sheets with other numbers, and answers to open.")
+    ] = False,
+    mark: Annotated[
+        Path | None, typer.Option(help="Mark answers on paper, a CSV: student, question, answer.")
+    ] = None,
+    isolation: Confinement = "auto",
+) -> None:
+    """Make a sheet of questions for each student about their own program, with its key.
+
+    Exit status 0: everybody has a sheet, or every answer is marked, 1: not so.
+    """
+    require_checkout("class questions")
+    known, out = open_folder(folder), folder / "questions"
+    from grader.cli.questions import TALLY, make_sheets, mark_class
+
+    if mark is not None:
+        if practice:
+            raise Stop("--practice would be ignored with --mark, which makes no sheets")
+        mark_class(mark, out, TALLY)
+    results, submissions = known.find_results(), known.find_submissions()
+    from grader.questions.making import Making
+
+    options = Options(shipped_reference(), isolation, course=known.course)
+    making = Making(out, options, None, practice, results, TALLY)
+    make_sheets(making, submissions, known.list_people())

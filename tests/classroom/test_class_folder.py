@@ -1,0 +1,121 @@
+"""A class in a folder that remembers: no option twice, and no other course by mistake."""
+
+import csv
+from pathlib import Path
+
+import classes
+import packed
+import pytest
+from command_line import run_grader
+from points_pool import Inline
+
+from grader.classroom import grading
+
+COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
+POINTS = {"ann": 5, "ben": 10, "cem": 20}
+
+
+def call(*words: object) -> str:
+    done = run_grader("class", *words)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return " ".join(done.output.split())
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A class list, an export and a course, and a stand-in for grading."""
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
+    rows = [f"{name}@x.edu,{name.title()} Lee" for name in (*POINTS, "dora")]
+    (tmp_path / "list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
+    (tmp_path / "autumn.toml").write_text(COURSE)
+    for name, points in POINTS.items():
+        classes.put(tmp_path / "export" / f"{name}.zip", packed.as_zip(classes.work(points)))
+    return tmp_path
+
+
+def make(place: Path, *more: object) -> Path:
+    words = ("--roster", place / "list.csv", "--course", place / "autumn.toml")
+    said = call("new", place / "lab", *words, *more)
+    assert "No problems found" in said and "Lab 3, 20 points" in said and "4 students" in said
+    return place / "lab"
+
+
+def test_no_command_is_told_twice_what_the_class_is(place: Path):
+    lab = make(place, "--submissions", place / "export")
+    assert "3 submissions" in call("grade", lab)
+    with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
+        assert [row["points"] for row in csv.DictReader(table)] == ["5", "10", "20"]
+    assert "4 of 4 marks" in call("marks", lab)
+    with open(lab / "marks.csv", encoding="utf-8") as table:
+        assert [row["Grade"] for row in csv.DictReader(table)] == ["2.5", "5.0", "10.0", "0"]
+    assert "Lab 3" in (lab / "results.class.html").read_text(encoding="utf-8")
+
+
+def test_the_export_may_come_later(place: Path):
+    lab = make(place)
+    said = call("grade", lab)
+    assert "there is nothing at" in said and "--submissions FILE" in said
+    (place / "export").rename(lab / "submissions")
+    assert "3 submissions" in call("grade", lab)
+
+
+def test_another_course_over_results_is_refused_unless_it_is_wanted(place: Path):
+    lab = make(place, "--submissions", place / "export")
+    call("grade", lab)
+    before = (lab / "class.toml").read_text(encoding="utf-8")
+    (place / "other.toml").write_text(COURSE.replace("20", "30"))
+    other = ("--course", place / "other.toml")
+    said = call("new", lab, *other)
+    assert "TODO 8a has 20 points there, and 30 here" in said and "--other-course" in said
+    assert (lab / "class.toml").read_text(encoding="utf-8") == before
+    call("new", lab, *other, "--other-course")
+    for command in ("grade", "marks", "feedback", "questions"):
+        assert "TODO 8a has 20 points there, and 30 here" in call(command, lab), command
+    assert "3 submissions" in call("grade", lab, "--other-course")
+
+
+def test_lines_that_a_person_wrote_stay(place: Path):
+    lab = make(place)
+    file = lab / "class.toml"
+    file.write_text(f"# mine\n{file.read_text(encoding='utf-8')}seed = 3 # drawn\n", "utf-8")
+    call("new", lab, "--submissions", place / "export")
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("# mine\n") and "seed = 3 # drawn" in text
+    assert f'submissions = "{place.as_posix()}/export"' in text
+
+
+@pytest.mark.parametrize(
+    "line, words",
+    [
+        ("colour = 3", "unknown field `colour`"),
+        ('system = "nosuch"', "'nosuch' is not one of"),
+        ("seed = ", "class.toml"),
+        ("seed = 'x'", "Expected `int"),
+    ],
+)
+def test_a_line_that_nobody_can_mean_is_a_sentence(place: Path, line: str, words: str):
+    lab = make(place)
+    with open(lab / "class.toml", "a", encoding="utf-8") as file:
+        file.write(f"{line}\n")
+    assert words in call("grade", lab)
+
+
+def test_killed_twice_and_finished_later_a_class_has_the_same_bytes(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+):
+    lab = make(place, "--submissions", place / "export")
+    for _ in range(2):
+        monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline(1))
+        assert "the same command goes on from there" in call("grade", lab)
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
+    assert "1 graded, 2 kept" in call("grade", lab)
+    other = place / "at once"
+    lab.joinpath("class.toml").rename(place / "class.toml")
+    other.mkdir()
+    (place / "class.toml").rename(other / "class.toml")
+    call("grade", other)
+    names = {path.name for path in (lab / "results").glob("*.json")}
+    assert len(names) == 3
+    for name in names:
+        assert (lab / "results" / name).read_bytes() == (other / "results" / name).read_bytes()
+    assert (lab / "results.class.csv").read_bytes() == (other / "results.class.csv").read_bytes()
