@@ -180,7 +180,8 @@ def find_student(who: str, names: list[str], people: ClassList) -> str:
     """Return the name in the class of whom a decision names; as written, of nobody there."""
     meant = [name for name in names if is_same_student(who, name)]
     listed = [each for name in people.list_called(who) for each in (name, make_portable(name))]
-    meant = list(dict.fromkeys([*meant, *(name for name in listed if name in names)]))
+    meant += [name for name in names if any(is_same_student(each, name) for each in listed)]
+    meant = list(dict.fromkeys(meant))
     if len(meant) > 1:
         raise Stop(
             f"{who!r} in the adjustments could be {' or '.join(meant)}: write one of these names"

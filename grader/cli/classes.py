@@ -99,9 +99,9 @@ def grade_command(
     cluster: Annotated[str, typer.Option(help="Grade on the Dask cluster at this address.")] = "",
     other_course: OtherCourse = False,
 ) -> None:
-    """Grade what is new; make the pages, the table and the mails.
+    """Grade what is new, and make the pages and the table.
 
-    Exit status 0: all graded, 2: some need you, or nothing could be graded.
+    Exit status 0: all graded, 2: some need manual review, or nothing could be graded.
     """
     if cluster and jobs:
         raise Stop("--jobs would be ignored with --cluster: its workers say how many at a time")
@@ -121,7 +121,7 @@ def grade_command(
         people=known.list_people(),
         earlier=known.earlier,
     )
-    grade_folder(submissions, wanted, folder)
+    grade_folder(submissions, wanted, known.locate(known.settings.decisions))
 
 
 def open_folder(folder: Path) -> "ClassFolder":
@@ -130,7 +130,7 @@ def open_folder(folder: Path) -> "ClassFolder":
     return read_class_folder(folder)
 
 
-def grade_folder(path: Path, wanted: "ClassOptions", folder: Path | None = None) -> NoReturn:
+def grade_folder(path: Path, wanted: "ClassOptions", decisions: Path | None = None) -> NoReturn:
     """Grade a class, and end with the status of the command."""
     from grader.classroom.grading import run_class
 
@@ -140,8 +140,8 @@ def grade_folder(path: Path, wanted: "ClassOptions", folder: Path | None = None)
         words = "stopped; what is graded stays, and the same command goes on from there"
         raise Stop(words) from None
     open_ones = [each for each in run.outcomes if each.mark is None]
-    if open_ones and folder is not None:
-        print_note(f"{len(open_ones)} need you: grader class review {folder}")
+    if open_ones and decisions is not None:
+        print_note(f"{len(open_ones)} need manual review: set points in {decisions}")
     raise typer.Exit(2 if open_ones else 0)
 
 

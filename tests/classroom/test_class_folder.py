@@ -119,3 +119,14 @@ def test_killed_twice_and_finished_later_a_class_has_the_same_bytes(
     for name in names:
         assert (lab / "results" / name).read_bytes() == (other / "results" / name).read_bytes()
     assert (lab / "results.class.csv").read_bytes() == (other / "results.class.csv").read_bytes()
+
+
+def test_what_needs_review_names_the_file_of_decisions_and_takes_them(place: Path):
+    classes.put(place / "export" / "dora.zip", b"PK broken")
+    lab = make(place)
+    (place / "export").rename(lab / "submissions")
+    assert f"1 need manual review: set points in {lab / 'decisions.toml'}" in call("grade", lab)
+    decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown in the lab"\n'
+    (lab / "decisions.toml").write_text(decision, encoding="utf-8")
+    assert "need manual review" not in call("grade", lab)
+    assert "4 of 4 marks" in call("marks", lab)
