@@ -12,6 +12,7 @@ from typing import TypeVar
 
 import msgspec
 import pytest
+from hypothesis import HealthCheck, settings
 
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
@@ -32,6 +33,11 @@ for name in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS"):
     os.environ.pop(name, None)  # that of `make test` is not the make of a student
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # or each of many commands compiles the kit anew
 sys.dont_write_bytecode = False
+
+settings.register_profile(  # nothing that a busy machine can be too slow for
+    "any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("any machine")
 
 KIT = Path(__file__).parents[1]
 os.environ["COURSE_FILE"] = str(KIT / "tests" / "full.toml")
