@@ -344,6 +344,7 @@ class World(World):
 """
 
 
+@pytest.mark.soak
 def test_a_program_whose_films_lie_is_not_asked_about_them(
     hand_in: HandIn, solution: Result, monkeypatch: pytest.MonkeyPatch
 ):
@@ -577,6 +578,7 @@ def test_a_release_has_answered_cases_of_every_maker(practice: Practice):
             assert not any(grade_answer(question, wrong.answer) for wrong in question.wrong)
 
 
+@pytest.mark.soak
 def test_at_home_all_kinds_are_asked_without_a_reference(
     practice: Practice, solution: Result, whole_sheet: Sheet
 ):

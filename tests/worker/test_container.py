@@ -119,6 +119,7 @@ def test_who_names_no_folder_is_told(tmp_path: Path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the stand-in is a script for a shell")
+@pytest.mark.soak
 def test_what_is_copied_grades_a_class_and_writes_nowhere_else(tmp_path: Path):
     """The entry point as it stands, on what the container holds, in another folder."""
     kit = tmp_path / "kit"

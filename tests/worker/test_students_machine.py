@@ -98,6 +98,7 @@ def test_what_a_check_leaves_in_the_folder_is_gone_for_the_next(hand_in: HandIn)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="there is another way to be elsewhere")
+@pytest.mark.soak
 def test_the_working_folder_of_whoever_grades_changes_nothing(hand_in: HandIn, tmp_path: Path):
     folder = hand_in(integrators_py=INTEGRATORS)
     program = [sys.executable, "-m", "grader", "grade", str(folder), "--todo", "8a", "--json"]
