@@ -8,7 +8,6 @@ from grader.checks.exact import (
     DAMPED_STEPS,
     MAX_STEPS,
     RATES,
-    STEP_SIZES,
     Disc,
     Rect,
 )
@@ -30,7 +29,6 @@ masses = between(1, 400).map(eighths)  # kg
 impulses = between(0, 800).map(eighths)  # kg px/s
 frictions = st.integers(0, 16).map(lambda n: n / 16)
 rates = st.sampled_from(RATES) | st.sampled_from(RATES[:4])  # 1/s; often small ones
-step_sizes = st.sampled_from(STEP_SIZES)  # s
 damped_steps = st.sampled_from(DAMPED_STEPS)  # s
 
 # The simplest is not 0, so that the very first answer says something.
