@@ -116,7 +116,8 @@ def explain_unbound(match: Match, error: Error) -> str:
             f"hides the {name} from outside: use another name."
         )
     if first >= error.line:
-        return f"{name} has no value before line {error.line}: give it one first."
+        given = show_arguments(error)
+        return f"{name} has no value before line {error.line}: give it one first.{given}"
     return f"{name} has no value here: line {first}, which gives it one, did not run."
 
 
@@ -147,9 +148,13 @@ def explain_undefined(match: Match, error: Error) -> str:
     near = find_similar(name, sorted(known))
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
-    given = ", ".join(error.parameters)
-    arguments = f" The function is given {given}." * bool(given)
-    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{arguments}"
+    given = show_arguments(error)
+    return f"Nothing is called {name} here: is it misspelt, or defined nowhere?{given}"
+
+
+def show_arguments(error: Error) -> str:
+    """Return a sentence of the names that the function is given, with a space before it."""
+    return f" The function is given {', '.join(error.parameters)}." * bool(error.parameters)
 
 
 def explain_math(match: Match, error: Error) -> str:

@@ -12,8 +12,8 @@ REMEMBERS = (
 )
 TRESPASS = "{name} must leave everything as it is but what its docstring names."
 REBOUND = (
-    "Line {line} gives {name} another value. From there on {name} is no longer what the function "
-    "was given: use another name."
+    "Line {line} gives `{name}` another value. From there on `{name}` is no longer what the "
+    "function was given: use another name."
 )
 IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is return or = missing?"
 LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."
