@@ -434,6 +434,7 @@ class Grading:
             mistake,
             {c.id: loop.seen.get((todo.id, c.id), []) for c in checks if c.id not in earlier},
             {id: self.own_names(todo, loop.remembered.get((todo.id, id), [])) for id in ran},
+            {id: loop.trespasses.get((todo.id, id), "") for id in ran},
             {id: self.blamed[todo.id, id] for id in ran if (todo.id, id) in self.blamed},
             earlier,
             lambda check: self.names.hint(todo, modules[check.id], check),

@@ -80,6 +80,7 @@ class Lab(Decoder):
         # The first time that something was changed which a call may not change. It fails a check
         # that would else pass: what an answer should have been is said first.
         self.overstepped: NotYet | None = None
+        self.trespass = ""  # the words of that, where an answer is wrong as well
         self.unforeseen = False  # whether the check itself raised an error
         self.numbers = count(OURS)  # for what is made at our word
         self.remembers: list[str] = []  # the names in which something was kept; see Remembered

@@ -120,6 +120,7 @@ class CheckLoop:
     observations: dict[str, list[Observation]] = field(default_factory=dict)
     seen: dict[tuple[str, str], list[Observation]] = field(default_factory=dict)  # see _survey
     remembered: dict[tuple[str, str], list[str]] = field(default_factory=dict)  # by failed check
+    trespasses: dict[tuple[str, str], str] = field(default_factory=dict)  # by failed check
     failed: dict[tuple[str, str], Job] = field(default_factory=dict)  # that can be asked again
     shows_output: bool = False  # whether to tell what the submission printed
     surveys_all: bool = False  # whether checks that pass are surveyed as well
@@ -227,6 +228,7 @@ class CheckLoop:
         if outcome.failed is not None:
             self._blame(job, outcome.failed)
             self.remembered[job.key] = outcome.failed.remembers
+            self.trespasses[job.key] = outcome.failed.trespass
         if outcome.failing is not None:
             self.failing[job.key] = outcome.failing
 
@@ -413,7 +415,8 @@ class CheckLoop:
             except (NotYet, Broke) as failure:
                 lab.failure = failure
                 if isinstance(failure, NotYet) and not way.surveys:
-                    failure.got += name_change(lab)
+                    lab.trespass = name_trespass(lab)
+                    failure.got += f"; {lab.trespass}" if lab.trespass else ""
             except Flaky:  # the lab kept the first failure, if it saw one
                 lab.failure = lab.failure or Broke(lab.running, "another answer each time")
             except Exception as error:  # an answer that our own arithmetic cannot stand
@@ -527,10 +530,10 @@ def fails_elsewhere(isolated: NotYet | Broke, alone: NotYet | Broke) -> bool:
     return errors[1] is not None and errors[0] != errors[1]
 
 
-def name_change(lab: Lab) -> str:
-    """Return what a failed check saw changed that must stay, to be added to what it got."""
+def name_trespass(lab: Lab) -> str:
+    """Return what a failed check saw changed that must stay; empty if nothing was."""
     said = lab.overstepped.got if lab.overstepped is not None else ""
-    return f"; {said}" if " changed " in said else ""
+    return said if " changed " in said else ""
 
 
 def last_lines(output: str) -> str:

@@ -48,6 +48,7 @@ class Evidence:
     mistake: Mistake | None = None
     answers: Mapping[str, list[Observation]] = field(default_factory=dict)
     kept: Mapping[str, list[str]] = field(default_factory=dict)  # names that held something
+    trespasses: Mapping[str, str] = field(default_factory=dict)  # what was changed that must stay
     blamed: Mapping[str, Blamed] = field(default_factory=dict)
     earlier: Mapping[str, list[str]] = field(default_factory=dict)  # TODOs that it fails in first
     hint: Callable[[CheckResult], str] = lambda check: ""  # about names and arguments
@@ -129,8 +130,8 @@ def name_mistake(evidence: Evidence, check: CheckResult) -> str:
 
 def name_trespass(evidence: Evidence, check: CheckResult) -> str:
     """Name a change of what must stay as it is, which may be why an answer is wrong as well."""
-    found = re.search(r"; (\w+ changed .*)", check.got)
-    return f"{found[1]}. {TRESPASS.format(name='It')}" if found else ""
+    found = evidence.trespasses.get(check.id)
+    return f"{found}. {TRESPASS.format(name='It')}" if found else ""
 
 
 def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
