@@ -19,6 +19,7 @@ STRICT = ("files", "network")  # what --isolation=strict insists on
 # What keeps a submission from writing files outside of its own. A user of its own reads what every
 # account may, so that is not enough for `strict`.
 KEEPS_FILES = LAYERS["files"] | {"own-user"}
+ONE_PROCESS = "one-process"  # no layer: submission and grader share a process
 
 
 def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
@@ -26,6 +27,11 @@ def refusal(isolation: Isolation, layers: list[str], trusted: bool) -> str:
 
     `trusted`: the submission is one's own work, which may as well be run without a grader.
     """
+    if ONE_PROCESS in layers and not trusted:
+        return (
+            "somebody else's code may not run inside the grader's own process, where it could "
+            "change its marks. Grade it with `grade`, on a machine that can start processes."
+        )
     has = f"(it has {', '.join(layers)})"
     open_to_it = [what for what in unconfined(layers) if what in STRICT]
     if isolation == "strict" and open_to_it:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.judge.children import Child, ChildEnded, Worker
-from grader.judge.isolation import Isolation, refusal
+from grader.judge.isolation import ONE_PROCESS, Isolation, refusal
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import remove
 from grader.protocol import ChildSetup, Limits
@@ -118,9 +118,12 @@ class Sandbox:
         """Return the layers around this child; raises CannotGrade, before it runs, if they are too
         few.
         """
-        if self.isolation == "none":
+        if ONE_PROCESS in self.worker.layers:
+            layers = self.worker.layers
+        elif self.isolation == "none":
             return ["processes"]
-        layers = ["processes", *child.ready.layers, *self.worker.layers]
+        else:
+            layers = ["processes", *child.ready.layers, *self.worker.layers]
         if why := refusal(self.isolation, layers, self.trusted):
             child.end()
             raise CannotGrade(why)

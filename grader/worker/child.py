@@ -94,16 +94,23 @@ def serve(channel: Channel, setup: ChildSetup, without: Collection[str] = ()) ->
             asked = decoder.decode(channel.receive())
         except ChannelClosed:
             return
-        reply: Reply | WithMoments
-        match asked.request:
-            case Record(request) as recording:
-                recorder.start(recording)
-                requests = [*asked.first, request]
-                reply = recorder.finish(attempt(subject, clock, output, recorder, requests))
-            case request:
-                requests = [*asked.first, request]
-                reply = attempt(subject, clock, output, recorder, requests)
-        send(channel, Answered(asked.number, reply, output.take()))
+        send(channel, answer_asked(subject, clock, output, recorder, asked))
+
+
+def answer_asked(
+    subject: Subject, clock: ScriptedClock, output: Output, recorder: Recorder, asked: Asked
+) -> Answered:
+    """Return the one answer to a request, with what the submission printed."""
+    reply: Reply | WithMoments
+    match asked.request:
+        case Record(request) as recording:
+            recorder.start(recording)
+            requests = [*asked.first, request]
+            reply = recorder.finish(attempt(subject, clock, output, recorder, requests))
+        case request:
+            requests = [*asked.first, request]
+            reply = attempt(subject, clock, output, recorder, requests)
+    return Answered(asked.number, reply, output.take())
 
 
 def attempt(

@@ -1,0 +1,52 @@
+"""A worker that starts no processes: its children answer inside this one.
+
+For one's own work, where a browser tab has no processes. It confines nothing, so `grade` refuses it
+for other people's work.
+"""
+
+import os
+from collections.abc import Callable, Sequence
+
+from grader.judge.children import Child, Worker
+from grader.judge.isolation import ONE_PROCESS
+from grader.protocol import Channel, ChildSetup
+
+
+class InnerChannel(Channel):
+    """A channel to a child that has no process."""
+
+    cpu: float  # s of a usual processor that it used
+    status: int  # the exit status of a process in its place
+
+
+class InlineWorker:
+    """Opens children by `connect`: one answers at a time, and the judge waits meanwhile."""
+
+    def __init__(self, connect: Callable[[ChildSetup], InnerChannel]) -> None:
+        self.connect = connect
+        self.layers = [ONE_PROCESS]
+        self.channels: dict[int, InnerChannel] = {}  # by id() of the child
+
+    def helpers(self, count: int) -> Sequence[Worker]:
+        """Return none: there is one interpreter."""
+        return ()
+
+    def open(self, setup: ChildSetup) -> Child:
+        channel = self.connect(setup)
+        child = Child(channel, self, setup.limits.cpu_seconds)
+        self.channels[id(child)] = channel
+        return child
+
+    def pid_of(self, child: Child) -> int:
+        return os.getpid()
+
+    def end(self, child: Child, gone: bool) -> int | None:
+        channel = self.channels.pop(id(child))
+        channel.close()
+        child.cpu = channel.cpu
+        return channel.status
+
+    def close(self) -> None:
+        for channel in self.channels.values():
+            channel.close()
+        self.channels.clear()

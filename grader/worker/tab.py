@@ -1,0 +1,256 @@
+"""Run children without processes: all in this interpreter, each while it answers a request.
+
+For the page in a browser tab, which has no processes, and for one's own work alone: nothing here
+keeps a submission from anything. Every child has its own modules, import rule, clock, random
+numbers, folder and output. They are in place while it answers; meanwhile the judge's are aside.
+"""
+
+import builtins
+import datetime
+import math
+import os
+import random
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NoReturn
+
+import msgspec
+import pygame
+import pymunk
+
+from grader.protocol import Asked, Channel, ChannelClosed, ChildSetup, Ready, packed
+from grader.worker import child
+from grader.worker.imports import ALLOWED, LIBRARIES, ImportRule
+from grader.worker.output import Output
+from grader.worker.recorder import Recorder
+from grader.worker.scripted import ScriptedClock
+from grader.worker.subject import Subject
+
+# Told how many seconds a request may take as it begins, and None as it ends. It sees to it that
+# a request that takes longer is ended by KeyboardInterrupt, again and again until it ends.
+Watch = Callable[[float | None], None]
+
+OUT_OF_TIME = -24  # the exit status of a process that used up its processor time: SIGXCPU
+MISSING = object()
+now = time.process_time  # a child has another one under this name
+step: Any = pymunk.Space.step
+
+OWN = [  # what each child has for itself, by whom it belongs to
+    (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
+    (tempfile, ("tempdir",)),
+    (os, ("_exit", "abort")),
+    (pygame, ("Clock",)),
+    (pygame.time, ("Clock", "get_ticks", "wait", "delay")),
+    (pygame.key, ("get_pressed",)),
+    (pygame.display, ("flip", "update")),
+    (pygame.event, ("wait",)),
+    (datetime, ("datetime",)),
+    (time, ("sleep", "time", "monotonic", "perf_counter", "process_time")),
+    (time, ("time_ns", "monotonic_ns", "perf_counter_ns", "process_time_ns")),
+    (pymunk.Space, ("__init__",)),  # a replay listens to it
+    (step, ("__code__", "__defaults__", "__kwdefaults__")),  # counted in place
+]
+SHARED: list[Any] = [  # what a child may change for all others, and is put back when it ends
+    *(builtins, math, random, time, datetime),
+    *(each for name, each in sys.modules.items() if name.partition(".")[0] in LIBRARIES),
+    *(pymunk.Space, pymunk.Body),
+]
+USUAL = [dict(vars(each)) for each in SHARED]
+
+
+@dataclass
+class Surroundings:
+    """The parts of the interpreter that a child, or the judge, has for itself."""
+
+    folder: str
+    random: tuple[Any, ...]
+    deep: int  # calls, at most
+    values: list[tuple[Any, str, Any]]
+
+    @classmethod
+    def current(cls) -> "Surroundings":
+        values = [(owner, n, getattr(owner, n, MISSING)) for owner, names in OWN for n in names]
+        return cls(os.getcwd(), random.getstate(), sys.getrecursionlimit(), values)
+
+    def copy(self) -> "Surroundings":
+        """Return the same with lists of its own."""
+        values = [
+            (owner, name, list(value) if isinstance(value, list) else value)
+            for owner, name, value in self.values
+        ]
+        return Surroundings(self.folder, self.random, self.deep, values)
+
+    def put_in_place(self) -> None:
+        for owner, name, value in self.values:
+            if getattr(owner, name, MISSING) is value:
+                continue
+            if value is MISSING:
+                delattr(owner, name)
+            else:
+                setattr(owner, name, value)
+        with suppress(OSError):  # a submission may have removed its folder
+            os.chdir(self.folder)
+        random.setstate(self.random)
+        sys.setrecursionlimit(self.deep)
+
+
+class Ended(BaseException):
+    """Raised where a submission ends its process, which it would not outlive."""
+
+
+class Tenant:
+    """One child: the submission, and all that it has for itself."""
+
+    def __init__(self, setup: ChildSetup) -> None:
+        self.status: int | None = None  # with which it ended itself
+        self.modules: dict[str, ModuleType] = {}
+        self.away = [name for name in sys.modules if is_away(name, setup.bans)]
+        self.folder = Path(setup.scratch, Path(setup.submission).name)
+        self.surroundings = Surroundings.current().copy()
+        files = child.own_copy(setup.submission, str(self.folder), setup)
+        self.surroundings.folder = str(self.folder)
+        with self.at_home():
+            os._exit = self.end
+            os.abort = partial(self.end, -6)  # SIGABRT
+            sys.dont_write_bytecode = True
+            tempfile.tempdir = setup.scratch
+            self.output, self.clock = Output(), ScriptedClock()
+            self.output.install()
+            self.clock.install()
+            sys.meta_path.insert(0, ImportRule(files, setup.bans))
+            self.subject = Subject(self.folder)
+            self.recorder = Recorder(self.subject)
+
+    def answer(self, asked: Asked) -> Any:
+        """Return the answer to a request, as a process of its own would give it."""
+        with self.at_home():
+            return child.answer_asked(self.subject, self.clock, self.output, self.recorder, asked)
+
+    def end(self, status: int) -> NoReturn:
+        """Stand in for os._exit, which would end the judge as well."""
+        self.status = status
+        raise Ended
+
+    @contextmanager
+    def at_home(self) -> Iterator[None]:
+        """Put in place what the child has for itself, and the judge's back afterwards."""
+        judge = Surroundings.current()
+        away = {name: sys.modules.pop(name) for name in self.away if name in sys.modules}
+        shared = frozenset(sys.modules)
+        sys.modules.update(self.modules)
+        self.surroundings.put_in_place()
+        try:
+            yield
+        finally:
+            self.surroundings = Surroundings.current()
+            judge.put_in_place()
+            new = sys.modules.keys() - shared
+            mine = [name for name in new if name.partition(".")[0] not in LIBRARIES]
+            self.modules = {name: sys.modules.pop(name) for name in mine}
+            sys.modules.update(away)
+
+    def forget(self) -> None:
+        """Let go of what Python keeps of a child that has ended."""
+        for place in [each for each in sys.path_importer_cache if self.holds(each)]:
+            del sys.path_importer_cache[place]
+
+    def holds(self, place: str) -> bool:
+        return Path(place).is_relative_to(self.folder)
+
+
+def is_away(name: str, bans: Collection[str]) -> bool:
+    """Return whether a module that is loaded is not for submissions."""
+    first = name.partition(".")[0]
+    return first not in ALLOWED or first in bans
+
+
+class TabChannel(Channel):
+    """Answers by itself what it is asked: the child is behind it, in this interpreter.
+
+    `pace`: how many seconds here are worth one of a usual processor.
+    """
+
+    def __init__(self, setup: ChildSetup, watch: Watch, pace: float = 1.0) -> None:
+        self.setup, self.watch, self.pace = setup, watch, pace
+        self.tenant: Tenant | None = None
+        self.asked: Asked | None = None
+        self.answers = [msgspec.msgpack.encode(Ready(os.getpid(), []))]
+        self.cpu = 0.0  # s of a usual processor
+        self.status = 0  # the exit status of a process in its place
+
+    # ------------------------------------------------------------ the judge's side
+
+    def wait(self, seconds: float) -> bool:
+        return bool(self.answers)
+
+    def post(self, message: object) -> None:
+        self.asked = child.decoder.decode(msgspec.msgpack.encode(message))
+
+    def gone(self, seconds: float) -> bool:
+        return True
+
+    def complete(self, seconds: float | None = None) -> bool:
+        asked, self.asked = self.asked, None
+        if asked is not None:
+            self._answer(asked)
+        return True
+
+    def receive(self, timeout: float | None = None) -> bytes:
+        """Return the next answer; raise ChannelClosed where a process would be gone."""
+        if not self.answers and self.setup.compiles:
+            folders = Path(self.setup.submission), Path(self.setup.bytecode)
+            child.compile_all(*folders, self.setup.limits)
+        if not self.answers:
+            raise ChannelClosed("it has ended")
+        return self.answers.pop(0)
+
+    def close(self) -> None:
+        """End the child, and put back what it has changed for all."""
+        if self.tenant is not None:
+            self.tenant.forget()
+            self.tenant = None
+            for owner, usual in zip(SHARED, USUAL, strict=True):
+                put_back(owner, usual)
+
+    # ------------------------------------------------------------ the child's side
+
+    def send(self, message: object) -> None:
+        self.answers.append(packed(message)[4:])
+
+    def _answer(self, asked: Asked) -> None:
+        """Answer, or do not where a process would have ended meanwhile."""
+        most = self.setup.limits.cpu_seconds
+        began = now()
+        if self.tenant is None:
+            self.tenant = Tenant(self.setup)
+        self.watch((most - self.cpu) * self.pace)
+        try:
+            answered = self.tenant.answer(asked)
+        finally:
+            self.watch(None)
+            self.cpu += (now() - began) / self.pace
+        if self.tenant.status is not None:
+            self.status = self.tenant.status
+        elif self.cpu >= most:
+            self.status = OUT_OF_TIME
+        else:
+            child.send(self, answered)
+
+
+def put_back(owner: Any, usual: dict[str, Any]) -> None:
+    """Give a module or class what it held before, and keep modules that were loaded meanwhile."""
+    if all(usual.get(name, MISSING) is value for name, value in vars(owner).items()):
+        return
+    for name, value in [*vars(owner).items()]:
+        if name not in usual and not isinstance(value, ModuleType):
+            delattr(owner, name)
+    for name, value in usual.items():
+        if vars(owner).get(name, MISSING) is not value:
+            setattr(owner, name, value)

@@ -1,0 +1,159 @@
+"""The worker without processes grades as the usual one does, and bounds each child."""
+
+import random
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+import pytest
+from conftest import KIT, HandIn
+from whole_bank import bank, member_named
+
+from grader.bank.verify import shared_worker
+from grader.judge.grade import Options, grade
+from grader.judge.inline import InlineWorker
+from grader.judge.isolation import ONE_PROCESS, refusal
+from grader.judge.result import CheckResult, Result
+from grader.judge.submission import CannotGrade
+from grader.source.regions import read_source
+from grader.worker.tab import TabChannel
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(signal, "setitimer"), reason="ends an endless loop by a timer that Windows lacks"
+)
+PACE = 0.1  # so that an endless loop ends after half a second instead of five
+SAMPLE = 200  # members that the long run compares
+INTEGRATORS = read_source(KIT / "solution" / "integrators.py")
+
+
+def watch(seconds: float | None) -> None:
+    """Interrupt what takes longer, in processor seconds, as the page does by a shared byte."""
+    signal.setitimer(signal.ITIMER_PROF, seconds or 0, 0.1 if seconds else 0)
+
+
+@pytest.fixture
+def tab() -> Iterator[InlineWorker]:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGPROF, interrupt)
+    yield InlineWorker(lambda setup: TabChannel(setup, watch))
+    signal.signal(signal.SIGPROF, before)
+
+
+def graded(folder: Path, worker: InlineWorker, *todos: str) -> Result:
+    return grade(folder, Options(only=frozenset(todos), trusted=True), worker)
+
+
+def checks(result: Result) -> list[CheckResult]:
+    return [check for todo in result.todos for check in todo.checks]
+
+
+def assert_same(folder: Path, tab: InlineWorker, *todos: str) -> Result:
+    """Both workers must give the same result, but for the name of the isolation."""
+    options = Options(only=frozenset(todos), trusted=True)
+    here = grade(folder, options, tab)
+    usual = grade(folder, options, shared_worker())
+    assert here.isolation == [ONE_PROCESS]
+    for one, other in zip(checks(here), checks(usual), strict=True):
+        assert one == other
+    assert msgspec.structs.replace(here, isolation=usual.isolation) == usual
+    return here
+
+
+def test_the_starter_gets_the_same(tab: InlineWorker):
+    assert assert_same(KIT / "starter", tab).points == 0
+
+
+@pytest.mark.parametrize("todo", ["1", "5", "7a", "8a"])
+def test_the_solution_gets_the_same(todo: str, tab: InlineWorker):
+    result = assert_same(KIT / "solution", tab, todo)
+    assert result.points == result.max_points
+
+
+@pytest.mark.parametrize("name", ["1-apart-is-not-noticed", "2-masses-forgotten"])
+def test_members_get_the_same(name: str, tab: InlineWorker, tmp_path: Path):
+    member = member_named(name)
+    member.build(KIT, tmp_path / name)
+    assert_same(tmp_path / name, tab, *(member.todos or {"1"}))
+
+
+@pytest.mark.soak
+def test_a_sample_of_the_bank_gets_the_same(tab: InlineWorker, tmp_path: Path):
+    own = [each for each in bank() if each.kind in ("wrong", "right") and each.form == "package"]
+    for member in random.Random(1).sample(own, SAMPLE):
+        folder = tmp_path / f"{member.kind}-{member.name}"
+        member.build(KIT, folder)
+        assert_same(folder, tab, *(member.todos if member.kind == "wrong" else ()))
+
+
+# ---------------------------------------------------------------- what ends
+
+
+def test_an_endless_loop_ends(tab: InlineWorker, hand_in: HandIn):
+    tab.connect = lambda setup: TabChannel(setup, watch, PACE)
+    loop = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n    while True:\n        pass\n"
+    result = graded(hand_in(integrators_py=INTEGRATORS + loop), tab, "8a")
+    assert "a loop that never ends?" in checks(result)[0].got
+
+
+def test_what_is_printed_is_bounded(tab: InlineWorker, hand_in: HandIn):
+    prints = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n    print('x' * 10**6)\n    return 0\n"
+    result = assert_same(hand_in(integrators_py=INTEGRATORS + prints), tab, "8a")
+    assert "bytes and then" in str(checks(result)[0].printed)
+
+
+def test_a_program_that_ends_its_process_loses_the_answer_alone(tab: InlineWorker, hand_in: HandIn):
+    ends = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n    import os\n    os._exit(3)\n"
+    result = assert_same(hand_in(integrators_py=INTEGRATORS + ends), tab, "8a")
+    assert "exit status 3" in checks(result)[0].got
+
+
+# ---------------------------------------------------------------- what stays apart
+
+
+CHANGES = """
+import math, os, random, sys, time
+import pygame
+math.sqrt = pygame.Vector2 = time.time = None
+pygame.extra = 1
+random.seed(1)
+sys.argv[:] = ["changed"]
+sys.path.insert(0, "changed")
+sys.setrecursionlimit(321)
+os.chdir("/")
+sys.stdout = None
+"""
+
+
+def test_nothing_that_a_submission_changes_stays(tab: InlineWorker, hand_in: HandIn):
+    import math
+    import os
+
+    import pygame
+
+    def state() -> list[object]:
+        own = [sys.argv[:], sys.path[:], sys.getrecursionlimit(), os.getcwd(), sys.stdout]
+        return [*own, math.sqrt, pygame.Vector2, set(sys.modules), vars(pygame).keys() - set()]
+
+    graded(KIT / "starter", tab, "8a")  # loads what checks need
+    before = state()
+    result = graded(hand_in(integrators_py=CHANGES + INTEGRATORS), tab, "8a")
+    assert result.points == result.max_points, checks(result)[0].got
+    assert state() == before
+
+
+def test_a_submission_may_import_no_more_than_in_a_process(tab: InlineWorker, hand_in: HandIn):
+    assert_same(hand_in(integrators_py="import pytest\n" + INTEGRATORS), tab, "8a")
+
+
+# ---------------------------------------------------------------- for one's own work alone
+
+
+def test_it_refuses_other_peoples_work(tab: InlineWorker):
+    with pytest.raises(CannotGrade, match="may not run inside the grader's own process"):
+        grade(KIT / "starter", Options(), tab)
+    assert refusal("none", [ONE_PROCESS], trusted=False)
+    assert not refusal("none", [ONE_PROCESS], trusted=True)
