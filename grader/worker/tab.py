@@ -38,6 +38,7 @@ from grader.worker.subject import Subject
 Watch = Callable[[float | None], None]
 
 OUT_OF_TIME = -24  # the exit status of a process that used up its processor time: SIGXCPU
+LATE = 0.1  # s: later than a child's time is over, its request is interrupted
 MISSING = object()
 now = time.process_time  # a child has another one under this name
 step: Any = pymunk.Space.step
@@ -230,7 +231,7 @@ class TabChannel(Channel):
         began = now()
         if self.tenant is None:
             self.tenant = Tenant(self.setup)
-        self.watch((most - self.cpu) * self.pace)
+        self.watch((most - self.cpu) * self.pace + LATE)
         try:
             answered = self.tenant.answer(asked)
         finally:
