@@ -1,0 +1,464 @@
+"""Color, and what pygame takes for a colour, as the text that a canvas takes for one."""
+
+from .naming import Named, full_name, refuse
+
+INVALID = (
+    "invalid color (color sequence must have size 3 or 4, "
+    "and each element must be an integer in the range [0, 255])"
+)
+NAMES = [
+    "aliceblue",
+    "f0f8ff",
+    "antiquewhite",
+    "faebd7",
+    "aqua",
+    "00ffff",
+    "aquamarine",
+    "7fffd4",
+    "azure",
+    "f0ffff",
+    "beige",
+    "f5f5dc",
+    "bisque",
+    "ffe4c4",
+    "black",
+    "000000",
+    "blanchedalmond",
+    "ffebcd",
+    "blue",
+    "0000ff",
+    "blueviolet",
+    "8a2be2",
+    "brown",
+    "a52a2a",
+    "burlywood",
+    "deb887",
+    "cadetblue",
+    "5f9ea0",
+    "chartreuse",
+    "7fff00",
+    "chocolate",
+    "d2691e",
+    "coral",
+    "ff7f50",
+    "cornflowerblue",
+    "6495ed",
+    "cornsilk",
+    "fff8dc",
+    "crimson",
+    "dc143c",
+    "cyan",
+    "00ffff",
+    "darkblue",
+    "00008b",
+    "darkcyan",
+    "008b8b",
+    "darkgoldenrod",
+    "b8860b",
+    "darkgray",
+    "a9a9a9",
+    "darkgreen",
+    "006400",
+    "darkgrey",
+    "a9a9a9",
+    "darkkhaki",
+    "bdb76b",
+    "darkmagenta",
+    "8b008b",
+    "darkolivegreen",
+    "556b2f",
+    "darkorange",
+    "ff8c00",
+    "darkorchid",
+    "9932cc",
+    "darkred",
+    "8b0000",
+    "darksalmon",
+    "e9967a",
+    "darkseagreen",
+    "8fbc8f",
+    "darkslateblue",
+    "483d8b",
+    "darkslategray",
+    "2f4f4f",
+    "darkslategrey",
+    "2f4f4f",
+    "darkturquoise",
+    "00ced1",
+    "darkviolet",
+    "9400d3",
+    "deeppink",
+    "ff1493",
+    "deepskyblue",
+    "00bfff",
+    "dimgray",
+    "696969",
+    "dimgrey",
+    "696969",
+    "dodgerblue",
+    "1e90ff",
+    "firebrick",
+    "b22222",
+    "floralwhite",
+    "fffaf0",
+    "forestgreen",
+    "228b22",
+    "fuchsia",
+    "ff00ff",
+    "gainsboro",
+    "dcdcdc",
+    "ghostwhite",
+    "f8f8ff",
+    "gold",
+    "ffd700",
+    "goldenrod",
+    "daa520",
+    "gray",
+    "bebebe",
+    "green",
+    "00ff00",
+    "greenyellow",
+    "adff2f",
+    "grey",
+    "bebebe",
+    "honeydew",
+    "f0fff0",
+    "hotpink",
+    "ff69b4",
+    "indianred",
+    "cd5c5c",
+    "indigo",
+    "4b0082",
+    "ivory",
+    "fffff0",
+    "khaki",
+    "f0e68c",
+    "lavender",
+    "e6e6fa",
+    "lavenderblush",
+    "fff0f5",
+    "lawngreen",
+    "7cfc00",
+    "lemonchiffon",
+    "fffacd",
+    "lightblue",
+    "add8e6",
+    "lightcoral",
+    "f08080",
+    "lightcyan",
+    "e0ffff",
+    "lightgoldenrod",
+    "eedd82",
+    "lightgoldenrodyellow",
+    "fafad2",
+    "lightgray",
+    "d3d3d3",
+    "lightgreen",
+    "90ee90",
+    "lightgrey",
+    "d3d3d3",
+    "lightpink",
+    "ffb6c1",
+    "lightsalmon",
+    "ffa07a",
+    "lightseagreen",
+    "20b2aa",
+    "lightskyblue",
+    "87cefa",
+    "lightslateblue",
+    "8470ff",
+    "lightslategray",
+    "778899",
+    "lightslategrey",
+    "778899",
+    "lightsteelblue",
+    "b0c4de",
+    "lightyellow",
+    "ffffe0",
+    "lime",
+    "00ff00",
+    "limegreen",
+    "32cd32",
+    "linen",
+    "faf0e6",
+    "magenta",
+    "ff00ff",
+    "maroon",
+    "b03060",
+    "mediumaquamarine",
+    "66cdaa",
+    "mediumblue",
+    "0000cd",
+    "mediumorchid",
+    "ba55d3",
+    "mediumpurple",
+    "9370db",
+    "mediumseagreen",
+    "3cb371",
+    "mediumslateblue",
+    "7b68ee",
+    "mediumspringgreen",
+    "00fa9a",
+    "mediumturquoise",
+    "48d1cc",
+    "mediumvioletred",
+    "c71585",
+    "midnightblue",
+    "191970",
+    "mintcream",
+    "f5fffa",
+    "mistyrose",
+    "ffe4e1",
+    "moccasin",
+    "ffe4b5",
+    "navajowhite",
+    "ffdead",
+    "navy",
+    "000080",
+    "navyblue",
+    "000080",
+    "oldlace",
+    "fdf5e6",
+    "olive",
+    "808000",
+    "olivedrab",
+    "6b8e23",
+    "orange",
+    "ffa500",
+    "orangered",
+    "ff4500",
+    "orchid",
+    "da70d6",
+    "palegoldenrod",
+    "eee8aa",
+    "palegreen",
+    "98fb98",
+    "paleturquoise",
+    "afeeee",
+    "palevioletred",
+    "db7093",
+    "papayawhip",
+    "ffefd5",
+    "peachpuff",
+    "ffdab9",
+    "peru",
+    "cd853f",
+    "pink",
+    "ffc0cb",
+    "plum",
+    "dda0dd",
+    "powderblue",
+    "b0e0e6",
+    "purple",
+    "a020f0",
+    "red",
+    "ff0000",
+    "rosybrown",
+    "bc8f8f",
+    "royalblue",
+    "4169e1",
+    "saddlebrown",
+    "8b4513",
+    "salmon",
+    "fa8072",
+    "sandybrown",
+    "f4a460",
+    "seagreen",
+    "2e8b57",
+    "seashell",
+    "fff5ee",
+    "sienna",
+    "a0522d",
+    "silver",
+    "c0c0c0",
+    "skyblue",
+    "87ceeb",
+    "slateblue",
+    "6a5acd",
+    "slategray",
+    "708090",
+    "slategrey",
+    "708090",
+    "snow",
+    "fffafa",
+    "springgreen",
+    "00ff7f",
+    "steelblue",
+    "4682b4",
+    "tan",
+    "d2b48c",
+    "teal",
+    "008080",
+    "thistle",
+    "d8bfd8",
+    "tomato",
+    "ff6347",
+    "turquoise",
+    "40e0d0",
+    "violet",
+    "ee82ee",
+    "violetred",
+    "d02090",
+    "wheat",
+    "f5deb3",
+    "white",
+    "ffffff",
+    "whitesmoke",
+    "f5f5f5",
+    "yellow",
+    "ffff00",
+    "yellowgreen",
+    "9acd32",
+]
+THECOLORS = dict(zip(NAMES[::2], NAMES[1::2], strict=True))  # name: RRGGBB
+MOST = 4096  # colours that are kept as texts
+
+
+class Color(metaclass=Named):
+    """A colour; r, g, b and a are whole numbers from 0 to 255."""
+
+    __slots__ = ("a", "b", "g", "r")
+    __hash__ = None
+
+    def __init__(self, *values):
+        self.r, self.g, self.b, self.a = read_color(*values)
+
+    def update(self, *values):
+        """Set the colour, from what a Color can be made of."""
+        self.r, self.g, self.b, self.a = read_color(*values)
+
+    def __iter__(self):
+        return iter((self.r, self.g, self.b, self.a))
+
+    def __len__(self):
+        return 4
+
+    def __getitem__(self, index):
+        return (self.r, self.g, self.b, self.a)[index]
+
+    def __setitem__(self, index, value):
+        (number,) = check_channels((value,))
+        setattr(self, "rgba"[index], number)
+
+    def __eq__(self, other):
+        try:
+            return tuple(self) == read_color(other)
+        except (TypeError, ValueError):
+            return False
+
+    def __repr__(self):
+        return f"Color({self.r}, {self.g}, {self.b}, {self.a})"
+
+    def __int__(self):
+        return self.r << 24 | self.g << 16 | self.b << 8 | self.a
+
+    __index__ = __int__
+
+    def __add__(self, other):
+        return self._with(other, lambda one, two: min(one + two, 255))
+
+    def __sub__(self, other):
+        return self._with(other, lambda one, two: max(one - two, 0))
+
+    def __mul__(self, other):
+        return self._with(other, lambda one, two: min(one * two, 255))
+
+    def _with(self, other, operate):
+        if not isinstance(other, Color):
+            return NotImplemented
+        return Color(*map(operate, self, other))
+
+    def __reduce__(self):
+        return Color, tuple(self)
+
+    def lerp(self, other, share):
+        """Return the colour at a share, from 0 to 1, of the way to another one."""
+        if not 0 <= share <= 1:
+            raise ValueError("Argument 2 must be in range [0, 1]")
+        pairs = zip(self, read_color(other), strict=True)
+        return Color(*(int(one * (1 - share) + two * share + 0.5) for one, two in pairs))
+
+    def grayscale(self):
+        """Return the grey that is as bright."""
+        grey = int(0.299 * self.r + 0.587 * self.g + 0.114 * self.b + 0.5)
+        return Color(grey, grey, grey, self.a)
+
+
+def read_color(*values):
+    """Return (r, g, b, a) from what pygame takes for a colour; raises ValueError or TypeError."""
+    if len(values) > 1:
+        return check_channels(values)
+    (value,) = values or ((0, 0, 0, 255),)
+    if isinstance(value, str):
+        return read_text(value)
+    if isinstance(value, Color):
+        return value.r, value.g, value.b, value.a
+    if isinstance(value, int):
+        if not 0 <= value <= 0xFFFFFFFF:
+            raise ValueError("invalid color argument")
+        return tuple(value.to_bytes(4, "big"))
+    if not hasattr(value, "__getitem__") or not hasattr(value, "__len__"):
+        found = f"{full_name(value):>128}"  # as wide as pygame has it
+        raise TypeError(f"unable to interpret object of type '{found}' as a color")
+    return check_channels(value)
+
+
+def check_channels(values):
+    """Return three or four numbers as (r, g, b, a), or one as it is, all whole."""
+    try:
+        numbers = tuple(map(int, values))
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(INVALID) from None
+    if len(numbers) not in (1, 3, 4) or not all(0 <= each <= 255 for each in numbers):
+        raise ValueError(INVALID)
+    return (*numbers, 255) if len(numbers) == 3 else numbers
+
+
+def read_text(text):
+    """Return (r, g, b, a) of a name, or of digits as in #RRGGBB and 0xRRGGBBAA."""
+    name = text.replace(" ", "").lower()
+    digits = THECOLORS.get(name, name.removeprefix("#").removeprefix("0x"))
+    if name[:4] in ("gray", "grey") and name[4:].isdecimal() and int(name[4:]) <= 100:
+        digits = f"{int(int(name[4:]) * 2.55 + 0.5):02x}" * 3
+    if len(digits) not in (6, 8) or (digits == name and name not in THECOLORS):
+        raise ValueError("invalid color name")
+    try:
+        return (*bytes.fromhex(digits), 255)[:4]
+    except ValueError:
+        raise ValueError("invalid color name") from None
+
+
+opaque, translucent = {}, {}  # texts of colours that were used, by what the program gave
+
+
+def opaque_css(color):
+    """Return a colour as #RRGGBB: what is drawn on a surface without transparency covers it."""
+    try:
+        return opaque[color]
+    except (KeyError, TypeError):
+        return keep(opaque, color, "#%02x%02x%02x" % read_color(color)[:3])
+
+
+def css(color):
+    """Return a colour as #RRGGBB or #RRGGBBAA, for a surface with transparency."""
+    try:
+        return translucent[color]
+    except (KeyError, TypeError):
+        text = "#%02x%02x%02x%02x" % read_color(color)
+        return keep(translucent, color, text[:7] if text[7:] == "ff" else text)
+
+
+def keep(texts, color, text):
+    """Return a text, and keep it where the colour can be a key."""
+    if len(texts) >= MOST:
+        texts.clear()
+    if getattr(color, "__hash__", None):
+        try:
+            texts[color] = text
+        except TypeError:  # a tuple with a list in it
+            pass
+    return text
+
+
+def __getattr__(name):
+    refuse(__name__, name)

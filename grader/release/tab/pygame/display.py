@@ -1,0 +1,106 @@
+"""The window: a Surface that the page shows."""
+
+from time import perf_counter
+
+from .errors import error
+from .math import is_number
+from .naming import refuse
+from .rect import to_int
+from .state import State as state
+from .state import need_window
+from .surface import Surface
+from .time import rest
+
+DESKTOP = (1024, 768)  # px, what set_mode takes where no size is given
+
+
+def init():
+    """Start the window's part of pygame."""
+    state.on = True
+
+
+def quit():
+    """Close the window."""
+    state.on, state.surface = False, None
+    state.keys.clear()
+    state.buttons.clear()
+    state.mods, state.mouse, state.moved = 0, (0, 0), (0, 0)
+
+
+def get_init():
+    """Return whether the window's part of pygame has been started."""
+    return state.on
+
+
+def set_mode(size=(0, 0), flags=0, depth=0, display=0, vsync=0):
+    """Open the window, of this size in px; returns its surface."""
+    if not hasattr(size, "__getitem__") or len(size) != 2 or not all(map(is_number, size)):
+        raise TypeError("size must be two numbers")
+    width, height = map(to_int, size)
+    if width < 0 or height < 0:
+        raise error("Cannot set negative sized display mode")
+    init()
+    size = (width or DESKTOP[0], height or DESKTOP[1])
+    if state.surface is None:
+        state.surface = Surface(size)
+    else:
+        state.surface.__init__(size)
+    return state.surface
+
+
+def get_surface():
+    """Return the window's surface, or None."""
+    return state.surface
+
+
+def flip():
+    """Show what is drawn. A program without a Clock lets the page post events here."""
+    need_window()
+    if state.surface is None:
+        raise error("Display mode not set")
+    state.surface.forget()
+    if state.sink:
+        state.sink(state.surface)
+        if not state.ticked:
+            rest(0, perf_counter())
+        state.ticked = False
+
+
+def update(*rectangles):
+    """Show what is drawn, all of it."""
+    flip()
+
+
+def set_caption(title, icontitle=None):
+    """Set the window's title."""
+    state.caption = title
+
+
+def get_caption():
+    """Return the window's title, twice."""
+    return (state.caption, state.caption) if state.on else ()
+
+
+def set_icon(surface):
+    """Do nothing: a page has no window icon."""
+
+
+def get_window_size():
+    """Return the size of the window in px."""
+    need_window()
+    return state.surface.get_size() if state.surface else (0, 0)
+
+
+def get_active():
+    """Return whether there is a window."""
+    return state.surface is not None
+
+
+def get_driver():
+    """Return what shows the window."""
+    need_window()
+    return "canvas"
+
+
+def __getattr__(name):
+    refuse(__name__, name)

@@ -1,0 +1,202 @@
+"""Events: a queue that the page and programs post to."""
+
+from . import constants as c
+from .errors import error
+from .naming import Named, full_name, refuse
+from .state import State, need_window
+
+pump_hook = None  # the page's: called by get, poll, peek and pump; posts what has come
+wait_hook = None  # the page's: called while wait has nothing; rests a frame and posts what came
+MOST = 65_535  # events in the queue
+
+queue = []
+blocked = set()
+custom_types = iter(range(c.USEREVENT + 1, c.NUMEVENTS))
+MODIFIERS = {
+    c.K_LSHIFT: c.KMOD_LSHIFT, c.K_RSHIFT: c.KMOD_RSHIFT, c.K_LCTRL: c.KMOD_LCTRL,
+    c.K_RCTRL: c.KMOD_RCTRL, c.K_LALT: c.KMOD_LALT, c.K_RALT: c.KMOD_RALT,
+    c.K_LGUI: c.KMOD_LGUI, c.K_RGUI: c.KMOD_RGUI,
+}  # fmt: skip
+
+
+class Event(metaclass=Named):
+    """One event: its type, and attributes by name."""
+
+    def __init__(self, type, dict=(), **more):
+        if not isinstance(type, int):
+            raise TypeError(f"{full_name(type)!r} object cannot be interpreted as an integer")
+        values = {**(dict or {}), **more}
+        if "type" in values:
+            raise ValueError("redundant type field in event dict")
+        self.__dict__.update(values)
+        self.__dict__["type"] = type
+
+    @property
+    def dict(self):
+        """Return the attributes by name."""
+        return {name: value for name, value in vars(self).items() if name != "type"}
+
+    def __getattr__(self, name):
+        raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
+
+    def __eq__(self, other):
+        return isinstance(other, Event) and vars(self) == vars(other)
+
+    __hash__ = None
+
+    def __bool__(self):
+        return self.type != c.NOEVENT
+
+    def __repr__(self):
+        return f"<Event({self.type}-{event_name(self.type)} {self.dict})>"
+
+
+EventType = Event
+
+
+def event_name(type):
+    """Return what a type of event is called."""
+    if c.USEREVENT <= type < c.NUMEVENTS:
+        return "UserEvent"
+    return c.event_names.get(type, "Unknown")
+
+
+def custom_type():
+    """Return a type of event that nobody uses yet."""
+    return next(custom_types)
+
+
+def pump():
+    """Let the page post what has come."""
+    need_window()
+    if pump_hook:
+        pump_hook()
+
+
+def post(event):
+    """Add an event to the queue; returns whether its type is allowed.
+
+    While the page shows a program, events say which keys and buttons are down, and where the mouse
+    is.
+    """
+    if not isinstance(event, Event):
+        raise TypeError("argument must be an Event object")
+    need_window()
+    if State.sink:
+        note(event)
+    if event.type in blocked or len(queue) >= MOST:
+        return False
+    queue.append(event)
+    return True
+
+
+def note(event):
+    """Note what an event says of keys and mouse."""
+    values = vars(event)
+    match event.type:
+        case c.KEYDOWN | c.KEYUP:
+            key, down = values.get("key"), event.type == c.KEYDOWN
+            (State.keys.add if down else State.keys.discard)(key)
+            bit = MODIFIERS.get(key, 0)
+            State.mods = State.mods & ~bit | (bit if down else 0)
+            State.mods = values.get("mod", State.mods)
+            values.setdefault("mod", State.mods)
+            values.setdefault("unicode", "")
+        case c.MOUSEBUTTONDOWN | c.MOUSEBUTTONUP:
+            down = event.type == c.MOUSEBUTTONDOWN
+            (State.buttons.add if down else State.buttons.discard)(values.get("button"))
+    if "pos" in values:
+        x, y = values["pos"] = tuple(map(int, values["pos"]))
+        State.moved = State.moved[0] + x - State.mouse[0], State.moved[1] + y - State.mouse[1]
+        State.mouse = x, y
+
+
+def wanted(types):
+    """Return a function that says whether an event is of one of the types; None takes all."""
+    if types is None:
+        return lambda event: True
+    types = {types} if isinstance(types, int) else set(types)
+    return lambda event: event.type in types
+
+
+def get(eventtype=None, pump=True, exclude=None):
+    """Return the events in the queue, of these types if any are given, and take them out."""
+    need_window()
+    if pump and pump_hook:
+        pump_hook()
+    if eventtype is None and exclude is None:
+        found, queue[:] = list(queue), []
+        return found
+    is_wanted = wanted(eventtype)
+    is_excluded = wanted(exclude if exclude is not None else ())
+    found = [event for event in queue if is_wanted(event) and not is_excluded(event)]
+    queue[:] = [event for event in queue if not is_wanted(event) or is_excluded(event)]
+    return found
+
+
+def poll():
+    """Return the next event and take it out; one of type NOEVENT where there is none."""
+    need_window()
+    if pump_hook:
+        pump_hook()
+    return queue.pop(0) if queue else Event(c.NOEVENT)
+
+
+def wait(timeout=0):
+    """Wait for an event, for so many ms at most unless that is 0, and take it out."""
+    from .time import get_ticks
+
+    need_window()
+    began = get_ticks()
+    while not queue:
+        if timeout and get_ticks() - began >= timeout:
+            return Event(c.NOEVENT)
+        if wait_hook:
+            wait_hook()
+        elif not timeout:
+            raise error("no event can come while this program waits")
+    return queue.pop(0)
+
+
+def peek(eventtype=None, pump=True):
+    """Return whether there are events, of these types if any are given."""
+    need_window()
+    if pump and pump_hook:
+        pump_hook()
+    return any(map(wanted(eventtype), queue))
+
+
+def clear(eventtype=None, pump=True):
+    """Take out all events, of these types if any are given."""
+    need_window()
+    is_wanted = wanted(eventtype)
+    queue[:] = [event for event in queue if not is_wanted(event)]
+
+
+def set_blocked(types):
+    """Let no events of these types into the queue; None stands for all."""
+    blocked.update(c.event_names if types is None else {types} if isinstance(types, int) else types)
+
+
+def set_allowed(types):
+    """Let events of these types into the queue again; None stands for all."""
+    gone = set(blocked) if types is None else {types} if isinstance(types, int) else set(types)
+    blocked.difference_update(gone)
+
+
+def get_blocked(type):
+    """Return whether no event of a type comes into the queue."""
+    return type in blocked
+
+
+def set_grab(grab):
+    """Do nothing: a page cannot hold the mouse."""
+
+
+def get_grab():
+    """Return False: a page cannot hold the mouse."""
+    return False
+
+
+def __getattr__(name):
+    refuse(__name__, name)

@@ -1,0 +1,51 @@
+"""The mouse: where it is, and which buttons are down."""
+
+from .naming import refuse
+from .state import State, need_window
+
+
+def get_pos():
+    """Return where the pointer is in the window, in px."""
+    need_window()
+    return State.mouse
+
+
+def set_pos(*place):
+    """Say that the pointer is at a place; the page cannot move it."""
+    need_window()
+    x, y = place if len(place) == 2 else place[0]
+    State.mouse = int(x), int(y)
+
+
+def get_rel():
+    """Return how far the pointer has moved since the last call, in px."""
+    need_window()
+    moved, State.moved = State.moved, (0, 0)
+    return moved
+
+
+def get_pressed(num_buttons=3):
+    """Return for each of the first three or five buttons whether it is down."""
+    need_window()
+    if num_buttons not in (3, 5):
+        raise ValueError("Number of buttons needs to be 3 or 5.")
+    return tuple(number in State.buttons for number in range(1, num_buttons + 1))
+
+
+def get_focused():
+    """Return whether there is a window."""
+    return State.surface is not None
+
+
+def set_visible(value):
+    """Do nothing: the page shows the pointer."""
+    return True
+
+
+def get_visible():
+    """Return True: the page shows the pointer."""
+    return True
+
+
+def __getattr__(name):
+    refuse(__name__, name)

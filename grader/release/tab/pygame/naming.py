@@ -1,0 +1,39 @@
+"""Give a class written in Python the names that one written in C has in messages."""
+
+FULL_NAME = type.__dict__["__name__"]
+
+
+def full_name(value):
+    """Return the name of a value's type as messages have it."""
+    return FULL_NAME.__get__(type(value))
+
+
+class Named(type):
+    """The type of a class whose messages name it in full.
+
+    Python puts `type.__name__` into "unsupported operand type(s) for +: 'float' and …". Of a class
+    in C it says "pygame.math.Vector2" there, though the class's own `__name__` is "Vector2".
+    """
+
+    __name__ = property(lambda cls: cls.__qualname__)
+
+    def __new__(meta, name, bases, names):
+        made = super().__new__(meta, name, bases, names)
+        if made.__module__.startswith("pygame."):
+            FULL_NAME.__set__(made, f"{made.__module__}.{name}")
+        return made
+
+
+def refuse(module, name):
+    """Raise AttributeError for a name that a module of this page's pygame does not have."""
+    if name.startswith("__"):
+        raise AttributeError(f"module {module!r} has no attribute {name!r}")
+    raise AttributeError(explain(f"{module}.{name}"))
+
+
+def explain(name):
+    """Return what to say of a name of pygame that is not here."""
+    return (
+        f"{name} is not part of the pygame of this page; "
+        "draw with what the lab uses, or run the program on a computer with pygame-ce"
+    )

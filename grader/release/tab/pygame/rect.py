@@ -1,0 +1,234 @@
+"""Rect: a rectangle of whole numbers."""
+
+from .math import is_number, read_pair
+from .naming import Named, full_name, refuse
+
+STYLE = "Argument must be rect style object"
+
+
+def read_rect(*values):
+    """Return (x, y, w, h) as whole numbers from what pygame takes for a rectangle."""
+    if len(values) == 1:
+        (values,) = values
+        if isinstance(values, Rect):
+            return values._x, values._y, values._w, values._h
+        if not hasattr(values, "__getitem__") or not hasattr(values, "__len__"):
+            values = read_rect_of(values)
+    if len(values) == 2:
+        place, size = map(read_pair, values)
+        if place is None or size is None:
+            raise TypeError(STYLE)
+        values = (*place, *size)
+    if len(values) != 4 or not all(map(is_number, values)):
+        raise TypeError(STYLE)
+    return tuple(map(to_int, values))
+
+
+def read_rect_of(thing):
+    """Return the `rect` of a thing."""
+    if not hasattr(thing, "rect"):
+        raise TypeError(STYLE)
+    return thing.rect
+
+
+def to_int(value):
+    """Return a number cut to a whole one, as C does: NaN and what is too large become the least."""
+    try:
+        number = int(value)
+    except (ValueError, OverflowError):
+        return -(1 << 31)
+    return number if -(1 << 31) <= number < 1 << 31 else -(1 << 31)
+
+
+def side(get, put):
+    """Return an attribute that moves or sizes a rectangle; both functions take it as `r`."""
+
+    def set_to(r, value):
+        put(r, *map(to_int, value)) if hasattr(value, "__getitem__") else put(r, to_int(value))
+
+    return property(get, set_to)
+
+
+def half(number):
+    """Return half a number, cut as C does."""
+    return int(number / 2)
+
+
+class Rect(metaclass=Named):
+    """A rectangle: x, y, w and h, and all that follows from them."""
+
+    __slots__ = ("_h", "_w", "_x", "_y")
+    __hash__ = None
+
+    def __init__(self, *values):
+        self._x, self._y, self._w, self._h = read_rect(*values) if values else (0, 0, 0, 0)
+
+    def _place(self, x, y):
+        self._x, self._y = x, y
+
+    def _resize(self, w, h):
+        self._w, self._h = w, h
+
+    x = left = side(lambda r: r._x, lambda r, x: r._place(x, r._y))
+    y = top = side(lambda r: r._y, lambda r, y: r._place(r._x, y))
+    w = width = side(lambda r: r._w, lambda r, w: r._resize(w, r._h))
+    h = height = side(lambda r: r._h, lambda r, h: r._resize(r._w, h))
+    size = side(lambda r: (r._w, r._h), _resize)
+    right = side(lambda r: r._x + r._w, lambda r, x: r._place(x - r._w, r._y))
+    bottom = side(lambda r: r._y + r._h, lambda r, y: r._place(r._x, y - r._h))
+    centerx = side(lambda r: r._x + half(r._w), lambda r, x: r._place(x - half(r._w), r._y))
+    centery = side(lambda r: r._y + half(r._h), lambda r, y: r._place(r._x, y - half(r._h)))
+
+    def corner(one, two):
+        """Return an attribute of two others."""
+
+        def put(r, x, y):
+            setattr(r, one, x)
+            setattr(r, two, y)
+
+        return side(lambda r: (getattr(r, one), getattr(r, two)), put)
+
+    topleft, topright = corner("left", "top"), corner("right", "top")
+    bottomleft, bottomright = corner("left", "bottom"), corner("right", "bottom")
+    midtop, midbottom = corner("centerx", "top"), corner("centerx", "bottom")
+    midleft, midright = corner("left", "centery"), corner("right", "centery")
+    center = corner("centerx", "centery")
+    del corner
+
+    def __getattr__(self, name):
+        raise AttributeError(f"{full_name(self)!r} object has no attribute {name!r}")
+
+    def __repr__(self):
+        return f"Rect({self._x}, {self._y}, {self._w}, {self._h})"
+
+    def __iter__(self):
+        return iter((self._x, self._y, self._w, self._h))
+
+    def __len__(self):
+        return 4
+
+    def __getitem__(self, index):
+        try:
+            return [self._x, self._y, self._w, self._h][index]
+        except IndexError:
+            raise IndexError("Invalid rect Index") from None
+
+    def __setitem__(self, index, value):
+        numbers = list(self)
+        numbers[index] = to_int(value)
+        self._x, self._y, self._w, self._h = numbers
+
+    def __bool__(self):
+        return self._w != 0 and self._h != 0
+
+    def __eq__(self, other):
+        try:
+            return tuple(self) == read_rect(other)
+        except TypeError:
+            return NotImplemented
+
+    def __copy__(self):
+        return type(self)(self._x, self._y, self._w, self._h)
+
+    copy = __copy__
+
+    def __reduce__(self):
+        return type(self), tuple(self)
+
+    def update(self, *values):
+        """Set all four numbers."""
+        self._x, self._y, self._w, self._h = read_rect(*values)
+
+    def move(self, *by):
+        """Return a copy, moved."""
+        x, y = map(to_int, by if len(by) == 2 else by[0])
+        return type(self)(self._x + x, self._y + y, self._w, self._h)
+
+    def inflate(self, *by):
+        """Return a copy, larger by so much around the same centre."""
+        w, h = map(to_int, by if len(by) == 2 else by[0])
+        return type(self)(self._x - half(w), self._y - half(h), self._w + w, self._h + h)
+
+    def clip(self, *other):
+        """Return what two rectangles share; one without size where they share nothing."""
+        x, y, w, h = read_rect(*other)
+        left, top = max(self._x, x), max(self._y, y)
+        wide, high = min(self.right, x + w) - left, min(self.bottom, y + h) - top
+        if wide < 0 or high < 0:
+            return type(self)(self._x, self._y, 0, 0)
+        return type(self)(left, top, wide, high)
+
+    def union(self, *other):
+        """Return the smallest rectangle around two."""
+        x, y, w, h = read_rect(*other)
+        left, top = min(self._x, x), min(self._y, y)
+        right, bottom = max(self.right, x + w), max(self.bottom, y + h)
+        return type(self)(left, top, right - left, bottom - top)
+
+    def clamp(self, *other):
+        """Return a copy, moved into another one; centred in one that is too small."""
+        other = Rect(*other)
+
+        def fit(low, size, other_low, other_size):
+            if size >= other_size:
+                return other_low + half(other_size) - half(size)
+            return min(max(low, other_low), other_low + other_size - size)
+
+        x = fit(self._x, self._w, other._x, other._w)
+        y = fit(self._y, self._h, other._y, other._h)
+        return type(self)(x, y, self._w, self._h)
+
+    def move_ip(self, *by):
+        """Move."""
+        self.update(self.move(*by))
+
+    def inflate_ip(self, *by):
+        """Grow around the centre."""
+        self.update(self.inflate(*by))
+
+    def clamp_ip(self, *other):
+        """Move into another rectangle."""
+        self.update(self.clamp(*other))
+
+    def union_ip(self, *other):
+        """Grow around another rectangle."""
+        self.update(self.union(*other))
+
+    def normalize(self):
+        """Make a negative width or height positive."""
+        if self._w < 0:
+            self._x, self._w = self._x + self._w, -self._w
+        if self._h < 0:
+            self._y, self._h = self._y + self._h, -self._h
+
+    def collidepoint(self, *point):
+        """Return whether a point is inside, or on the left or top edge."""
+        x, y = point if len(point) == 2 else point[0]
+        return self._x <= x < self.right and self._y <= y < self.bottom
+
+    def colliderect(self, *other):
+        """Return whether two rectangles overlap."""
+        x, y, w, h = read_rect(*other)
+        if not (w and h and self):
+            return False
+        return max(self._x, x) < min(self.right, x + w) and max(self._y, y) < min(
+            self.bottom, y + h
+        )
+
+    def contains(self, *other):
+        """Return whether another rectangle is inside."""
+        x, y, w, h = read_rect(*other)
+        inside = self._x <= x and x + w <= self.right and self._y <= y and y + h <= self.bottom
+        return inside and self.right > x and self.bottom > y
+
+    def collidelist(self, others):
+        """Return the number of the first of some rectangles that overlaps, or -1."""
+        return next((n for n, each in enumerate(others) if self.colliderect(each)), -1)
+
+    def collidelistall(self, others):
+        """Return the numbers of all of some rectangles that overlap."""
+        return [n for n, each in enumerate(others) if self.colliderect(each)]
+
+
+def __getattr__(name):
+    refuse(__name__, name)

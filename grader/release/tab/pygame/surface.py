@@ -1,0 +1,246 @@
+"""Surface: a list of draw commands, see the package's docstring for what they are."""
+
+from .color import Color, css, opaque_css
+from .constants import SRCALPHA
+from .errors import error
+from .math import is_number
+from .naming import Named, full_name, refuse
+from .pixels import Pixels
+from .rect import Rect, read_rect, to_int
+
+MOST = 20_000  # commands since the last fill; the oldest are forgotten
+BAD_PLACE = "invalid destination position for blit"
+
+
+class Nowhere(list):
+    """A list of commands that nobody will see."""
+
+    def append(self, command):
+        pass
+
+
+NOWHERE = Nowhere()
+
+
+class Surface(metaclass=Named):
+    """A picture. Its pixels are computed when they are asked for."""
+
+    __slots__ = ("_alpha", "_clip", "_drawn", "_flags", "_height", "_into", "_width", "css", "ops")
+
+    def __init__(self, size, flags=0, depth=0, masks=None):
+        self._width, self._height = read_size(size)
+        self._flags, self._alpha = int(getattr(flags, "_flags", flags)) & SRCALPHA, 255
+        self.css = css if self._flags else opaque_css
+        self.ops = []
+        self._into, self._clip = self.ops, None
+        if not self._flags:
+            self.fill((0, 0, 0))
+        self._drawn = None, 0  # pixels, and how many commands they are of
+
+    def __getattr__(self, name):
+        raise AttributeError(
+            f"{full_name(self)!r} object has no attribute {name!r} in the pygame of this page"
+        )
+
+    def __repr__(self):
+        more = ", global_alpha=255" if self._flags else ""
+        return f"<Surface({self._width}x{self._height}x32{more})>"
+
+    # ------------------------------------------------------------ sizes
+
+    def get_size(self):
+        """Return (width, height) in px."""
+        return self._width, self._height
+
+    size = property(get_size)
+
+    def get_width(self):
+        """Return the width in px."""
+        return self._width
+
+    width = property(get_width)
+
+    def get_height(self):
+        """Return the height in px."""
+        return self._height
+
+    height = property(get_height)
+
+    def get_rect(self, **places):
+        """Return a rectangle of this size, moved to where names such as center say."""
+        rect = Rect(0, 0, self._width, self._height)
+        for name, value in places.items():
+            if not hasattr(Rect, name):
+                getattr(rect, name)  # raises
+            setattr(rect, name, value)
+        return rect
+
+    def get_flags(self):
+        """Return SRCALPHA for a surface with transparency, else 0."""
+        return self._flags
+
+    def get_bitsize(self):
+        """Return the bits of a pixel."""
+        return 32
+
+    def get_bytesize(self):
+        """Return the bytes of a pixel."""
+        return 4
+
+    # ------------------------------------------------------------ drawing
+
+    def fill(self, color, rect=None, special_flags=0):
+        """Fill the surface, or a rectangle of it; returns the rectangle that is filled."""
+        color = self.css(color)
+        if rect is None and self._into is self.ops:
+            self.ops.clear()
+            self._drawn = None, 0
+            if color[7:] != "00":
+                self.ops.append(("rect", 0, 0, self._width, self._height, color, 0))
+            return Rect(0, 0, self._width, self._height)
+        filled = self.get_clip() if rect is None else self.get_clip().clip(rect)
+        self._into.append(("rect", *filled, color, 0))
+        return filled
+
+    def blit(self, source, dest=(0, 0), area=None, special_flags=0):
+        """Draw another surface with its left upper corner at dest; returns where it is drawn."""
+        if not isinstance(source, Surface):
+            raise TypeError(f"argument 1 must be pygame.surface.Surface, not {full_name(source)}")
+        x, y = read_place(dest)
+        left, top, w, h = read_rect(area) if area is not None else (0, 0, *source.get_size())
+        commands = list(source.ops)
+        if area is None and len(commands) == 1 and commands[0][0] == "text":
+            _, right, down, *rest = commands[0]
+            self._into.append(("text", x + right, y + down, *rest))
+        elif commands:
+            inside = [("within", left, top, w, h, commands)]
+            if source._alpha < 255:
+                inside = [("faded", source._alpha / 255, inside)]
+            self._into.append(("at", x - left, y - top, inside))
+        return self.get_clip().clip((x, y, w, h))
+
+    def blits(self, sequence, doreturn=True):
+        """Draw several surfaces, each given as the arguments of blit."""
+        rects = [self.blit(*each) for each in sequence]
+        return rects if doreturn else None
+
+    def set_at(self, place, color):
+        """Set the colour of one pixel."""
+        x, y = place
+        self._into.append(("rect", int(x), int(y), 1, 1, self.css(color), 0))
+
+    def set_clip(self, rect):
+        """Draw inside this rectangle only; None for the whole surface.
+
+        The pixels of a clip of one pixel are never seen, so drawing there costs nothing.
+        """
+        whole = Rect(0, 0, self._width, self._height)
+        self._clip = None if rect is None else whole.clip(rect)
+        self._drawn = None, 0
+        if self._clip is None or self._clip == whole:
+            self._into = self.ops
+        elif self._clip.w * self._clip.h <= 1:
+            self._into = NOWHERE
+        else:
+            self._into = []
+            self.ops.append(("within", *self._clip, self._into))
+
+    def get_clip(self):
+        """Return the rectangle that is drawn in."""
+        return Rect(0, 0, self._width, self._height) if self._clip is None else self._clip.copy()
+
+    def set_alpha(self, value=None, flags=0):
+        """Set how opaque the surface is where it is drawn on another one, from 0 to 255."""
+        self._alpha = 255 if value is None else min(max(int(value), 0), 255)
+
+    def get_alpha(self):
+        """Return how opaque the surface is, from 0 to 255."""
+        return self._alpha
+
+    def copy(self):
+        """Return a surface with the same picture."""
+        made = Surface(self.get_size(), self._flags)
+        made.ops[:], made._alpha = self.ops, self._alpha
+        return made
+
+    __copy__ = copy
+
+    def convert(self, *_):
+        """Return a copy."""
+        return self.copy()
+
+    convert_alpha = convert
+
+    def lock(self):
+        """Do nothing: there are no pixels to lock."""
+
+    unlock = lock
+
+    def forget(self):
+        """Leave out the oldest commands but the first where there are too many."""
+        if len(self.ops) > MOST:
+            del self.ops[1 : len(self.ops) - MOST // 2]
+            self._drawn = None, 0
+
+    # ------------------------------------------------------------ pixels
+
+    def pixels(self):
+        """Return the Pixels of all that is drawn; what has been computed before is kept."""
+        drawn, count = self._drawn
+        if drawn is None or self._into is not self.ops or count > len(self.ops):
+            drawn, count = Pixels(self._width, self._height), 0
+        drawn.paint(self.ops[count:])
+        self._drawn = drawn, len(self.ops)
+        return drawn
+
+    def get_at(self, place):
+        """Return the colour of a pixel."""
+        x, y = map(to_int, place)
+        if not (0 <= x < self._width and 0 <= y < self._height):
+            raise IndexError("pixel index out of range")
+        return Color(*self.pixels()[x, y])
+
+    def get_buffer(self):
+        """Return the pixels; bytes are in `raw`."""
+        return BufferProxy(self)
+
+
+class BufferProxy(metaclass=Named):
+    """The pixels of a surface, as get_buffer returns them."""
+
+    def __init__(self, parent):
+        self.parent = parent
+
+    @property
+    def raw(self):
+        """The bytes."""
+        return bytes(self.parent.pixels().bytes)
+
+    @property
+    def length(self):
+        """Return how many bytes there are."""
+        return 4 * self.parent.get_width() * self.parent.get_height()
+
+    def __repr__(self):
+        return f"<BufferProxy({self.length})>"
+
+
+def read_size(size):
+    """Return (width, height) as whole numbers."""
+    if not hasattr(size, "__getitem__") or len(size) != 2 or not all(map(is_number, size)):
+        raise ValueError("size needs to be (number width, number height)")
+    width, height = map(to_int, size)
+    if width < 0 or height < 0:
+        raise error("Invalid resolution for Surface")
+    return width, height
+
+
+def read_place(dest):
+    """Return (x, y) as whole numbers, of a place or the corner of a rectangle."""
+    if not hasattr(dest, "__getitem__") or len(dest) < 2 or not all(map(is_number, dest)):
+        raise TypeError(BAD_PLACE)
+    return to_int(dest[0]), to_int(dest[1])
+
+
+def __getattr__(name):
+    refuse(__name__, name)
