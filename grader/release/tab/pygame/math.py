@@ -4,7 +4,7 @@ A vector is made and read thousands of times in each frame, so the methods of th
 way first: both are Vector2, or the factor is a float. Everything else is sorted out in `read_pair`.
 """
 
-from math import acos, atan2, cos, degrees, fabs, floor, fmod, pi, radians, sin, sqrt, tau
+from math import acos, atan2, copysign, cos, degrees, fabs, floor, fmod, pi, radians, sin, sqrt, tau
 
 from .naming import Named, full_name, refuse
 
@@ -674,8 +674,8 @@ def floor_division(x, number):
     """Return a whole quotient as a float, rounded down."""
     if not number:
         raise ZeroDivisionError("division by zero")
-    quotient = x / number
-    return float(floor(quotient)) if fabs(quotient) < INFINITY else quotient
+    quotient = x * (1.0 / number)
+    return copysign(floor(quotient), quotient) if fabs(quotient) < INFINITY else quotient
 
 
 def round_half_up(x):

@@ -1,0 +1,128 @@
+"""The pygame of the page is pygame-ce, as far as the lab uses it: values, errors and positions."""
+
+import ast
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from conftest import KIT
+
+PAGE = KIT / "grader" / "release" / "tab"
+
+CALLS = """
+import sys, json, random
+sys.path[:0] = sys.argv[2:]
+import pygame
+from pygame import Vector2
+rng = random.Random(7)
+numbers = [0.0, -0.0, 1.0, 1e-9, 1e20, 3.0] + [rng.uniform(-90, 90) for _ in range(14)]
+pygame.init()
+for line in json.loads(sys.argv[1]):
+    for _ in range(12):
+        a, b, c, d, e = (rng.choice(numbers) for _ in range(5))
+        v, w, share = Vector2(a, b), Vector2(c, d), rng.random()
+        S = pygame.Surface((40, 30))
+        try:
+            result = eval(line)
+            number = isinstance(result, (Vector2, tuple))
+            said = list(map(float.hex, map(float, result))) if number else repr(result)
+        except Exception as error:
+            said = f"{type(error).__name__}: {error}"
+        print(line, said)
+"""
+EXACT = """
+v + w|v - w|v * c|c * v|v * w|v / c|v // c|-v|+v|v + (c, d)|(c, d) - v|[c, d] + v|v * 2|v / 3
+v.dot(w)|v.cross(w)|v.length()|v.length_squared()|v.normalize()|v.is_normalized()|v.lerp(w, share)
+v.smoothstep(w, e)|v.distance_to(w)|v.distance_squared_to(w)|v.rotate(e)|v.rotate_rad(e)
+v.rotate(90)|v.rotate(-180)|v.rotate(270.0)|v.rotate_rad(1e-8)|v.project(w)|v.reflect(w)
+v.angle_to(w)|v.angle|v.as_polar()|v.move_towards(w, e)|v.clamp_magnitude(share)
+v.slerp(w, share)
+v == w|v == (a, b)|v != w|v < w|v < 3|v + 1|1 + v|c - v|v * "a"|v * None|v / w
+v / 0|v // 0|v % 2|abs(v)|hash(v)|repr(v)|str(v)|f"{v}"|bool(v)|len(v)|v[0]|v[-1]|v[2]|v["a"]|v[::-1]
+list(v)|v.xy|v.yx|v.xxyy|v.foo|Vector2()|Vector2(2)|Vector2("a")|Vector2(None)|Vector2((1, 2, 3))
+Vector2(1, None)|Vector2([c, d])|v.dot(1)|v.lerp(w, 2)|v.lerp(1, 0.5)|v.rotate("a")|v.copy()
+v.elementwise() * w|v.elementwise() + c|(2 * v.elementwise())|setattr(v, "x", "a")
+setattr(v, "x", 3) or v.x|round(v, 2)|Vector2(0, 0).normalize()
+pygame.math.clamp(a, -1, 1)|pygame.math.lerp(a, b, share)|pygame.Color("red")|pygame.Color(1, 2, 3)
+pygame.Color("nope")|pygame.Rect(a % 99, b % 99, c % 9, d % 9)|pygame.Rect(v, (3, 4)).center
+pygame.Rect(1, 2, 30, 40).clip((20, 3, 90, 9))|pygame.Rect(1, 2, 3, 4).inflate(3, 3)
+pygame.Rect(1, 2, 3, 4).collidepoint(v)|pygame.draw.circle(S, "red", (5.7, 5.2), 3.9)
+pygame.draw.circle(S, None, v, 3)|pygame.draw.aacircle(S, "red", (5, 5), 3)
+pygame.draw.circle(S, "red", 5, 3)|pygame.draw.line(S, "red", 1, (5, 7))
+pygame.draw.rect(S, (1, 2, 3), (1, 1, 50, 7))|pygame.draw.polygon(S, "red", [(1, 1), (5, 1)])
+S.fill("red")|S.fill((1, 2, 300))|S.get_at((99, 0))|pygame.event.Event(768, key=3)
+pygame.event.post(3)|pygame.key.key_code("left shift")|pygame.key.key_code("zz")|pygame.K_LSHIFT
+pygame.key.name(pygame.K_SPACE)|pygame.time.wait("a")
+pygame.font.Font(None, 26).render(3, True, "red")
+"""
+RUN = """
+import sys, random
+sys.path[:0] = sys.argv[1:]
+from mini_engine.game_loop import Window
+import pygame
+window = Window()
+for frame in range(120):
+    if frame % 20 == 0:
+        window.drop_ball((100 + 5 * frame, 60))
+    window.world.step(1 / 120)
+    window.draw()
+print([(b.pos.x.hex(), b.pos.y.hex()) for b in window.world.bodies])
+import pymunk_scene
+space = pymunk_scene.make_space(random.Random(12))[0]
+screen, font = pygame.Surface((900, 600)), pygame.font.Font(None, 26)
+for frame in range(120):
+    space.step(1 / 120)
+    for shape in space.shapes:
+        pymunk_scene.draw_shape(screen, shape)
+print([(b.position.x.hex(), b.position.y.hex()) for b in space.bodies])
+"""
+
+
+def run(code: str, *arguments: object) -> list[str]:
+    """Return the lines that code prints, headless."""
+    headless = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", code, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, **headless, "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
+    )
+    assert not done.returncode, done.stderr
+    return done.stdout.splitlines()
+
+
+def test_calls_give_what_pygame_ce_gives_to_the_last_bit():
+    calls = json.dumps(EXACT.replace("\n", "|").strip("|").split("|"))
+    assert run(CALLS, calls, PAGE) == run(CALLS, calls)
+
+
+def test_the_engine_and_the_pymunk_scene_run_alike():
+    assert run(RUN, PAGE, KIT / "solution") == run(RUN, KIT / "solution")
+
+
+def names_in(text: str) -> set[str]:
+    """Return the names of pygame that a source uses, such as draw.line."""
+    nodes = [ast.unparse(each) for each in ast.walk(ast.parse(text)) if type(each) is ast.Attribute]
+    return {each[7:] for each in nodes if each.startswith("pygame.") and "(" not in each}
+
+
+def test_every_name_that_the_lab_and_the_worker_use_is_there():
+    folders = [KIT / "solution", KIT / "starter", KIT / "grader" / "worker"]
+    files = [path for folder in folders for path in folder.rglob("*.py")]
+    names = set().union(*(names_in(path.read_text(encoding="utf-8")) for path in files))
+    code = (
+        "import sys; sys.path[:0] = sys.argv[2:]; import pygame\nfor name in sys.argv[1].split(): "
+    )
+    assert len(names) > 50
+    assert run(code + " eval('pygame.' + name)", " ".join(names), PAGE) == []
+
+
+@pytest.mark.parametrize("line", ["pygame.mixer.init()", "import pygame.mixer"])
+def test_a_missing_name_is_explained(line: str):
+    code = (
+        "import sys; sys.path[:0] = sys.argv[1:]; import pygame\ntry:\n    {}\nexcept {}: print({})"
+    )
+    said = run(code.format(line, "Exception as error", "error"), PAGE)
+    assert said[0].startswith("pygame.mixer is not part of the pygame of this page; ")
