@@ -40,7 +40,8 @@ v.rotate(90)|v.rotate(-180)|v.rotate(270.0)|v.rotate_rad(1e-8)|v.project(w)|v.re
 v.angle_to(w)|v.angle|v.as_polar()|v.move_towards(w, e)|v.clamp_magnitude(share)
 v.slerp(w, share)
 v == w|v == (a, b)|v != w|v < w|v < 3|v + 1|1 + v|c - v|v * "a"|v * None|v / w
-v / 0|v // 0|v % 2|abs(v)|hash(v)|repr(v)|str(v)|f"{v}"|bool(v)|len(v)|v[0]|v[-1]|v[2]|v["a"]|v[::-1]
+v / 0|v // 0|v % 2|abs(v)|hash(v)|repr(v)|str(v)|f"{v}"|bool(v)|len(v)|v[0]|v[-1]|v[2]|v["a"]
+v[::-1]
 list(v)|v.xy|v.yx|v.xxyy|v.foo|Vector2()|Vector2(2)|Vector2("a")|Vector2(None)|Vector2((1, 2, 3))
 Vector2(1, None)|Vector2([c, d])|v.dot(1)|v.lerp(w, 2)|v.lerp(1, 0.5)|v.rotate("a")|v.copy()
 v.elementwise() * w|v.elementwise() + c|(2 * v.elementwise())|setattr(v, "x", "a")
@@ -126,3 +127,25 @@ def test_a_missing_name_is_explained(line: str):
     )
     said = run(code.format(line, "Exception as error", "error"), PAGE)
     assert said[0].startswith("pygame.mixer is not part of the pygame of this page; ")
+
+
+PICTURE = """
+import sys
+sys.path[:0] = sys.argv[1:]
+from mini_engine.game_loop import Window
+import pygame
+window = Window()
+for frame in range(60):
+    window.world.step(1 / 120)
+window.draw()
+pygame.draw.polygon(window.screen, "red", [(400, 200), (440, 220), (430, 260)])
+pygame.draw.circle(window.screen, "blue", (600, 300), 30, 4)
+print(pygame.image.tobytes(window.screen, "RGB")[3 * 900 * 60 : 3 * 900 * 540].hex())
+"""
+
+
+def test_the_pixels_below_the_text_are_nearly_those_of_pygame_ce():
+    (here,), (real,) = run(PICTURE, PAGE, KIT / "solution"), run(PICTURE, KIT / "solution")
+    assert len(here) == len(real)
+    pairs = zip(bytes.fromhex(here), bytes.fromhex(real), strict=True)
+    assert sum(abs(one - other) > 16 for one, other in pairs) < 3 * 900 * 480 * 0.003
