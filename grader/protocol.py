@@ -658,3 +658,10 @@ class Channel:
             raise ChannelClosed("end of stream")
         self.ahead += chunk
         return True
+
+
+class InnerChannel(Channel):
+    """A channel to a child that has no process: it answers on this side of the channel."""
+
+    cpu: float  # s of a usual processor that the child used
+    status: int  # the exit status of a process in its place

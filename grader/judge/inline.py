@@ -9,14 +9,7 @@ from collections.abc import Callable, Sequence
 
 from grader.judge.children import Child, Worker
 from grader.judge.isolation import ONE_PROCESS
-from grader.protocol import Channel, ChildSetup
-
-
-class InnerChannel(Channel):
-    """A channel to a child that has no process."""
-
-    cpu: float  # s of a usual processor that it used
-    status: int  # the exit status of a process in its place
+from grader.protocol import ChildSetup, InnerChannel
 
 
 class InlineWorker:

@@ -25,7 +25,7 @@ import msgspec
 import pygame
 import pymunk
 
-from grader.protocol import Asked, Channel, ChannelClosed, ChildSetup, Ready, packed
+from grader.protocol import Asked, ChannelClosed, ChildSetup, InnerChannel, Ready, packed
 from grader.worker import child
 from grader.worker.imports import ALLOWED, LIBRARIES, ImportRule
 from grader.worker.output import Output
@@ -172,7 +172,7 @@ def is_away(name: str, bans: Collection[str]) -> bool:
     return first not in ALLOWED or first in bans
 
 
-class TabChannel(Channel):
+class TabChannel(InnerChannel):
     """Answers by itself what it is asked: the child is behind it, in this interpreter.
 
     `pace`: how many seconds here are worth one of a usual processor.
