@@ -359,8 +359,13 @@ def read_submission(bank: Path, kind: Literal["right", "hostile"], name: str) ->
 
 def read_marks(bank: Path, kind: Literal["right", "hostile"]) -> dict[str, Entry]:
     """Return what bank.toml says of right or hostile members, by name."""
-    path = bank / "bank.toml"
-    return msgspec.toml.decode(path.read_bytes(), type=dict[str, dict[str, Entry]])[kind]
+    return parse_marks((bank / "bank.toml").read_bytes())[kind]
+
+
+@cache
+def parse_marks(text: bytes) -> dict[str, dict[str, Entry]]:
+    """Return what bank.toml says, by kind and name; each member asks for it."""
+    return msgspec.toml.decode(text, type=dict[str, dict[str, Entry]])
 
 
 def rungs(bank: Path) -> Iterator[Member]:
