@@ -34,6 +34,7 @@ from grader.release.handed_out import make_students_tree, write_tree
 from grader.release.leaks import find_leaks, find_secrets
 from grader.release.notebooks import make_notebooks
 from grader.release.pages import write_pages
+from grader.release.project import make_project
 from grader.release.recordings import Record, Recordings, record_anew
 from grader.release.students_copy import Tree, write_code, write_copy
 from grader.report.files import put_in
@@ -106,6 +107,8 @@ def build(
     wheel = build_wheel(copy, version, tree)
     requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
     (tree / "requirements.txt").write_text(requirements, encoding="utf-8", newline="\n")
+    project = make_project(requirements, wheel.name)
+    (tree / "pyproject.toml").write_text(project, encoding="utf-8", newline="\n")
     write_manifest(tree, version, content)
     name = f"{NAME}-{__version__}-{content[:8]}"
     write_zip(tree, built / f"{name}.zip")

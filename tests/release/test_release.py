@@ -505,7 +505,7 @@ def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
     for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
         files[f"notebooks/{path.name}"] = path
     assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(files)
-    made = {"requirements.txt", "MANIFEST.txt", released.wheel.name}
+    made = {"requirements.txt", "pyproject.toml", "MANIFEST.txt", released.wheel.name}
     there = [name for name, _ in releases.list_files(released.tree)]
     assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
     for name in set(files) - made:
@@ -666,6 +666,21 @@ def test_a_student_unpacks_checks_and_hands_in(
     assert re.search("^PASSED +8a ", out, re.M), out
     status, out = types("hand-in")
     assert status == 0 and (tree / "hand-in.zip").is_file(), out
+
+
+@SOAK
+def test_uv_runs_a_check_in_an_unpacked_folder(released: Released, tmp_path: Path):
+    uv = shutil.which("uv")
+    if uv is None:
+        pytest.skip("uv is not installed here")
+    tree = tmp_path / "a course"
+    shutil.copytree(released.tree, tree)
+    command = [uv, "run", "grader", "check", "--todo", "8a"]
+    usual = {name: value for name, value in os.environ.items() if name != "VIRTUAL_ENV"}
+    done = subprocess.run(command, cwd=tree, env=usual, capture_output=True, text=True)
+    if "error sending request" in done.stderr or "Failed to fetch" in done.stderr:
+        pytest.skip("uv reaches no package index from here")
+    assert done.stdout.startswith("NOT STARTED 8a"), done.stdout + done.stderr
 
 
 # ---------------------------------------------------------------- cutting and recording
