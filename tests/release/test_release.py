@@ -757,7 +757,8 @@ def test_no_check_imports_an_oracle_by_its_name():
         ((1, 2.0), (1.0, 2), True),
         ([(0.0, True)], ((-0.0, True),), True),
         ((1, True), (1, 1), False),
-        ((0.1 + 0.2,), (0.3,), False),
+        ((0.1 + 0.2,), (0.3,), True),
+        ((100.0,), (100.000000001,), False),
         (("a", None), ("a", None), True),
     ],
 )
