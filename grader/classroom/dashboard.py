@@ -30,7 +30,7 @@ from grader.intake.found import Intake
 from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
-from grader.judge.outer import WHOLE, Failed, Lost, call_within
+from grader.judge.outer import WHOLE, Allowance, Failed, Lost, call_each_within, call_within
 from grader.judge.result import Result, State, TodoResult
 from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
@@ -43,6 +43,8 @@ from grader.report.html import Standing, write_report, write_standing
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
 SLOWEST = 10
+WRITING = Allowance("writing its page", cpu=30)
+WRITING_CLASS = Allowance("writing the page of the class", cpu=120)
 MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
     "passed": "p",
     "not yet": "w",
@@ -206,17 +208,26 @@ def make_mistake(todo: str, name: str, entries: list[Entry], folder: Path) -> Mi
 def write_dashboard(results: Path, entries: list[Entry], course: Course = FULL) -> Path:
     """Write the page beside the folder of results, and into it a report per student."""
     folder = Book(results).folder
-    for entry in entries:
-        name = entry.outcome.name
-        report = folder / f"{name}.html"
-        standing = make_standing(entry.outcome, course)
-        if entry.result is None:
-            write_standing(standing, report)
-        else:
-            write_report(withhold_reasons(entry.result, course), report, standing=standing)
+    works = [partial(write_entry, folder, entry, course) for entry in entries]
+    for entry, answer in zip(entries, call_each_within(WRITING, None, works), strict=True):
+        if isinstance(answer, Exception):
+            standing = make_standing(entry.outcome, course)
+            standing.lines.append(("Page", str(answer)))
+            write_standing(standing, folder / f"{entry.outcome.name}.html")
     path = folder.with_name(f"{folder.name}.class.html")
-    write_whole(render_class(folder, entries, course.title).encode("utf-8"), path)
+    rendering = partial(render_class, folder, entries, course.title)
+    write_whole(call_within(WRITING_CLASS, str, rendering).encode("utf-8"), path)
     return path
+
+
+def write_entry(folder: Path, entry: Entry, course: Course) -> None:
+    """Write the report of one student."""
+    report = folder / f"{entry.outcome.name}.html"
+    standing = make_standing(entry.outcome, course)
+    if entry.result is None:
+        write_standing(standing, report)
+    else:
+        write_report(withhold_reasons(entry.result, course), report, standing=standing)
 
 
 def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:

@@ -22,6 +22,7 @@ from grader.intake.roster import ClassList
 from grader.intake.systems import find_file, read_class_list
 from grader.judge.course import Course
 from grader.judge.grade import Options
+from grader.judge.outer import Exceeded, Failed, Lost
 from grader.judge.result import is_bonus
 from grader.text import printable
 
@@ -75,7 +76,12 @@ def write_similar(run: Run, earlier: Sequence[Path]) -> None:
             others, more = read_prints(stack, folder, read_class_list(folder, None), folder.stem)
             found |= others
             prints += more
-        write_pairs(run.book.folder, find_pairs(prints, of=here), found)
+        try:
+            pairs = find_pairs(prints, of=here)
+        except (Exceeded, Failed, Lost) as error:
+            run.notes.append(f"similar pairs: {error}")
+            pairs = []
+        write_pairs(run.book.folder, pairs, found)
 
 
 def write_page(run: Run) -> str:

@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from itertools import combinations
 from pathlib import Path
 
@@ -30,7 +30,7 @@ from grader.intake.listing import open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.grade import KIT
-from grader.judge.outer import READING, Exceeded, Failed, call_within
+from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_within
 from grader.player.page import fill_template
 from grader.report.files import write_whole
 from grader.source.regions import python_files
@@ -45,6 +45,7 @@ FEW, MANY = 8, 50  # or a quarter of the class: a run that more of them have doe
 MOST = 100  # pairs
 MAX_TEXT = 500_000  # bytes of one submission
 CONTEXT = 2  # lines around what two share
+COMPARING = Allowance("comparing the class", cpu=300)
 LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
 
 
@@ -165,7 +166,7 @@ def read_prints(
         if each.handed_in_by:
             continue  # the work of a group is compared once
         name = f"{label}/{each.name}" if label else each.name
-        with suppress(CannotTake, Exceeded, Failed):
+        with suppress(CannotTake, Exceeded, Failed, Lost):
             prints.append(replace(make_prints(pack(each), each.team), name=name))
             found[name] = each
     return found, prints
@@ -176,8 +177,14 @@ def find_pairs(
 ) -> list[Pair]:
     """Return the pairs that share more than `least`, the most similar first.
 
-    Members of a group are no pair. Each pair has one of the names in `of`, if it is given.
+    Members of a group are no pair. Each pair has one of the names in `of`, if it is given. Raises
+    Exceeded where the class has too much in common to be compared within the limits.
     """
+    return call_within(COMPARING, list[Pair], partial(compare_all, list(prints), least, of))
+
+
+def compare_all(prints: list[Prints], least: float, of: Container[str] | None) -> list[Pair]:
+    """Compare each with each, in this process."""
     everybody = sorted(prints, key=lambda each: each.name)
     count_of = Counter(run for each in everybody for run in each.runs)
     most = min(max(FEW, len(everybody) // 4), MANY)
@@ -211,6 +218,13 @@ class Line:
 
 
 Side = dict[str, list[Line]]  # one of two submissions: lines around what both share, by file
+
+
+def show_pair(first: Found, second: Found) -> tuple[Side, Side]:
+    """Show what both have, as `compare` does; nothing where that takes too long."""
+    with suppress(CannotTake, Exceeded, Failed, Lost):
+        return compare(pack(first), pack(second))
+    return {}, {}
 
 
 def compare(first: Package, second: Package) -> tuple[Side, Side]:
@@ -259,7 +273,7 @@ def write_pairs(
         TEMPLATES / "alike.html",
         "dashboard.css",
         title=results.name,
-        pairs=[(pair, *compare(*(pack(found[name]) for name in pair.names))) for pair in pairs],
+        pairs=[(pair, *show_pair(*(found[name] for name in pair.names))) for pair in pairs],
         least=least,
         run=RUN,
         clean=printable,

@@ -19,6 +19,7 @@ from grader.cli.shared import (
 from grader.errors import Stop
 from grader.judge.course import read_course
 from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.outer import WHOLE
 from grader.text import plural
 
 if TYPE_CHECKING:
@@ -70,9 +71,12 @@ def questions_command(
     require_checkout("questions")
     if mark is not None:
         refuse_when_marking(context, path)
+        go_on(context)
         mark_class(mark, out, tally)
     if path is None:
         raise Stop("name a submission, or a class of them with --class")
+    if not class_:
+        go_on(context)
     require_folder_target(out, "--out")
     require_file_target(tally, "--tally")
     if results is not None and not results.is_dir():
@@ -87,6 +91,12 @@ def questions_command(
     making = Making(out, options, seed, practice, results, tally)
     people = read_class_list(path, roster) if class_ else None
     make_sheets(making, path, people, student)
+
+
+def go_on(context: typer.Context) -> None:
+    """Go on within the limits of one submission; a class has them for each."""
+    if context.obj is not None:
+        context.obj(WHOLE)
 
 
 def make_sheets(

@@ -1,10 +1,12 @@
 """List a class: whose each file and folder is, each submission once, and what cannot be graded."""
 
+import pickle
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from pathlib import Path
 
@@ -26,11 +28,15 @@ from grader.intake.places import (
 )
 from grader.intake.roster import CALLED, ClassList
 from grader.intake.systems import ANY_OTHER, SYSTEMS
+from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_alone, call_within
 from grader.judge.workplace import work_folder
 
 SIDE_FILES = {"adjustments.toml", "roster.csv"}.union(*(each.side_files for each in SYSTEMS))
 WORK = {".py", ".ipynb"}  # what is somebody's
 UNREAD = {".zst", ".lz", ".lzma", ".z", ".lzh", ".arj", ".ace", ".cab", ".iso", ".dmg", ".001"}
+
+UNPACKING = Allowance("unpacking the class", cpu=1200)
+LISTING = Allowance("listing the class", cpu=120)
 
 
 @contextmanager
@@ -41,8 +47,9 @@ def open_class(path: Path, people: ClassList | None = None) -> Iterator[Intake]:
     elif is_archive(path) and path.is_file():
         with work_folder() as temporary:
             try:
-                unzip_class(path, temporary)
-            except CannotTake as error:
+                unzip = partial(unzip_class, path, temporary)
+                call_within(UNPACKING, None, unzip, (CannotTake,))
+            except (CannotTake, Exceeded, Failed, Lost) as error:
                 raise Stop(f"{path}: {error}") from error
             yield list_class(enter_wrapper(temporary), people or ClassList())
     else:
@@ -56,17 +63,55 @@ def list_class(folder: Path, people: ClassList) -> Intake:
         folder = inner[0]  # Gradescope's zip holds one folder
     if has_program(folder):
         raise Stop(f"{folder} is one submission, not a folder of them: leave out --class")
-    intake = Intake()
-    found = list(find_export(folder).read_export(folder, people, intake))
-    taken = {source for each in found for source in each.sources}
-    left = [path for path in list_folder(folder) if path not in taken]
-    found += list_uploads(left, people, intake)
-    intake.found = list(drop_doubles(found, intake))
+    intake = read_names(folder, people)
+    intake.found = list(drop_doubles(intake.found, intake))
     share_work(intake, people, hash_files)
     intake.found.sort(key=lambda each: each.name)
     if not intake.found and not intake.troubles:
         raise Stop(f"{folder} holds no submission: each must be a folder or an archive")
     return intake
+
+
+def read_names(folder: Path, people: ClassList) -> Intake:
+    """Return whose each file and folder is, by its name and the lists of an export.
+
+    Names that cannot be read within the limits need manual review; the others are listed.
+    """
+    try:
+        return read_names_within(folder, people)
+    except (Exceeded, Failed, Lost) as error:
+        refused = dict(find_refused(list_folder(folder), people))
+        if not refused:
+            raise Stop(f"{folder}: {error}") from error
+    intake = read_names_within(folder, people, refused)
+    intake.troubles |= {make_portable(path.name): words for path, words in refused.items()}
+    return intake
+
+
+def read_names_within(folder: Path, people: ClassList, refused: Collection[Path] = ()) -> Intake:
+    """Read the names of a class, apart from refused ones, in a process with limits."""
+
+    def read() -> bytes:
+        intake = Intake()
+        intake.found += find_export(folder).read_export(folder, people, intake)
+        taken = {source for each in intake.found for source in each.sources}.union(refused)
+        left = [path for path in list_folder(folder) if path not in taken]
+        intake.found += list_uploads(left, people, intake)
+        return pickle.dumps(intake)
+
+    intake: Intake = pickle.loads(call_within(LISTING, bytes, read, (Stop,)))
+    return intake
+
+
+def find_refused(paths: list[Path], people: ClassList) -> Iterator[tuple[Path, str]]:
+    """Yield each path whose name alone cannot be read within the limits, with the reason."""
+    for path in paths:
+
+        def read(path: Path = path) -> int:
+            return len(list(list_uploads([path], people, Intake())))
+
+        if isinstance(answer := call_alone(READING, int, read), Exception):
+            yield path, str(answer)
 
 
 def find_export(folder: Path) -> Lms:
@@ -207,7 +252,11 @@ def find_class(folder: Path) -> list[str]:
         found = [] if has_program(folder) else list_class(folder, ClassList()).found
     except (Stop, OSError):
         return []
-    programs = {each.name: find_programs(each) for each in found}
+    answers = (
+        (each.name, call_alone(READING, frozenset[str], partial(find_programs, each)))
+        for each in found
+    )
+    programs = {name: held for name, held in answers if isinstance(held, frozenset)}
     count = Counter(chain.from_iterable(programs.values()))
     return [name for name, held in programs.items() if any(count[each] > 1 for each in held)]
 

@@ -18,7 +18,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from functools import partial
@@ -43,6 +43,7 @@ READING_CPU, GRADING_CPU = 15.0, 105.0  # s of processor time; both together mak
 MOST_MEMORY = 1024  # MB, of all processes of a submission; twice as much of addresses
 MOST_SECONDS = 1800.0  # s on the clock: the last resort, where nothing else ends it
 LOOK_SECONDS = 0.5
+TOGETHER = 50  # pieces of work in one process, where none of them is in trouble
 SECONDS_TO_END = 5.0  # s that a process has to put away what it holds
 WATCHES_FORKS = sys.platform.startswith("linux")  # elsewhere what is read is read without limits
 TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
@@ -229,6 +230,37 @@ def call_within(
             os.waitpid(pid, 0)
     returned: Reply = read_reply(reply, allowance, kind, errors)
     return returned
+
+
+def call_each_within(
+    allowance: Allowance, kind: Any, works: Sequence[Callable[[], Reply]]
+) -> "Iterator[Reply | Exceeded | Failed]":
+    """Do pieces of work that may be done again; yield each value, or why there is none.
+
+    Some are done in one process. Where that comes to nothing, each has a process of its own.
+    """
+    for first in range(0, len(works), TOGETHER):
+        some = works[first : first + TOGETHER]
+        try:
+            yield from call_within(allowance, list[kind], partial(do_all, some))
+        except (Exceeded, Failed, Lost):
+            yield from (call_alone(allowance, kind, each) for each in some)
+
+
+def do_all(works: Sequence[Callable[[], Reply]]) -> list[Reply]:
+    return [each() for each in works]
+
+
+def call_alone(
+    allowance: Allowance, kind: Any, work: Callable[[], Reply]
+) -> "Reply | Exceeded | Failed":
+    """Do one piece of work; return its value, or why there is none."""
+    try:
+        return call_within(allowance, kind, work)
+    except (Exceeded, Failed) as error:
+        return error
+    except Lost:
+        return Failed(f"needs manual review: {allowance.what} ended the grader's own process")
 
 
 def hear(descriptor: int, watch: Watch) -> bytes:

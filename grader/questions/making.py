@@ -3,20 +3,21 @@
 import secrets
 from contextlib import closing
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 import msgspec
 from rich.console import Console
 
 from grader.errors import Stop
-from grader.intake.found import CannotTake, Found
+from grader.intake.found import Found, Package
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
 from grader.intake.packing import open_submission, pack
 from grader.intake.roster import ClassList
 from grader.judge.children import Worker, start_worker
 from grader.judge.grade import Options
+from grader.judge.outer import GRADING, Exceeded, Failed, Lost, WatchedProcess
 from grader.judge.result import Result
 from grader.judge.submission import CannotGrade
 from grader.judge.workplace import work_folder
@@ -32,6 +33,9 @@ from grader.questions.tally import read_tally, write_bank
 from grader.report.files import read_result, write_whole
 from grader.report.progress import Counter
 from grader.text import plural, printable
+
+SHEET = replace(GRADING, what="making its sheet")
+ENDED = "it ended the process that makes sheets"
 
 
 @dataclass(frozen=True)
@@ -69,6 +73,10 @@ class Making:
             seed = str(secrets.randbelow(10**12))
         write_whole(f"{seed}\n".encode(), file)
         return f"practice {seed}" if self.practice else seed
+
+    def keep_seed(self) -> str:
+        """Draw the seed now, so that all processes that make sheets have the same."""
+        return self.seed
 
     def result_of(self, student: str) -> Result | None:
         """Return an earlier result of grading, if there is one."""
@@ -129,23 +137,39 @@ def make_class(
     making: Making, path: Path, people: ClassList, console: Console
 ) -> list[SheetResult]:
     """Make a sheet for each submission of a class, and for each member of a group."""
-    opened = open_class(path, people)
-    with opened as intake, closing(start_worker()) as worker:
+    making.keep_seed()
+    with open_class(path, people) as intake, closing(WatchedProcess()) as process:
         made = [SheetResult(name, None, f"{name}: {why}") for name, why in intake.troubles.items()]
         with Counter("making sheets", len(intake.found), console) as counter:
             for number, each in enumerate(intake.found, 1):
                 full_name = people.full_names.get(each.name, "")
-                made.append(make_for(making, each, worker, full_name))
+                made.append(make_for(making, each, process, full_name))
                 counter.reached(number)
     making.finish()
     return made
 
 
-def make_for(making: Making, found: Found, worker: Worker, full_name: str) -> SheetResult:
+def make_for(making: Making, found: Found, process: WatchedProcess, full_name: str) -> SheetResult:
     """Make the sheet of one student of a class; a failure does not stop the others."""
     try:
         package = pack(found, making.options.course.modules)
-        with work_folder() as work:
-            return making.make(found.name, package.unpack(work), worker, full_name)
-    except (CannotTake, CannotGrade) as error:
+        return process.call(SHEET, SheetResult, make_of_package, making, package, full_name)
+    except (CannotGrade, Exceeded, Failed) as error:
         return SheetResult(found.name, None, f"{found.name}: {error}")
+    except Lost:
+        return SheetResult(found.name, None, f"{found.name}: needs manual review: {ENDED}")
+
+
+def make_of_package(making: Making, package: Package, full_name: str) -> SheetResult:
+    """Make the sheet of one student in this process, whose worker serves many of them."""
+    try:
+        with work_folder() as work:
+            return making.make(package.name, package.unpack(work), keep_worker(), full_name)
+    except CannotGrade as error:
+        return SheetResult(package.name, None, f"{package.name}: {error}")
+
+
+@cache
+def keep_worker() -> Worker:
+    """Start the worker for all sheets that this process makes; it ends with the process."""
+    return start_worker()

@@ -24,7 +24,6 @@ from whole_bank import bank
 
 from grader.bank.members import Member
 from grader.bank.verify import shared_worker
-from grader.judge.children import Worker
 from grader.judge.course import Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
 from grader.judge.grade import Options, shipped_reference
@@ -600,10 +599,7 @@ def test_at_home_all_kinds_are_asked_without_a_reference(
 # ---------------------------------------------------------------- files, and everybody's sheet
 
 
-def test_the_command_makes_sheets_that_can_be_answered_and_marked(
-    tmp_path: Path, solution: Result, monkeypatch: pytest.MonkeyPatch
-):
-    monkeypatch.setattr(making, "start_worker", lambda: NotClosed(shared_worker()))
+def test_the_command_makes_sheets_that_can_be_answered_and_marked(tmp_path: Path, solution: Result):
     course, results, out = tmp_path / "course.toml", tmp_path / "results", tmp_path / "out"
     course.write_text('title = "Us <b>"\n[questions]\nnumber = 1\nfilm = 0\nline = 0\nwhy = 1\n')
     write_json(solution, results / "ann.json")
@@ -626,19 +622,6 @@ def test_the_command_makes_sheets_that_can_be_answered_and_marked(
     run = run_grader("questions", *asked, "--mark", table, *tally)
     assert run.exit_code == 0, run.output
     assert (out / "totals.csv").read_text().splitlines()[1:] == ["ann,3,5,0"]
-
-
-class NotClosed:
-    """A worker that others need as well."""
-
-    def __init__(self, worker: Worker) -> None:
-        self.worker = worker
-
-    def __getattr__(self, name: str) -> object:
-        return getattr(self.worker, name)
-
-    def close(self) -> None:
-        """Leave it open."""
 
 
 @pytest.mark.parametrize(
