@@ -4,6 +4,7 @@ People may edit the file. A command changes only the lines whose values it was g
 """
 
 import re
+import secrets
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,7 @@ from grader.judge.result import Result
 from grader.report.files import write_whole
 
 FILE = "class.toml"
+SEED_BITS = 128  # more than anybody can try
 HEAD = """\
 # What this class is. `grader class` reads it, and you may edit it. Paths count from this folder.
 """
@@ -30,7 +32,7 @@ SIGNS = {  # what each line says, for people
     "decisions": "what people decide: extensions, points, comments",
     "results": "what grading writes",
     "system": "the learning system",
-    "seed": "other numbers in every check",
+    "seed": "other numbers in every check; keep it secret",
     "earlier": "classes of earlier years, to compare with",
 }
 
@@ -198,12 +200,13 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 
 
 def find_usual_files(folder: Path) -> dict[str, object]:
-    """Return the lines of a new class: files of the usual names count if they are there."""
+    """Return the lines of a new class: files of the usual names, if they are there, and a seed."""
     usual = {"course": "course.toml", "roster": "roster.csv"}
     there = {name: file for name, file in usual.items() if (folder / file).is_file()}
     settings = Settings()
     always = ("submissions", "decisions", "results")
-    return there | {name: getattr(settings, name) for name in always}
+    drawn = {"seed": secrets.randbits(SEED_BITS)}
+    return there | {name: getattr(settings, name) for name in always} | drawn
 
 
 def set_line(text: str, name: str, value: object) -> str:

@@ -1,6 +1,7 @@
 """A class in a folder that remembers: no option twice, and no other course by mistake."""
 
 import csv
+import re
 from pathlib import Path
 
 import classes
@@ -10,6 +11,7 @@ from command_line import run_grader
 from points_pool import Inline
 
 from grader.classroom import grading
+from grader.classroom.folder import read_class_folder
 
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20}
@@ -77,7 +79,8 @@ def test_another_course_over_results_is_refused_unless_it_is_wanted(place: Path)
 def test_lines_that_a_person_wrote_stay(place: Path):
     lab = make(place)
     file = lab / "class.toml"
-    file.write_text(f"# mine\n{file.read_text(encoding='utf-8')}seed = 3 # drawn\n", "utf-8")
+    text = re.sub("seed = .*", "seed = 3 # drawn", file.read_text(encoding="utf-8"))
+    file.write_text(f"# mine\n{text}", "utf-8")
     call("new", lab, "--submissions", place / "export")
     text = file.read_text(encoding="utf-8")
     assert text.startswith("# mine\n") and "seed = 3 # drawn" in text
@@ -89,15 +92,28 @@ def test_lines_that_a_person_wrote_stay(place: Path):
     [
         ("colour = 3", "unknown field `colour`"),
         ('system = "nosuch"', "'nosuch' is not one of"),
-        ("seed = ", "Invalid value (at line"),
+        ("results = ", "Invalid value (at line"),
         ("seed = 'x'", "Expected `int"),
     ],
 )
 def test_a_line_that_nobody_can_mean_is_a_sentence(place: Path, line: str, words: str):
     lab = make(place)
-    with open(lab / "class.toml", "a", encoding="utf-8") as file:
-        file.write(f"{line}\n")
+    file = lab / "class.toml"
+    name = line.partition(" ")[0]
+    others = [each for each in file.read_text(encoding="utf-8").splitlines() if name not in each]
+    file.write_text("\n".join([*others, line, ""]), encoding="utf-8")
     assert words in call("grade", lab)
+
+
+def test_a_class_draws_a_seed_that_nobody_can_try_and_keeps_it(place: Path):
+    lab = make(place)
+    call("new", place / "other")
+    first, second = (read_class_folder(each).settings.seed for each in (lab, place / "other"))
+    assert first and second and first != second and max(first, second).bit_length() > 100
+    call("new", lab, "--submissions", place / "export")
+    assert read_class_folder(lab).settings.seed == first
+    call("new", lab, "--seed", "7")
+    assert read_class_folder(lab).settings.seed == 7
 
 
 def test_killed_twice_and_finished_later_a_class_has_the_same_bytes(
