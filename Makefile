@@ -47,7 +47,7 @@ endef
 export PLAIN_VERSIONS
 
 # A word of the call that no target knows would be passed over in silence.
-KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST SEED FRESH QUICK
+KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST SEED FRESH QUICK CFFI
 $(foreach each,$(.VARIABLES),$(if $(filter command,$(firstword $(origin $(each)))),\
 	$(if $(filter $(each),$(KNOWN)),,$(error make knows no $(each)=; it knows $(KNOWN)))))
 ifneq ($(and $(SUBMISSION),$(SUBMISSIONS)),)
@@ -62,7 +62,7 @@ $(foreach goal,$(MAKECMDGOALS),$(foreach each,$(NEEDED_BY_$(goal)),\
 FOUND := || test $$? -eq 1
 
 .PHONY: help setup grade contained run dials accuracy effects cases compiled wheels films handouts \
-	release dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
+	release tab dashboard gradescope course course-check notebooks verify mutants sync test soak lint format bench lock clean venv
 
 help:
 	@awk 'BEGIN { FS = ":.*## " } \
@@ -128,6 +128,9 @@ wheels: $(DEV) ## Make a wheel of it for this system, and try it; the workflow o
 
 release: $(CORE) ## Make what students get, in build/release, once verify has no complaint
 	@$(PY) -m grader release $(if $(FRESH),--fresh)
+
+tab: $(CORE) ## Make the lab as a page for a browser tab, in build/tab (CFFI=wheel for pymunk)
+	@$(PY) -m grader tab $(if $(CFFI),--cffi "$(CFFI)")
 
 films: $(CORE) ## Record the films of the handouts anew, once an engine has changed
 	@$(PY) handouts/make_films.py

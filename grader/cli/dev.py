@@ -86,6 +86,28 @@ def release_command(
         print_note(f"made {path}")
 
 
+@app.command("tab")
+def tab_command(
+    out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/tab")] = KIT
+    / "build"
+    / "tab",
+    cffi: Annotated[
+        Path | None, typer.Option(help="The wheel of cffi for Pyodide, which pymunk needs.")
+    ] = None,
+    course: CourseFile = None,
+) -> None:
+    """Make the lab as a page: to write, run, check and hand in with nothing but a browser.
+
+    Any web server can serve the folder. Needs Node.js, and the network the first time.
+    """
+    require_checkout("tab")
+    from grader.release.tab_page import make_tab
+
+    require_folder_target(out, "--out")
+    for path in make_tab(out, read_course(course), cffi):
+        print_note(f"made {path}")
+
+
 @maintainers.command("mutants")
 def mutants_command(
     count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,

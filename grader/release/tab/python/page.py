@@ -1,0 +1,290 @@
+"""Run, check and pack the lab in a browser tab: what the page asks of its Python.
+
+Every function takes and returns what JSON holds, or bytes. `bridge` is the worker's own side:
+draw(commands, width, height), rest(ms, until_event), events(), watch(seconds), printed(text), and
+told(title of a check), which returns whether to stop.
+"""
+
+import io
+import json
+import os
+import runpy
+import shutil
+import sys
+import time
+import traceback
+import zipfile
+from pathlib import Path, PurePosixPath
+
+import msgspec
+import pygame
+from rich.console import Console
+
+LAB = Path("/lab")
+HANDED_OUT = Path("/handed-out")
+MOST_OUTPUT = 20_000  # characters that a program may print in a run
+MOST_BYTES = 20_000_000  # of a zip that is brought in
+COLUMNS = range(40, 81)
+ALONE = "numpy is not in this page. Use Python's own numbers here, or work on a computer."
+
+bridge = None
+
+
+def start(bridge_):
+    """Take the worker's side, and keep a copy of what was handed out."""
+    global bridge
+    bridge = bridge_
+    shutil.copytree(LAB, HANDED_OUT, dirs_exist_ok=True)
+
+
+def lay_out(files):
+    """Make the lab's folder: what was handed out, and over it these files, text by name."""
+    os.chdir("/")
+    shutil.rmtree(LAB)
+    shutil.copytree(HANDED_OUT, LAB)
+    for name, text in json.loads(files).items():
+        path = LAB / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
+    for name in [name for name, module in sys.modules.items() if is_of_the_lab(module)]:
+        del sys.modules[name]
+    sys.path_importer_cache.clear()
+
+
+def is_of_the_lab(module):
+    return str(getattr(module, "__file__", None) or "").startswith(f"{LAB}/")
+
+
+def read_files():
+    """Return the text of each file that a person may edit, by name."""
+    paths = [path for path in sorted(LAB.rglob("*")) if path.suffix in (".py", ".md", ".ipynb")]
+    return json.dumps({str(p.relative_to(LAB)): p.read_text(encoding="utf-8") for p in paths})
+
+
+# ---------------------------------------------------------------- run
+
+
+class Printed(io.TextIOBase):
+    """Hands on what a program prints, up to MOST_OUTPUT characters."""
+
+    left = MOST_OUTPUT
+
+    def writable(self):
+        return True
+
+    def write(self, text):
+        if self.left > 0:
+            bridge.printed(text[: self.left])
+        self.left -= len(text)
+        if self.left <= 0 < self.left + len(text):
+            bridge.printed("\n… The rest is not shown.\n")
+        return len(text)
+
+
+def run(module):
+    """Run a program with its window on the page until it ends; return its error, or ""."""
+    before = sys.stdout, sys.stderr
+    pygame.display.state.sink = show
+    pygame.Clock.wait_hook = rest
+    pygame.event.wait_hook = rest_until_event
+    pygame.event.pump_hook = post_events
+    sys.stdout = sys.stderr = Printed()
+    os.chdir(LAB)
+    sys.path.insert(0, str(LAB))
+    try:
+        runpy.run_module(module, run_name="__main__", alter_sys=True)
+    except (SystemExit, KeyboardInterrupt):
+        pass
+    except BaseException as error:
+        return describe(error)
+    finally:
+        sys.path.remove(str(LAB))
+        sys.stdout, sys.stderr = before
+        pygame.display.state.sink = pygame.Clock.wait_hook = None
+        pygame.event.wait_hook = pygame.event.pump_hook = None
+        pygame.quit()
+    return ""
+
+
+def show(surface):
+    bridge.draw(json.dumps(surface.ops), *surface.size)
+
+
+def rest(fps, last):
+    """Rest until 1/fps seconds after `last`, and post what has come meanwhile."""
+    left = last + 1 / fps - time.perf_counter() if fps else 0
+    bridge.rest(max(left, 0) * 1000, False)
+    post_events()
+
+
+def rest_until_event():
+    bridge.rest(100, True)  # ms; between two rests Python notices the button Stop
+    post_events()
+
+
+def post_events():
+    for kind, a, b, c in json.loads(bridge.events()):
+        pygame.event.post(pygame.event.Event(kind, name_values(kind, a, b, c)))
+
+
+def name_values(kind, a, b, c):
+    """Return the attributes of an event, which the page sends as three numbers."""
+    match kind:
+        case pygame.KEYDOWN | pygame.KEYUP:
+            return {"key": a, "mod": b, "unicode": chr(c) if c else ""}
+        case pygame.MOUSEBUTTONDOWN | pygame.MOUSEBUTTONUP:
+            return {"pos": (a, b), "button": c}
+        case pygame.MOUSEMOTION:
+            return {"pos": (a, b), "rel": (0, 0), "buttons": (c & 1, 0, 0)}
+    return {}
+
+
+def describe(error):
+    """Return an error as Python prints it, from the first line of the lab on."""
+    while (trace := error.__traceback__) and not trace.tb_frame.f_code.co_filename.startswith(
+        str(LAB)
+    ):
+        error.__traceback__ = trace.tb_next
+        if trace.tb_next is None:
+            break
+    text = "".join(traceback.format_exception(error)).replace(f"{LAB}/", "")
+    return f"{text}\n{ALONE}" if "named 'numpy'" in text else text
+
+
+# ---------------------------------------------------------------- check
+
+
+class Stopped(BaseException):
+    """Raised between two checks once somebody has stopped them."""
+
+
+def grade_lab(only):
+    """Grade the lab, or these TODOs of it."""
+    from grader.judge.grade import Options, grade
+    from grader.judge.inline import InlineWorker
+    from grader.worker.tab import TabChannel
+
+    def connect(setup):
+        return TabChannel(setup, bridge.watch, PACE)
+
+    def tell(check):
+        if bridge.told(check.title):
+            raise Stopped
+
+    options = Options(trusted=True, only=frozenset(only), progress=tell)
+    return grade(LAB, options, InlineWorker(connect))
+
+
+def check(only, columns):
+    """Check these TODOs, or all; return the screen's lines with their styles, and the states."""
+    from grader.cli.restore import list_notes
+
+    result = grade_lab(json.loads(only))
+    console = Console(file=io.StringIO(), width=min(max(columns, COLUMNS[0]), COLUMNS[-1]))
+    notes = [note.partition(" Undo it:")[0] for note in list_notes(LAB, result)]
+    lines = make_screen(console).lay_out(result, (), notes)
+    todos = [[each.id, each.state, each.points, each.max_points] for each in result.todos]
+    return json.dumps({"lines": lines, "todos": todos})
+
+
+def warm():
+    """Load what the first check would load."""
+    import hypothesis  # noqa: F401
+
+    import grader.cli.restore
+    import grader.judge.grade
+    import grader.report.screen
+    import grader.worker.tab  # noqa: F401
+
+
+def make_screen(console):
+    """Make the screen of `check`, without the commands that nobody can type here."""
+    from grader.report.screen import Screen
+    from grader.report.terminal import describe_obstacle
+
+    class Page(Screen):
+        def suggest_commands(self, todo):
+            words = describe_obstacle(todo)
+            return self.set_bold(words) if words else []
+
+        def lay_out(self, result, touched=(), notes=()):
+            typed = ("  check it alone:", "  a hint:")
+            lines = super().lay_out(result, touched, notes)
+            return [line for line in lines if not line.text.startswith(typed)]
+
+    return Page(console, None, 200)
+
+
+def grade_as_json(only):
+    """Grade and return all of the result, to be compared with that of another worker."""
+    return msgspec.json.encode(grade_lab(json.loads(only))).decode()
+
+
+def measure_pace():
+    """Return how many seconds here are worth one of a usual processor, from 1 to 8."""
+    began = time.perf_counter()
+    total = 0
+    for number in range(300_000):
+        total += number * number % 7
+    return min(max((time.perf_counter() - began) / USUAL, 1.0), 8.0)
+
+
+USUAL = 0.02  # s that the loop of measure_pace takes on a usual processor
+PACE = measure_pace()
+
+
+# ---------------------------------------------------------------- keep
+
+
+def hand_in():
+    """Pack what is handed in; return the zip and a text about it."""
+    from grader.cli.hand_in import list_warnings, pack_tree, write_receipt
+    from grader.judge.course import read_course
+
+    packed, names = pack_tree(LAB, read_course(None), Path("/tmp/hand-in.zip"))
+    said = [f"hand-in.zip holds {', '.join(names)}.", *list_warnings(LAB, names)]
+    return [packed.read_bytes(), "\n".join([*said, write_receipt(packed)])]
+
+
+def export():
+    """Return the lab's folder as a zip."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path in sorted(LAB.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                archive.write(path, f"physics-engine/{path.relative_to(LAB)}")
+    return packed.getvalue()
+
+
+def bring_in(data, name):
+    """Return the files of a zip, or one file, as text by the names that they have in the lab."""
+    if not name.endswith(".zip"):
+        return json.dumps({place_of(name): bytes(data).decode("utf-8-sig")})
+    with zipfile.ZipFile(io.BytesIO(bytes(data))) as archive:
+        entries = [each for each in archive.infolist() if is_text(each.filename)]
+        if sum(each.file_size for each in entries) > MOST_BYTES:
+            raise ValueError(f"{name} holds more than {MOST_BYTES // 1_000_000} MB")
+        names = [PurePosixPath(each.filename) for each in entries]
+        tops = {each.parts[0] for each in names}
+        has_folder = len(tops) == 1 and not (HANDED_OUT / min(tops)).exists()
+        texts = {
+            str(PurePosixPath(*each.parts[has_folder:])): archive.read(entry).decode("utf-8-sig")
+            for each, entry in zip(names, entries, strict=True)
+        }
+    return json.dumps(texts)
+
+
+def is_text(name):
+    """Return whether an entry of a zip is a file to edit, at a place inside the lab."""
+    path = PurePosixPath(name)
+    return (
+        path.suffix in (".py", ".md", ".ipynb")
+        and not path.is_absolute()
+        and ".." not in path.parts
+    )
+
+
+def place_of(name):
+    """Return where the lab has a file of this name; new ones lie at its top."""
+    found = [path for path in HANDED_OUT.rglob(name)]
+    return str(found[0].relative_to(HANDED_OUT)) if found else name

@@ -1,0 +1,23 @@
+"""Stand in for pymunk where the page was made without cffi: no class of it can be used."""
+
+REASON = "this page was made without pymunk: do TODO 7 on a computer with Python"
+
+
+class Missing:
+    """A class that says what is missing when it is used."""
+
+    DYNAMIC, KINEMATIC, STATIC = range(3)
+
+    def __init__(self, *_, **__):
+        raise ImportError(REASON)
+
+
+for each in ("Arbiter", "BB", "Body", "Circle", "Poly", "Segment", "Shape", "ShapeFilter", "Space"):
+    globals()[each] = type(each, (Missing,), {"step": lambda self, dt: None})
+Vec2d = type("Vec2d", (Missing,), {})
+
+
+def __getattr__(name):
+    if name.startswith("__"):
+        raise AttributeError(name)
+    raise ImportError(REASON)

@@ -1,0 +1,291 @@
+"""Build the lab as a page for a browser tab: a folder of static files, and a zip of it.
+
+The page needs no server of ours and no installation: Python runs in it as WebAssembly. What it is
+made of lies in `tab/`; what is fetched once, by hash, is kept in `build/tab-cache`.
+"""
+
+import io
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+
+from grader.errors import Stop
+from grader.judge.course import FULL, Course
+from grader.judge.grade import KIT
+from grader.release.build import (
+    NAME,
+    Refused,
+    build_wrong_members,
+    hash_folders,
+    list_files,
+    move_into,
+    sha256,
+)
+from grader.release.formulas import typeset
+from grader.release.handed_out import make_students_tree
+from grader.release.handouts import make_handouts
+from grader.release.leaks import find_leaks, find_secrets
+from grader.release.pages import find_figures, make_scrollable, mend_links
+from grader.release.recordings import Record, Recordings
+from grader.release.students_copy import Tree, write_copy
+from grader.report.files import put_in
+from grader.source.regions import TODO_ID, regions_in
+
+PARTS = Path(__file__).with_name("tab")
+CACHE = KIT / "build" / "tab-cache"
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip")
+LOCK = "pyodide-lock.json"
+PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
+PYTHON = "3.14"
+AS_THEY_ARE = ("index.html", "style.css", "worker.js", "shared.js")
+UNUSED = re.compile(
+    r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
+)
+SECTION = re.compile(rf"^## TODO ({TODO_ID}): .*\n", re.M)
+TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
+    (re.compile(r"`make check TODO=\w+`"), "**Check**"),
+    (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
+)
+PUBLISHED = "lab.zip/site/"  # the packages, as anybody gets them
+WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
+
+
+def make_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[Path]:
+    """Build the page of a course into `out`; return the folder and the zip."""
+    fetch_parts(CACHE)
+    if cffi is not None:
+        check_cffi(cffi)
+    with tempfile.TemporaryDirectory(prefix="tab-") as folder:
+        work = Path(folder)
+        wrong = build_wrong_members(work / "wrong", course)
+        built = build_tab(work, wrong, course, Recordings(course), cffi)
+        return [move_into(each, out) for each in sorted(built.iterdir())]
+
+
+def build_tab(
+    work: Path,
+    wrong: Iterable[Tree],
+    course: Course,
+    record: Record,
+    cffi: Path | None = None,
+    cache: Path = CACHE,
+) -> Path:
+    """Build the page below `work`; return the folder that holds it and its zip.
+
+    `cffi`, a wheel or a zip, is what pymunk needs; without it the page has no pymunk.
+    """
+    copy, built = work / "copy", work / "built"
+    site = built / f"{NAME}-tab"
+    site.mkdir(parents=True)
+    write_copy(copy, wrong, course, leave_out_practice(record))
+    files = {n: each for n, each in make_students_tree(KIT, course).items() if is_on_page(n)}
+    write_lab(site / "lab.zip", copy, files, cache, cffi)
+    write_sheet(site, copy, files, course, cffi is not None)
+    (site / "pyodide").mkdir()
+    for name in (*PYODIDE, LOCK):
+        shutil.copyfile(cache / "node_modules" / "pyodide" / name, site / "pyodide" / name)
+    for name in AS_THEY_ARE:
+        shutil.copyfile(PARTS / "page" / name, site / name)
+    bundle_scripts(site, cache)
+    write_service_worker(site)
+    look_for_own_leaks(site, course)
+    write_zip(site, built / f"{NAME}-tab.zip")
+    return built
+
+
+def leave_out_practice(record: Record) -> Record:
+    """Record all but the numbers for practice, which the page does not show."""
+    return lambda name, make: b"{}" if name == "practice" else record(name, make)
+
+
+def is_on_page(name: str) -> bool:
+    return not name.startswith(("notebooks/", "handouts/")) and name != "requirements.txt"
+
+
+def look_for_own_leaks(site: Path, course: Course) -> None:
+    """Raise Refused if a file gives the solution away, unless a package says the same to all."""
+    found = find_leaks(site, find_secrets(KIT, course))
+    own = [str(each) for each in found if not each.file.startswith(PUBLISHED)]
+    if own:
+        raise Refused("\n".join(["the page would give the solution away:", *own]))
+
+
+# ---------------------------------------------------------------- what is fetched
+
+
+def fetch_parts(cache: Path) -> None:
+    """Fetch Pyodide, the editor and the wheels with npm and pip, where they are not there yet."""
+    cache.mkdir(parents=True, exist_ok=True)
+    if not (cache / "node_modules").is_dir():
+        for name in ("package.json", "package-lock.json"):
+            shutil.copyfile(PARTS / name, cache / name)
+        run_tool(["npm", "ci", "--no-audit", "--no-fund"], cache)
+    if list_missing_wheels(cache / "wheels"):
+        where = [word for each in PLATFORMS for word in ("--platform", each)]
+        what = ["--require-hashes", "--requirement", str(PARTS / "wheels.txt")]
+        kind = ["--no-deps", "--only-binary=:all:", "--python-version", PYTHON, *where]
+        pip = [sys.executable, "-m", "pip", "download", "--quiet", "--dest", "wheels"]
+        run_tool([*pip, *kind, *what], cache)
+    if missing := list_missing_wheels(cache / "wheels"):
+        raise Stop(f"{cache / 'wheels'} lacks {', '.join(missing)}: delete it and try again")
+
+
+def list_missing_wheels(folder: Path) -> list[str]:
+    """Return the wheels of the list that the folder lacks."""
+    here = {sha256(path.read_bytes()) for path in find_wheels(folder)}
+    return [name for name, digest in read_wheels() if digest not in here]
+
+
+def find_wheels(folder: Path) -> list[Path]:
+    """Return those of the list in the folder, told by their hashes."""
+    wanted = {digest for _, digest in read_wheels()}
+    return [path for path in sorted(folder.glob("*.whl")) if sha256(path.read_bytes()) in wanted]
+
+
+def read_wheels() -> list[tuple[str, str]]:
+    text = (PARTS / "wheels.txt").read_text(encoding="utf-8")
+    return re.findall(r"^(\S+) --hash=sha256:(\w+)$", text, re.M)
+
+
+def check_cffi(path: Path) -> None:
+    """Compare a wheel of cffi with the hash that Pyodide's lock file has of it."""
+    packages = json.loads((CACHE / "node_modules" / "pyodide" / LOCK).read_bytes())["packages"]
+    wheel = packages["cffi"]
+    if sha256(path.read_bytes()) != wheel["sha256"]:
+        raise Stop(f"{path} is not {wheel['file_name']} of Pyodide's distribution: fetch it there")
+
+
+def run_tool(command: list[str], folder: Path) -> None:
+    try:
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    except FileNotFoundError:
+        raise Stop(f"the page needs {command[0]}: install Node.js, which brings it") from None
+    if done.returncode:
+        raise Stop(f"{' '.join(command[:4])} failed:\n{done.stdout}{done.stderr}")
+
+
+# ---------------------------------------------------------------- what is written
+
+
+def write_lab(
+    target: Path, copy: Path, files: Mapping[str, bytes], cache: Path, cffi: Path | None
+) -> None:
+    """Write all that Python has on the page: wheels, grader, stand-ins and the starter."""
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        wheels = [
+            each for each in find_wheels(cache / "wheels") if cffi or each.stem[:6] != "pymunk"
+        ]
+        for path in [*wheels, *([cffi] if cffi else [])]:
+            for name, content in read_archive(path):
+                put_in(archive, f"site/{name}", content)
+        stand_ins = ["python"] if cffi else ["python", "without_cffi"]
+        for folder in stand_ins:
+            put_tree(archive, "shims", PARTS / folder)
+        put_tree(archive, "shims/pygame", PARTS / "pygame")
+        put_tree(archive, "kit/grader", copy / "grader")
+        for name, content in sorted(files.items()):
+            put_in(archive, f"lab/{name}", content)
+
+
+def read_archive(path: Path) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of a wheel that are used at run time."""
+    with zipfile.ZipFile(path) as archive:
+        for name in sorted(archive.namelist()):
+            if not name.endswith("/") and not UNUSED.search(f"/{name}"):
+                yield name, archive.read(name)
+
+
+def put_tree(archive: zipfile.ZipFile, place: str, folder: Path) -> None:
+    for name, path in list_files(folder):
+        if "__pycache__" not in path.parts:
+            put_in(archive, f"{place}/{name}", path.read_bytes())
+
+
+def write_sheet(
+    site: Path, copy: Path, files: Mapping[str, bytes], course: Course, has_pymunk: bool
+) -> None:
+    """Write what the page shows of each TODO: its text, file, program and hints."""
+    hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
+    texts = make_handouts(KIT / "handouts", course)
+    sections = find_sections(texts.get("lab-sheet.md", "") + "\n" + texts.get("bonus.md", ""))
+    places = find_places(files)
+    todos = [
+        {
+            "id": todo.id,
+            "title": todo.title,
+            "file": places[todo.id],
+            "program": places[todo.id].partition("/")[0].removesuffix(".py"),
+            "text": render(sections.get(todo.id, "")),
+            "hints": hints.get(todo.id, []),
+        }
+        for todo in course.rubric.todos
+        if todo.id in places
+    ]
+    note = "" if has_pymunk else WITHOUT_PYMUNK
+    sheet = json.dumps({"title": course.title, "note": note, "todos": todos}, ensure_ascii=False)
+    (site / "lab.json").write_text(sheet, encoding="utf-8", newline="\n")
+    (site / "figures").mkdir()
+    for figure in find_figures("".join(sections.values())):
+        shutil.copyfile(KIT / "handouts" / figure, site / figure)
+
+
+def find_sections(text: str) -> dict[str, str]:
+    """Return the text of each TODO on the lab sheet, without its heading."""
+    found = {}
+    for heading in SECTION.finditer(text):
+        rest = text[heading.end() :]
+        found[heading[1]] = re.split(r"^##? ", rest, maxsplit=1, flags=re.M)[0]
+    return found
+
+
+def find_places(files: Mapping[str, bytes]) -> dict[str, str]:
+    """Return the file that has the region of each TODO."""
+    texts = {name: each.decode() for name, each in files.items() if name.endswith(".py")}
+    return {region.id: name for name, text in texts.items() for region in regions_in(text)}
+
+
+def render(text: str) -> str:
+    """Return a section of the lab sheet as HTML, with the page's buttons for commands."""
+    for command, button in TYPED:
+        text = command.sub(button, text)
+    reader = MarkdownIt("commonmark").enable("table")
+    tokens = reader.parse(typeset(text.replace("- [ ] ", "- \N{BALLOT BOX} ")))
+    for token in tokens:
+        mend_links(token.children or [], ())
+    return make_scrollable(str(reader.renderer.render(tokens, reader.options, {})))
+
+
+def bundle_scripts(site: Path, cache: Path) -> None:
+    """Bundle the page's scripts and the editor into one file."""
+    sources = cache / "page"  # beside node_modules, where esbuild looks for the editor
+    shutil.rmtree(sources, ignore_errors=True)
+    shutil.copytree(PARTS / "page", sources)
+    esbuild = cache / "node_modules" / "esbuild" / "bin" / "esbuild"
+    options = ["--bundle", "--minify", "--format=esm", "--log-level=warning"]
+    run_tool([str(esbuild), "page/app.js", *options, f"--outfile={site / 'app.js'}"], cache)
+
+
+def write_service_worker(site: Path) -> None:
+    """Name to the service worker all files, and a version that changes with any of them."""
+    text = (PARTS / "page" / "sw.js").read_text(encoding="utf-8")
+    names = ["./", *(name for name, _ in list_files(site) if name != "index.html")]
+    text = text.replace("FILES = []", f"FILES = {json.dumps(names)}")
+    text = text.replace("-VERSION", f"-{hash_folders([site], text)[:16]}")
+    (site / "sw.js").write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_zip(site: Path, target: Path) -> None:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, path in list_files(site):
+            put_in(archive, f"{site.name}/{name}", path.read_bytes())
+    target.write_bytes(packed.getvalue())
