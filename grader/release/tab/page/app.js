@@ -84,9 +84,9 @@ const say = (text) => ($("status").textContent = text);
 
 // Ask Python with the present files, while only Stop can be pressed.
 async function ask(message, doing) {
-  await save();
   setBusy(true);
   say(doing);
+  await save();
   let stubborn = false;
   $("stop").onclick = async () => {
     say("Stopping …");
@@ -114,6 +114,7 @@ async function boot() {
   if (answer.failed) return say(`Python does not start: ${answer.failed}`);
   given = JSON.parse(answer.files);
   document.body.dataset.ready = Math.round(performance.now() - began);
+  document.body.dataset.boots = Number(document.body.dataset.boots ?? 0) + 1;
   say(`Ready. ${lab.note}`);
   setBusy(false);
   return answer;

@@ -61,7 +61,7 @@ import page
   page = py.pyimport("page");
   page.start(bridge);
   py.setInterruptBuffer(new Uint8Array(signals.buffer, 0, 1));
-  setTimeout(() => page.warm(), 100); // while people read
+  setTimeout(() => page.warm(), 3000); // while people read
   return { files: page.read_files() };
 }
 

@@ -1,0 +1,290 @@
+"""The lab as a page: static files, used in a browser as a student would, and graded alike."""
+
+import http.server
+import json
+import re
+import shutil
+import subprocess
+import threading
+import zipfile
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from page_readers import PATIENCE, chromium
+from whole_bank import member_named
+
+from grader.bank.verify import shared_worker
+from grader.judge.course import FULL
+from grader.judge.grade import KIT, Options, grade
+from grader.judge.result import Result
+from grader.release import tab_page
+from grader.release.build import Refused
+from grader.release.leaks import find_leaks, find_secrets
+from grader.release.tab_page import CACHE, build_tab, find_sections, list_missing_wheels, render
+from grader.source.regions import read_source, regions_in
+
+SOAK = pytest.mark.soak
+CFFI = CACHE / "cffi.zip"  # optional: a wheel of cffi for Pyodide, and pymunk is tried too
+PYMUNK = ("7a", "7b", "7c", "7d")
+MEMBERS = {
+    "1-apart-is-not-noticed": "1",
+    "2-masses-forgotten": "2",
+    "5-rate-without-the-step": "5",
+    "8a-explicit-euler-again": "8a",
+}
+ENDLESS = "        while True:\n            pass\n"
+PARITY = """
+import fs from "fs";
+const [site, folder] = process.argv.slice(2);
+const { loadPyodide } = await import(`${site}/pyodide/pyodide.mjs`);
+const env = { PYTHONHASHSEED: "0", HOME: "/tmp" };
+const py = await loadPyodide({ indexURL: `${site}/pyodide/`, env });
+const archive = new Uint8Array(fs.readFileSync(`${site}/lab.zip`));
+py.unpackArchive(archive, "zip", { extractDir: "/" });
+py.runPython(`import sys, importlib
+sys.path[:0] = ["/shims", "/kit", "/site"]
+importlib.invalidate_caches()`);
+const page = py.pyimport("page");
+page.start({ watch() {}, told: () => false });
+for (const name of fs.readdirSync(folder)) {
+  const { todo, files } = JSON.parse(fs.readFileSync(`${folder}/${name}`, "utf8"));
+  page.lay_out(JSON.stringify(files));
+  console.log(page.grade_as_json(JSON.stringify([todo])));
+}
+process.exit(0);
+"""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page's folder, without what wrong members would add to the recorded answers."""
+    if not (CACHE / "node_modules").is_dir() or list_missing_wheels(CACHE / "wheels"):
+        pytest.skip("needs build/tab-cache, which `make tab` fills with npm and pip")
+    work = tmp_path_factory.mktemp("tab")
+    cffi = CFFI if CFFI.is_file() else None
+    built = build_tab(work, [], FULL, lambda name, make: make(), cffi)
+    (folder,) = (path for path in built.iterdir() if path.is_dir())
+    return folder
+
+
+# ---------------------------------------------------------------- in a browser
+
+
+class Silent(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        """Say nothing."""
+
+
+@pytest.fixture(scope="module")
+def address(site: Path) -> Iterator[str]:
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(Silent, directory=site))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+
+
+class Tab:
+    """The page in a browser, and what it asked of other hosts or complained about."""
+
+    def __init__(self, browser: Any, address: str) -> None:
+        self.context = browser.new_context(accept_downloads=True)
+        self.context.set_default_timeout(PATIENCE)
+        self.page = self.context.new_page()
+        self.complaints: list[str] = []
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("request", lambda request: self.note(request.url, address))
+        self.page.goto(address)
+        self.wait_until_shown()
+
+    def note(self, url: str, address: str) -> None:
+        if not url.startswith((address, "data:", f"blob:{address}")):
+            self.complaints.append(url)
+
+    def wait_until_shown(self) -> None:
+        self.page.wait_for_selector("body[data-shown]")
+
+    def do(self, button: str) -> str:
+        """Press a button, wait until it has been done, and return what the page says."""
+        self.page.click(f"#{button}")
+        return self.wait()
+
+    def wait(self) -> str:
+        self.page.wait_for_selector("#run:enabled")
+        return self.page.inner_text("#status")
+
+    def choose(self, todo: str) -> None:
+        self.page.select_option("#todo", todo)
+
+    def type_file(self, text: str) -> None:
+        """Replace the file in the editor by keyboard."""
+        self.page.click("#editor .cm-content")
+        self.page.keyboard.press("Control+a")
+        self.page.keyboard.insert_text(text)
+
+    def shown(self) -> str:
+        self.page.get_by_text("Whole file").click()
+        return self.page.inner_text("#editor .cm-content")
+
+    def download(self, button: str, target: Path) -> Path:
+        with self.page.expect_download() as waiting:
+            self.page.click(f"#{button}")
+        waiting.value.save_as(target)
+        self.wait()
+        return target
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as opened:
+        yield opened
+
+
+@pytest.fixture
+def tab(browser: Any, address: str) -> Iterator[Tab]:
+    opened = Tab(browser, address)
+    yield opened
+    assert opened.complaints == []
+    opened.context.close()
+
+
+def asked(has_pymunk: bool) -> dict[str, str]:
+    """Return the file of each task that the page can check."""
+    files = {
+        region.id: path.relative_to(KIT / "starter").as_posix()
+        for path in sorted((KIT / "starter").rglob("*.py"))
+        for region in regions_in(read_source(path))
+    }
+    return {id: name for id, name in files.items() if has_pymunk or id not in PYMUNK}
+
+
+@SOAK
+def test_the_whole_lab_is_done_on_the_page(tab: Tab, tmp_path: Path):
+    files = asked(CFFI.is_file())
+    for id, name in files.items():
+        tab.choose(id)
+        tab.type_file(read_source(KIT / "solution" / name))
+    assert "Checked." in tab.do("check-all")
+    states = tab.page.eval_on_selector("#todo", "each => [...each.options].map(o => o.text)")
+    unfinished = [each for each in states if not each.endswith("(passed)")]
+    assert [each.split(":")[0] for each in unfinished] == (
+        [] if CFFI.is_file() else [f"TODO {id}" for id in PYMUNK]
+    )
+    zipped = tab.download("hand-in", tmp_path / "hand-in.zip")
+    result = grade(zipped, Options(trusted=True), shared_worker())
+    assert {todo.id for todo in result.todos if todo.state == "passed"} >= set(files)
+
+
+@SOAK
+def test_a_task_is_typed_run_and_checked(tab: Tab):
+    tab.choose("5")
+    assert tab.do("check").startswith("TODO 5: not started, 0 of")
+    tab.page.click("text=keep_vel = 0.99")
+    for line, rate in (("keep_vel", "linear"), ("keep_omega", "angular")):
+        tab.page.keyboard.press("Home")
+        tab.page.keyboard.press("Shift+End")
+        tab.page.keyboard.type(f"{line} = math.exp(-self.{rate}_damping)")
+        tab.page.keyboard.press("ArrowDown")
+    assert tab.do("check").startswith("TODO 5: not yet")
+    found = tab.page.inner_text("#found")
+    for word in ("We ran", "Expected", "Got", "Meaning"):
+        assert word in found
+    tab.page.click("#run")
+    tab.page.wait_for_function("document.querySelector('#window').width === 900")
+    tab.page.get_by_text("Pause or go on").click()
+    tab.page.get_by_text("One step").click()
+    assert "has ended" in tab.do("stop")
+    assert "Fixed steps: " in tab.page.inner_text("#printed")
+
+
+@SOAK
+def test_endless_loops_end(tab: Tab):
+    tab.choose("5")
+    text = read_source(KIT / "starter" / "mini_engine" / "world.py")
+    tab.type_file(text.replace("        keep_vel = 0.99\n", ENDLESS))
+    tab.do("check")
+    assert "did not answer" in tab.page.inner_text("#found") or "endless" in tab.page.inner_text(
+        "#found"
+    )
+    tab.page.click("#run")
+    tab.page.wait_for_selector("#stop:enabled")
+    assert tab.do("stop") == "The program has ended."
+    assert tab.page.evaluate("document.body.dataset.boots") == "1"
+
+
+@SOAK
+def test_work_is_kept_offline_too_and_carried_over(
+    tab: Tab, browser: Any, address: str, tmp_path: Path
+):
+    tab.choose("8a")
+    name = "integrators.py"
+    tab.type_file(read_source(KIT / "starter" / name).replace("DT = ", "# mine\nDT = "))
+    carried = tab.download("export", tmp_path / "lab.zip")
+    tab.context.set_offline(True)
+    tab.page.reload()
+    tab.wait_until_shown()
+    assert "# mine" in tab.shown()
+    assert tab.page.input_value("#todo") == "8a"
+    other = Tab(browser, address)
+    other.page.set_input_files("#chosen", carried)
+    other.wait()
+    other.choose("8a")
+    assert "# mine" in other.shown()
+    other.context.close()
+
+
+# ---------------------------------------------------------------- what it holds
+
+
+@SOAK
+def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("needs Node.js, to run Python as the page does")
+    folder = tmp_path / "members"
+    folder.mkdir()
+    usual = []
+    for number, (name, todo) in enumerate(MEMBERS.items()):
+        member_named(name).build(KIT, tmp_path / name)
+        texts = {
+            path.relative_to(tmp_path / name).as_posix(): read_source(path)
+            for path in (tmp_path / name).rglob("*.py")
+        }
+        (folder / f"{number}.json").write_text(json.dumps({"todo": todo, "files": texts}))
+        options = Options(trusted=True, only=frozenset({todo}))
+        usual.append(grade(tmp_path / name, options, shared_worker()))
+    script = tmp_path / "parity.mjs"
+    script.write_text(PARITY)
+    done = subprocess.run([node, script, site, folder], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    for line, expected in zip(done.stdout.splitlines(), usual, strict=True):
+        (here,) = msgspec.json.decode(line, type=Result).todos
+        (there,) = (each for each in expected.todos if each.id == here.id)
+        shown = {check.id: check for check in there.checks}
+        for check in here.checks:
+            assert (check.state, check.got) == (shown[check.id].state, shown[check.id].got)
+
+
+@SOAK
+def test_no_file_of_the_page_gives_the_solution_away(site: Path):
+    with zipfile.ZipFile(site / "lab.zip") as archive:
+        assert "kit/grader/checks/expected_runs.json" not in archive.namelist()
+        assert not [name for name in archive.namelist() if name.endswith("mistakes.py")]
+    found = find_leaks(site, find_secrets(KIT, FULL))
+    assert {each.file.split("/")[1] for each in found if "/kit/" in each.file} == set()
+
+
+def test_a_leak_stops_the_build(tmp_path: Path):
+    shutil.copyfile(KIT / "solution" / "mini_engine" / "contacts.py", tmp_path / "lab.py")
+    with pytest.raises(Refused, match=r"lab\.py, line \d+, gives away TODO 1"):
+        tab_page.look_for_own_leaks(tmp_path, FULL)
+
+
+def test_a_section_names_the_buttons_of_the_page():
+    text = "# Sheet\n\n## TODO 4: Friction\n\n- [ ] `make check TODO=4` says so.\n\n## After\n"
+    html = render(find_sections(text)["4"])
+    assert "<strong>Check</strong> says so" in html
+    assert not re.search("make|After", html)
