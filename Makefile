@@ -181,6 +181,7 @@ bench: $(CORE) ## Measure how fast the grader is
 lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements.txt
 	$(LOCK) -o requirements-archives.txt --extra archives -c requirements.txt
+	$(LOCK) -o requirements-canvas.txt --extra canvas -c requirements.txt
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
 	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
