@@ -17,13 +17,7 @@ from markupsafe import Markup
 
 from grader.classroom.adjustments import write_time
 from grader.classroom.book import Book, Outcome, make_outcome
-from grader.classroom.marks import (
-    ENGINE,
-    USUAL_TOTAL,
-    Marking,
-    compute_mark,
-    make_parts,
-)
+from grader.classroom.marks import USUAL_TOTAL, compute_mark, make_parts, mark_by_course
 from grader.classroom.similarity import read_pairs
 from grader.errors import Stop
 from grader.intake.found import Intake
@@ -258,8 +252,7 @@ def scale_mark(outcome: Outcome, course: Course) -> str:
     if outcome.mark is None or not outcome.max_points or total == outcome.max_points:
         return ""
     parts = make_parts([outcome])[outcome.name]
-    mark = compute_mark(parts, Marking(course.title, {ENGINE: 1}, total))
-    return f"{mark} of {total:g}"
+    return f"{compute_mark(parts, mark_by_course(course))} of {total:g}"
 
 
 def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) -> str:

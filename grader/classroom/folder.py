@@ -32,6 +32,7 @@ SIGNS = {  # what each line says, for people
     "decisions": "what people decide: extensions, points, comments",
     "results": "what grading writes",
     "system": "the learning system",
+    "canvas": "the assignment in Canvas, by its page's address",
     "seed": "other numbers in every check; keep it secret",
     "earlier": "classes of earlier years, to compare with",
 }
@@ -47,6 +48,7 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=Tr
     decisions: str = "decisions.toml"
     results: str = "results"
     system: str = ""
+    canvas: str = ""
     seed: int | None = None
     earlier: list[str] = []
 

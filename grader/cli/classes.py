@@ -157,17 +157,39 @@ def marks_command(
     known = open_folder(folder)
     results, path = known.find_results(), known.find_roster("a gradebook")
     from grader.classroom.dashboard import read_class
-    from grader.classroom.marks import ENGINE, USUAL_TOTAL, Marking, Scores, make_parts
+    from grader.classroom.marks import Scores, make_parts, mark_by_course
     from grader.cli.classroom import write_marks
     from grader.intake.systems import read_roster
 
     course, listed = known.course, read_roster(path)
-    marking = Marking(course.title, {ENGINE: 1}, course.out_of or USUAL_TOTAL)
     outcomes = [each.outcome for each in read_class(results)]
     notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
-    scores = Scores(make_parts(outcomes), marking, so_far, others_known)
+    scores = Scores(make_parts(outcomes), mark_by_course(course), so_far, others_known)
     column = listed.choose_key(known.settings.key)
     write_marks(listed, column, scores, folder / "marks.csv", notes)
+
+
+@class_app.command("upload")
+def upload_command(
+    folder: Folder = Path("."),
+    to: Annotated[str, typer.Option(help="The assignment in Canvas, by its page's address.")] = "",
+    send: Annotated[bool, typer.Option("--send", help="Send what the table shows.")] = False,
+    over: Annotated[
+        bool, typer.Option("--over", help="Replace marks that a person entered in Canvas.")
+    ] = False,
+    others_known: Annotated[
+        bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
+    ] = False,
+) -> None:
+    """Show which marks and pages Canvas lacks, or send them. Exit status 1: somebody was left out.
+
+    The environment variable CANVAS_TOKEN holds the access token.
+    """
+    known = open_folder(folder)
+    from grader.classroom.canvas import upload_class
+
+    left_out = upload_class(known, to, send, over, others_known, console)
+    raise typer.Exit(1 if left_out else 0)
 
 
 @class_app.command("feedback")

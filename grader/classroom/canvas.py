@@ -1,0 +1,384 @@
+"""Send the marks of a class to Canvas, each with a comment and the student's page.
+
+What Canvas has decides what is sent, so a run that stopped goes on where it was. `canvas.json` in
+the folder of the class holds what was sent: any other mark in Canvas was entered by a person.
+"""
+
+import hashlib
+import os
+import re
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import msgspec
+from msgspec import Struct
+from rich.console import Console
+from rich.table import Column, Table
+
+from grader.classroom.dashboard import Entry, read_class, write_dashboard
+from grader.classroom.feedback import GradedClass, write_text
+from grader.classroom.folder import FILE, ClassFolder, remember_class
+from grader.classroom.marks import Scores, make_marks, make_parts, mark_by_course
+from grader.classroom.owners import find_owners
+from grader.errors import Stop
+from grader.intake.names import list_names
+from grader.intake.roster import list_name
+from grader.intake.systems import read_roster
+from grader.judge.wording import withhold_reasons
+from grader.report.files import write_whole
+from grader.text import printable
+
+TOKEN = "CANVAS_TOKEN"
+# Without https, others could read the token on its way, unless it stays on this machine.
+ADDRESS = re.compile(
+    r"(?P<base>https://[^/\s@]+|http://(?:127\.0\.0\.1|localhost)(?::\d+)?)"
+    r"/courses/(?P<course>\d+)/assignments/(?P<assignment>\d+)(?:[/?#]\S*)?"
+)
+WAITS = (2, 5, 15, 60)  # s until a request that Canvas had no room for is made again
+PATIENCE = 60  # s until an answer must come
+NO_POINTS = ("pass_fail", "not_graded")  # kinds of grading
+REASONS = {
+    "InvalidAccessToken": f"it does not accept the token in {TOKEN} (401): make a new one there",
+    "Unauthorized": "the owner of the token may not do that (401)",
+    "Forbidden": "the owner of the token may not do that (403)",
+    "ResourceDoesNotExist": "there is no such assignment or student (404)",
+}
+REFUSALS = {  # of one student's mark: the others' may go through
+    *("BadRequest", "Unauthorized", "Forbidden", "ResourceDoesNotExist"),
+    *("Conflict", "UnprocessableEntity"),
+}
+
+
+class Sent(Struct):
+    """What was sent of one student; two marks where the last one may not have arrived."""
+
+    marks: list[str] = []
+    digest: str = ""
+
+
+class Record(Struct):
+    """The contents of canvas.json."""
+
+    address: str
+    students: dict[str, Sent] = {}  # by their ids in Canvas
+
+
+@dataclass(frozen=True)
+class Work:
+    """What one student is to get."""
+
+    name: str
+    user: str  # the student's id in Canvas
+    mark: str
+    comment: str
+    digest: str  # of all that the comment and the page say
+    page: Path | None
+
+    @property
+    def file(self) -> str:
+        """Return the page's name in Canvas: another page has another one."""
+        return f"feedback-{self.digest}.html" if self.page else ""
+
+    def was_said(self, there: Any, sent: Sent) -> bool:
+        """Tell whether Canvas has the comment with its page, or had it."""
+        comments = getattr(there, "submission_comments", None) or []
+        files = [file for each in comments for file in each.get("attachments") or []]
+        if sent.digest == self.digest or not self.page:
+            said = [str(each.get("comment")).split() for each in comments]
+            return sent.digest == self.digest or self.comment.split() in said
+        return any(Path(self.file).stem in str(file.get("display_name")) for file in files)
+
+
+@dataclass(frozen=True)
+class Change:
+    work: Work
+    there: Any  # the submission in Canvas
+    before: str  # the mark there
+
+
+@dataclass
+class Plan:
+    """What is to be sent, and notes on what is not as usual."""
+
+    changes: list[Change] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    unchanged: int = 0
+    left_out: int = 0
+
+    def leave_out(self, name: str, why: str) -> None:
+        self.left_out += 1
+        self.notes.append(f"{name}: left out, {why}")
+
+    def add(self, work: Work, there: Any, sent: Sent, over: bool) -> None:
+        """Compare a mark with what Canvas has; only `over` replaces one that a person entered."""
+        if there is None:
+            return self.leave_out(work.name, f"Canvas has no student {work.user} for it")
+        if getattr(there, "excused", False):
+            return self.leave_out(work.name, "Canvas has them excused: change that there")
+        score = getattr(there, "entered_score", getattr(there, "score", None))
+        before = "" if score is None else f"{score:g}"
+        same = is_score(work.mark, score)
+        if same and work.was_said(there, sent):
+            self.unchanged += 1
+        elif same or over or not before or any(is_score(mark, score) for mark in sent.marks):
+            self.changes.append(Change(work, there, before))
+        else:
+            why = f"a person entered {before} in Canvas, and the mark here is {work.mark}"
+            self.leave_out(work.name, f"{why}: replace it with --over")
+
+
+def is_score(mark: str, score: float | None) -> bool:
+    return mark != "" and score is not None and abs(float(mark) - score) < 1e-6
+
+
+def upload_class(
+    known: ClassFolder, to: str, send: bool, over: bool, others_known: bool, console: Console
+) -> bool:
+    """Show what Canvas lacks of a class, or send it; return whether somebody was left out.
+
+    Raises Stop where Canvas cannot be asked, or stops answering.
+    """
+    address, plan = to or known.settings.canvas, Plan()
+    works = list_works(known, others_known, plan)
+    assignment = open_assignment(address, known)
+    if to:
+        remember_class(known.folder, {"canvas": to}, other_course=False)
+    path = known.locate("canvas.json")
+    record = read_record(path, address)
+    with explain([]):
+        listed = ask(list_submissions, assignment)
+    there = {str(each.user_id): each for each in listed}
+    for work in works:
+        plan.add(work, there.get(work.user), record.students.get(work.user, Sent()), over)
+    if plan.changes:
+        console.print(tabulate(plan.changes))
+    sent = send_changes(plan, record, path) if send else []
+    for note in plan.notes:
+        console.print(printable(note), soft_wrap=True)
+    counts = f"{plan.unchanged} unchanged, {plan.left_out} left out"
+    if send or not plan.changes:
+        console.print(f"{len(sent)} sent, {counts}")
+    else:
+        console.print(f"{len(plan.changes)} to send, {counts}: --send sends them")
+    return plan.left_out > 0
+
+
+# ---------------------------------------------------------------- what students are to get
+
+
+def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]:
+    """Return what students are to get, with the gradebook's own marks; note who gets nothing."""
+    results, course = known.find_results(), known.course
+    roster = read_roster(known.find_roster("an upload"))
+    if "ID" not in roster.columns:
+        raise Stop(
+            f"{roster.path} has no column ID, which tells students apart in Canvas: export its "
+            f"gradebook, and name that: grader class new {known.folder} --roster FILE"
+        )
+    key, entries = roster.choose_key(known.settings.key), read_class(results)
+    write_dashboard(results, entries, course)
+    graded = GradedClass(entries, results.resolve(), course)
+    parts = make_parts(each.outcome for each in entries)
+    scores = Scores(parts, mark_by_course(course), others_known=others_known)
+    made, owners = make_marks(roster, key, scores), find_owners(roster, key, parts, scores.absent)
+    plan.notes += made.notes
+    by_name = {each.outcome.name: each for each in entries}
+    ids = Counter(row["ID"].strip() for row in roster.rows)
+    works = []
+    for row, mark, summary in made.rows:
+        user, name = row["ID"].strip(), list_name(row) or row[key]
+        if not mark:  # a note of make_marks says why
+            plan.left_out += 1
+        elif not user or ids[user] > 1:
+            plan.leave_out(name, f"the class list has {ids[user]} students with ID {user!r}")
+        else:
+            found = next((by_name[each] for each in owners.find_results(row)), None)
+            works.append(make_work((name, user, mark), found, summary, graded))
+    return works
+
+
+def make_work(
+    who: tuple[str, str, str], entry: Entry | None, summary: str, graded: GradedClass
+) -> Work:
+    """Return a mark with its comment, and with the student's page if there is one."""
+    if entry is None:
+        return Work(*who, summary, hash_text(summary), None)
+    # What an earlier run found is no news to those who have it from Canvas.
+    outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
+    result = withhold_reasons(entry.result, graded.course) if entry.result else None
+    comment = write_text(Entry(outcome), graded.course).strip()
+    digest = hash_text(write_text(Entry(outcome, result), graded.course))
+    return Work(*who, comment, digest, graded.find_page(outcome.name))
+
+
+def hash_text(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def read_record(path: Path, address: str) -> Record:
+    """Read what was sent to this assignment; of another one nothing counts."""
+    if not path.exists():
+        return Record(address)
+    try:
+        record = msgspec.json.decode(path.read_bytes(), type=Record)
+    except msgspec.MsgspecError as error:
+        raise Stop(f"{path}: {error}: move it away, then no mark in Canvas is ours") from error
+    return record if record.address == address else Record(address)
+
+
+def tabulate(changes: list[Change]) -> Table:
+    titles = ("student", "in Canvas", "mark", "page")
+    table = Table(*(Column(title, overflow="fold") for title in titles))
+    for each in changes:
+        work = each.work
+        table.add_row(printable(work.name), each.before or "none", work.mark, work.file)
+    return table
+
+
+# ---------------------------------------------------------------- Canvas
+
+
+def open_assignment(address: str, known: ClassFolder) -> Any:
+    """Return the assignment in Canvas; raises Stop unless it takes the marks of this class."""
+    match = ADDRESS.fullmatch(address)
+    if match is None:
+        raise Stop(
+            f"{address!r} in {known.folder / FILE} or --to is no assignment in Canvas: open its "
+            "page in a browser, and copy the address: https://…/courses/1/assignments/2"
+        )
+    token = os.environ.get(TOKEN, "").strip()
+    if not re.fullmatch(r"[!-~]+", token):
+        raise Stop(
+            f"the environment variable {TOKEN} holds no token: make one in Canvas under Account, "
+            "Settings, New access token"
+        )
+    try:
+        from canvasapi.course import Course
+        from canvasapi.requester import Requester
+    except ImportError as error:
+        words = f"needs canvasapi: {sys.executable} -m pip install canvasapi"
+        raise Stop(f"an upload {words}") from error
+    requester = Requester(match["base"], token)
+    session = requester._session  # which would wait for ever
+    session.request = partial(session.request, timeout=PATIENCE)
+    with explain([]):
+        course = Course(requester, {"id": int(match["course"])})
+        assignment = ask(course.get_assignment, int(match["assignment"]))
+    total = mark_by_course(known.course).total
+    if assignment.grading_type in NO_POINTS or assignment.points_possible != total:
+        kind = f"{assignment.points_possible} points, grading {assignment.grading_type!r}"
+        raise Stop(
+            f"these marks are out of {total:g}, and the assignment in Canvas has {kind}: change it "
+            "there, or out_of in the course"
+        )
+    return assignment
+
+
+def list_submissions(assignment: Any) -> list[Any]:
+    return list(assignment.get_submissions(include=["submission_comments"], per_page=100))
+
+
+def ask(call: Callable[..., Any], *args: Any, **named: Any) -> Any:
+    """Make a request, and again after a while where Canvas has no room for it."""
+    from canvasapi.exceptions import CanvasException
+
+    for wait in WAITS:
+        try:
+            return call(*args, **named)
+        except CanvasException as error:
+            if not is_throttled(error):
+                raise
+        time.sleep(wait)
+    return call(*args, **named)
+
+
+def is_throttled(error: BaseException) -> bool:
+    """Tell whether Canvas had no room, which it says with status 403 or 429."""
+    return "rate limit exceeded" in str(error).lower()
+
+
+def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
+    """Send all changes, and return who has theirs; raises Stop where Canvas stops answering."""
+    sent: list[str] = []
+    for each in plan.changes:
+        work, marks = each.work, [each.before, each.work.mark]
+        before = record.students.get(work.user, Sent())
+        record.students[work.user] = Sent(marks, before.digest)
+        write_whole(msgspec.json.encode(record), path)
+        with explain(sent):
+            refused = send_change(each)
+        if refused:
+            plan.leave_out(work.name, f"Canvas refuses {work.mark}: {refused}")
+            continue
+        record.students[work.user] = Sent([work.mark], work.digest)
+        write_whole(msgspec.json.encode(record), path)
+        sent.append(work.name)
+        if taken := getattr(each.there, "points_deducted", None):
+            words = f"Canvas's own late policy takes {taken:g} more points from the mark sent"
+            plan.notes.append(f"{work.name}: {words}")
+    return sent
+
+
+def send_change(change: Change) -> str:
+    """Send a mark, its comment and its page at once; return why Canvas refuses them, if it does."""
+    from canvasapi.exceptions import CanvasException
+
+    work = change.work
+    comment: dict[str, Any] = {"text_comment": work.comment}
+    try:
+        if work.page:
+            comment["file_ids"] = [upload_page(work, work.page, change.there)]
+        grade = {"posted_grade": work.mark}
+        ask(change.there.edit, submission=grade, comment=comment, prefer_points_over_scheme=True)
+    except CanvasException as error:
+        if type(error).__name__ in REFUSALS and not is_throttled(error):
+            return find_reason(error)
+        raise
+    return ""
+
+
+def upload_page(work: Work, page: Path, there: Any) -> int:
+    """Upload a student's page for a comment, and return its id in Canvas."""
+    from canvasapi.upload import Uploader
+
+    place = f"courses/{there.course_id}/assignments/{there.assignment_id}/submissions/{work.user}"
+    with TemporaryDirectory() as folder:
+        path = Path(folder, work.file)
+        path.write_bytes(page.read_bytes())
+        uploader = Uploader(there._requester, f"{place}/comments/files", path)
+        _, answer = ask(uploader.start)
+    return int(answer["id"])
+
+
+@contextmanager
+def explain(sent: list[str]) -> Iterator[None]:
+    """Raise Stop for what ends the talk with Canvas: why, and who has got theirs."""
+    from canvasapi.exceptions import CanvasException
+
+    try:
+        yield
+    except (CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
+        done = f"sent already: {list_names(sent)}" if sent else "nothing was sent"
+        words = f"{find_reason(error)}; {done}. The same command goes on from there"
+        raise Stop(f"Canvas: {words}") from error
+
+
+def find_reason(error: BaseException) -> str:
+    """Return why a request failed; never words that could hold the token."""
+    if is_throttled(error):
+        return "it takes no more requests for now (rate limit): wait some minutes"
+    if isinstance(error, KeyboardInterrupt):
+        return "stopped"
+    if isinstance(error, ValueError | KeyError):
+        return "what answers at this address does not answer as Canvas does"
+    if isinstance(error, OSError):
+        return f"it cannot be reached ({type(error).__name__})"
+    return REASONS.get(type(error).__name__) or f"{error!s:.200}"
