@@ -7,7 +7,6 @@ the folder of the class holds what was sent: any other mark in Canvas was entere
 import hashlib
 import os
 import re
-import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -19,6 +18,10 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import msgspec
+from canvasapi import exceptions as refused
+from canvasapi.course import Course
+from canvasapi.requester import Requester
+from canvasapi.upload import Uploader
 from msgspec import Struct
 from rich.console import Console
 from rich.table import Column, Table
@@ -44,17 +47,19 @@ ADDRESS = re.compile(
 )
 WAITS = (2, 5, 15, 60)  # s until a request that Canvas had no room for is made again
 PATIENCE = 60  # s until an answer must come
-NO_POINTS = ("pass_fail", "not_graded")  # kinds of grading
-REASONS = {
-    "InvalidAccessToken": f"it does not accept the token in {TOKEN} (401): make a new one there",
-    "Unauthorized": "the owner of the token may not do that (401)",
-    "Forbidden": "the owner of the token may not do that (403)",
-    "ResourceDoesNotExist": "there is no such assignment or student (404)",
+REASONS = {  # why a request fails, the narrowest kind first
+    refused.InvalidAccessToken: f"it does not accept the token in {TOKEN} (401): make a new one",
+    refused.Unauthorized: "the owner of the token may not do that (401)",
+    refused.Forbidden: "the owner of the token may not do that (403)",
+    refused.ResourceDoesNotExist: "it has no such assignment or student (404)",
+    KeyboardInterrupt: "stopped",
+    (ValueError, KeyError): "what answers at this address does not answer as Canvas does",
+    OSError: "it cannot be reached",
 }
-REFUSALS = {  # of one student's mark: the others' may go through
-    *("BadRequest", "Unauthorized", "Forbidden", "ResourceDoesNotExist"),
-    *("Conflict", "UnprocessableEntity"),
-}
+OF_ONE_STUDENT = (  # refusals after which the others' marks may go through
+    *(refused.BadRequest, refused.Unauthorized, refused.Forbidden, refused.ResourceDoesNotExist),
+    *(refused.Conflict, refused.UnprocessableEntity),
+)
 
 
 class Sent(Struct):
@@ -83,18 +88,16 @@ class Work:
     page: Path | None
 
     @property
-    def file(self) -> str:
-        """Return the page's name in Canvas: another page has another one."""
-        return f"feedback-{self.digest}.html" if self.page else ""
+    def sign(self) -> str:
+        """Return what tells a comment from all others: the page's name, or its words."""
+        return f"feedback-{self.digest}" if self.page else self.comment
 
     def was_said(self, there: Any, sent: Sent) -> bool:
         """Tell whether Canvas has the comment with its page, or had it."""
         comments = getattr(there, "submission_comments", None) or []
         files = [file for each in comments for file in each.get("attachments") or []]
-        if sent.digest == self.digest or not self.page:
-            said = [str(each.get("comment")).split() for each in comments]
-            return sent.digest == self.digest or self.comment.split() in said
-        return any(Path(self.file).stem in str(file.get("display_name")) for file in files)
+        said = [file["display_name"] for file in files] + [each["comment"] for each in comments]
+        return sent.digest == self.digest or any(self.sign in each for each in said)
 
 
 @dataclass(frozen=True)
@@ -148,14 +151,13 @@ def upload_class(
     """
     address, plan = to or known.settings.canvas, Plan()
     works = list_works(known, others_known, plan)
-    assignment = open_assignment(address, known)
+    with explain([]):
+        assignment = open_assignment(address, known)
+        there = ask(lambda: {str(each.user_id): each for each in list_submissions(assignment)})
     if to:
         remember_class(known.folder, {"canvas": to}, other_course=False)
     path = known.locate("canvas.json")
     record = read_record(path, address)
-    with explain([]):
-        listed = ask(list_submissions, assignment)
-    there = {str(each.user_id): each for each in listed}
     for work in works:
         plan.add(work, there.get(work.user), record.students.get(work.user, Sent()), over)
     if plan.changes:
@@ -163,12 +165,20 @@ def upload_class(
     sent = send_changes(plan, record, path) if send else []
     for note in plan.notes:
         console.print(printable(note), soft_wrap=True)
-    counts = f"{plan.unchanged} unchanged, {plan.left_out} left out"
-    if send or not plan.changes:
-        console.print(f"{len(sent)} sent, {counts}")
-    else:
-        console.print(f"{len(plan.changes)} to send, {counts}: --send sends them")
+    done = f"{len(sent)} sent" if send else f"{len(plan.changes)} to send"
+    more = "" if send or not plan.changes else ": --send sends them"
+    console.print(f"{done}, {plan.unchanged} unchanged, {plan.left_out} left out{more}")
     return plan.left_out > 0
+
+
+def tabulate(changes: list[Change]) -> Table:
+    titles = ("student", "in Canvas", "mark", "comment")
+    table = Table(*(Column(title, overflow="fold") for title in titles))
+    for each in changes:
+        work, words = each.work, each.work.comment + "\nwith their page" * bool(each.work.page)
+        lines = "\n".join(printable(line) for line in words.splitlines())
+        table.add_row(printable(work.name), each.before or "none", work.mark, lines)
+    return table
 
 
 # ---------------------------------------------------------------- what students are to get
@@ -180,8 +190,8 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
     roster = read_roster(known.find_roster("an upload"))
     if "ID" not in roster.columns:
         raise Stop(
-            f"{roster.path} has no column ID, which tells students apart in Canvas: export its "
-            f"gradebook, and name that: grader class new {known.folder} --roster FILE"
+            f"{roster.path} has no column ID, Canvas's number of a student: export the gradebook "
+            f"of Canvas, and name it: grader class new {known.folder} --roster FILE"
         )
     key, entries = roster.choose_key(known.settings.key), read_class(results)
     write_dashboard(results, entries, course)
@@ -198,7 +208,7 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
         if not mark:  # a note of make_marks says why
             plan.left_out += 1
         elif not user or ids[user] > 1:
-            plan.leave_out(name, f"the class list has {ids[user]} students with ID {user!r}")
+            plan.leave_out(name, f"the class list has ID {user!r} {ids[user]} times")
         else:
             found = next((by_name[each] for each in owners.find_results(row)), None)
             works.append(make_work((name, user, mark), found, summary, graded))
@@ -224,23 +234,14 @@ def hash_text(text: str) -> str:
 
 
 def read_record(path: Path, address: str) -> Record:
-    """Read what was sent to this assignment; of another one nothing counts."""
-    if not path.exists():
-        return Record(address)
+    """Read what was sent to this assignment; nothing was, if the file is of another one."""
     try:
         record = msgspec.json.decode(path.read_bytes(), type=Record)
+    except FileNotFoundError:
+        return Record(address)
     except msgspec.MsgspecError as error:
-        raise Stop(f"{path}: {error}: move it away, then no mark in Canvas is ours") from error
+        raise Stop(f"{path}: {error}: move it away, and replace marks with --over") from error
     return record if record.address == address else Record(address)
-
-
-def tabulate(changes: list[Change]) -> Table:
-    titles = ("student", "in Canvas", "mark", "page")
-    table = Table(*(Column(title, overflow="fold") for title in titles))
-    for each in changes:
-        work = each.work
-        table.add_row(printable(work.name), each.before or "none", work.mark, work.file)
-    return table
 
 
 # ---------------------------------------------------------------- Canvas
@@ -248,36 +249,27 @@ def tabulate(changes: list[Change]) -> Table:
 
 def open_assignment(address: str, known: ClassFolder) -> Any:
     """Return the assignment in Canvas; raises Stop unless it takes the marks of this class."""
-    match = ADDRESS.fullmatch(address)
+    match, token = ADDRESS.fullmatch(address), os.environ.get(TOKEN, "").strip()
     if match is None:
         raise Stop(
-            f"{address!r} in {known.folder / FILE} or --to is no assignment in Canvas: open its "
-            "page in a browser, and copy the address: https://…/courses/1/assignments/2"
+            f"{address!r} in {known.folder / FILE} or --to is no assignment in Canvas: copy the "
+            "address of its page from a browser: https://…/courses/1/assignments/2"
         )
-    token = os.environ.get(TOKEN, "").strip()
     if not re.fullmatch(r"[!-~]+", token):
         raise Stop(
             f"the environment variable {TOKEN} holds no token: make one in Canvas under Account, "
             "Settings, New access token"
         )
-    try:
-        from canvasapi.course import Course
-        from canvasapi.requester import Requester
-    except ImportError as error:
-        words = f"needs canvasapi: {sys.executable} -m pip install canvasapi"
-        raise Stop(f"an upload {words}") from error
     requester = Requester(match["base"], token)
     session = requester._session  # which would wait for ever
     session.request = partial(session.request, timeout=PATIENCE)
-    with explain([]):
-        course = Course(requester, {"id": int(match["course"])})
-        assignment = ask(course.get_assignment, int(match["assignment"]))
-    total = mark_by_course(known.course).total
-    if assignment.grading_type in NO_POINTS or assignment.points_possible != total:
-        kind = f"{assignment.points_possible} points, grading {assignment.grading_type!r}"
+    course = Course(requester, {"id": int(match["course"])})
+    assignment = ask(lambda: course.get_assignment(int(match["assignment"])))
+    total, worth = mark_by_course(known.course).total, assignment.points_possible
+    if worth != total or assignment.grading_type in ("pass_fail", "not_graded"):
         raise Stop(
-            f"these marks are out of {total:g}, and the assignment in Canvas has {kind}: change it "
-            "there, or out_of in the course"
+            f"these marks are out of {total:g}, and the assignment in Canvas is out of {worth}, "
+            f"graded as {assignment.grading_type}: change it there, or out_of in the course"
         )
     return assignment
 
@@ -286,18 +278,16 @@ def list_submissions(assignment: Any) -> list[Any]:
     return list(assignment.get_submissions(include=["submission_comments"], per_page=100))
 
 
-def ask(call: Callable[..., Any], *args: Any, **named: Any) -> Any:
-    """Make a request, and again after a while where Canvas has no room for it."""
-    from canvasapi.exceptions import CanvasException
-
+def ask(request: Callable[[], Any]) -> Any:
+    """Make a request, and make it again after a while where Canvas has no room for it."""
     for wait in WAITS:
         try:
-            return call(*args, **named)
-        except CanvasException as error:
+            return request()
+        except refused.CanvasException as error:
             if not is_throttled(error):
                 raise
         time.sleep(wait)
-    return call(*args, **named)
+    return request()
 
 
 def is_throttled(error: BaseException) -> bool:
@@ -309,76 +299,62 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
     """Send all changes, and return who has theirs; raises Stop where Canvas stops answering."""
     sent: list[str] = []
     for each in plan.changes:
-        work, marks = each.work, [each.before, each.work.mark]
-        before = record.students.get(work.user, Sent())
-        record.students[work.user] = Sent(marks, before.digest)
+        work, digest = each.work, record.students.get(each.work.user, Sent()).digest
+        record.students[work.user] = Sent([each.before, work.mark], digest)
         write_whole(msgspec.json.encode(record), path)
         with explain(sent):
-            refused = send_change(each)
-        if refused:
-            plan.leave_out(work.name, f"Canvas refuses {work.mark}: {refused}")
+            why_not = send_change(each)
+        if why_not:
+            plan.leave_out(work.name, f"Canvas refuses {work.mark}: {why_not}")
             continue
         record.students[work.user] = Sent([work.mark], work.digest)
         write_whole(msgspec.json.encode(record), path)
         sent.append(work.name)
         if taken := getattr(each.there, "points_deducted", None):
-            words = f"Canvas's own late policy takes {taken:g} more points from the mark sent"
+            words = f"Canvas's own late policy takes {taken:g} more points from the mark"
             plan.notes.append(f"{work.name}: {words}")
     return sent
 
 
 def send_change(change: Change) -> str:
     """Send a mark, its comment and its page at once; return why Canvas refuses them, if it does."""
-    from canvasapi.exceptions import CanvasException
-
-    work = change.work
-    comment: dict[str, Any] = {"text_comment": work.comment}
+    work, there = change.work, change.there
+    grade, comment = {"posted_grade": work.mark}, {"text_comment": work.comment}
+    words = {"submission": grade, "comment": comment, "prefer_points_over_scheme": True}
     try:
-        if work.page:
-            comment["file_ids"] = [upload_page(work, work.page, change.there)]
-        grade = {"posted_grade": work.mark}
-        ask(change.there.edit, submission=grade, comment=comment, prefer_points_over_scheme=True)
-    except CanvasException as error:
-        if type(error).__name__ in REFUSALS and not is_throttled(error):
-            return find_reason(error)
-        raise
+        files = {"file_ids": [upload_page(work, work.page, there)]} if work.page else {}
+        ask(lambda: there.edit(**words | {"comment": comment | files}))
+    except OF_ONE_STUDENT as error:
+        if is_throttled(error):
+            raise
+        return find_reason(error)
     return ""
 
 
 def upload_page(work: Work, page: Path, there: Any) -> int:
     """Upload a student's page for a comment, and return its id in Canvas."""
-    from canvasapi.upload import Uploader
-
     place = f"courses/{there.course_id}/assignments/{there.assignment_id}/submissions/{work.user}"
     with TemporaryDirectory() as folder:
-        path = Path(folder, work.file)
+        path = Path(folder, f"{work.sign}.html")  # Canvas takes its name
         path.write_bytes(page.read_bytes())
         uploader = Uploader(there._requester, f"{place}/comments/files", path)
-        _, answer = ask(uploader.start)
-    return int(answer["id"])
+        return int(ask(uploader.start)[1]["id"])
 
 
 @contextmanager
 def explain(sent: list[str]) -> Iterator[None]:
     """Raise Stop for what ends the talk with Canvas: why, and who has got theirs."""
-    from canvasapi.exceptions import CanvasException
-
     try:
         yield
-    except (CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
+    except (refused.CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
         done = f"sent already: {list_names(sent)}" if sent else "nothing was sent"
-        words = f"{find_reason(error)}; {done}. The same command goes on from there"
-        raise Stop(f"Canvas: {words}") from error
+        why = find_reason(error)
+        raise Stop(f"Canvas: {why}; {done}. The same command goes on from there") from error
 
 
 def find_reason(error: BaseException) -> str:
-    """Return why a request failed; never words that could hold the token."""
+    """Return why a request failed; never words of its own that could hold the token."""
     if is_throttled(error):
         return "it takes no more requests for now (rate limit): wait some minutes"
-    if isinstance(error, KeyboardInterrupt):
-        return "stopped"
-    if isinstance(error, ValueError | KeyError):
-        return "what answers at this address does not answer as Canvas does"
-    if isinstance(error, OSError):
-        return f"it cannot be reached ({type(error).__name__})"
-    return REASONS.get(type(error).__name__) or f"{error!s:.200}"
+    known = (words for kind, words in REASONS.items() if isinstance(error, kind))
+    return next(known, f"{error!s:.200}")

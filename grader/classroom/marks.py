@@ -100,7 +100,7 @@ def make_parts(outcomes: Iterable[Outcome]) -> dict[str, Parts]:
 
 
 def mark_by_course(course: Course) -> Marking:
-    """Return the settings without a marks.toml: the engine is all, and counts as the course says."""
+    """Return the settings without a marks.toml: the engine alone, out of what the course says."""
     return Marking(course.title, {ENGINE: 1}, course.out_of or USUAL_TOTAL)
 
 

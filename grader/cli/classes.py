@@ -1,5 +1,6 @@
 """Define `grader class`: a class from its first day to its marks, in a folder that remembers."""
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -186,8 +187,11 @@ def upload_command(
     The environment variable CANVAS_TOKEN holds the access token.
     """
     known = open_folder(folder)
-    from grader.classroom.canvas import upload_class
-
+    try:
+        from grader.classroom.canvas import upload_class
+    except ModuleNotFoundError as error:
+        words = f"class upload needs {error.name}: {sys.executable} -m pip install canvasapi"
+        raise Stop(words) from error
     left_out = upload_class(known, to, send, over, others_known, console)
     raise typer.Exit(1 if left_out else 0)
 

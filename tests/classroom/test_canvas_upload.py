@@ -1,5 +1,6 @@
 """Marks on their way into Canvas: once, to the right student, and over nobody's decision."""
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,14 +11,19 @@ from canvas_server import TOKEN, Canvas
 from command_line import run_grader
 from points_pool import Inline
 
-from grader.classroom import canvas, grading
+from grader.classroom import grading
 
-pytest.importorskip("canvasapi", reason="the extra `canvas` is not installed")
+pytest.importorskip("canvasapi", reason="marks go to Canvas with the extra `canvas` alone")
+from canvasapi import exceptions
+from canvasapi.course import Course
+from canvasapi.requester import Requester
+
+from grader.classroom import canvas
 
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20}
 STUDENTS = ("ann", "ben", "cem", "dora", "eve", "finn")  # 1 to 6 in Canvas
-DECISION = '[[adjust]]\nstudent = "ben"\nadd = 2\nreason = "shown in the lab"\n'
+DECISION = '[[adjust]]\nstudent = "ben"\nadd = %d\nreason = "shown in the lab"\n'
 
 
 @pytest.fixture
@@ -40,16 +46,21 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, server: Canvas) -> Path
     lab.mkdir()
     (lab / "roster.csv").write_text("\n".join(lines), encoding="utf-8")
     (lab / "course.toml").write_text(COURSE, encoding="utf-8")
-    (lab / "decisions.toml").write_text(DECISION, encoding="utf-8")
     for name, points in POINTS.items():
         classes.put(lab / "submissions" / f"{name}.zip", packed.as_zip(classes.work(points)))
     classes.put(lab / "submissions" / "finn.zip", packed.as_zip(classes.work(7)))
     classes.put(lab / "submissions" / "eve.zip", b"PK broken")
     run_grader("class", "new", lab)
-    run_grader("class", "grade", lab)
+    decide(lab, 2)
     said, _ = upload(lab, "--to", f"{server.base}/courses/7/assignments/9?module_item_id=3")
     assert "4 to send, 0 unchanged, 2 left out" in said
     return lab
+
+
+def decide(lab: Path, points: int) -> None:
+    """Add points to those of the checks, for Ben."""
+    (lab / "decisions.toml").write_text(DECISION % points, encoding="utf-8")
+    run_grader("class", "grade", lab)
 
 
 def upload(lab: Path, *more: object) -> tuple[str, int]:
@@ -89,8 +100,7 @@ def test_a_comment_says_what_was_decided_and_has_the_students_own_page(lab: Path
 
 def test_only_marks_that_changed_are_sent(lab: Path, server: Canvas):
     upload(lab, "--send")
-    (lab / "decisions.toml").write_text(DECISION.replace("2", "4"), encoding="utf-8")
-    run_grader("class", "grade", lab)
+    decide(lab, 4)
     said, _ = upload(lab)
     assert "1 to send, 3 unchanged" in said and "│ 6 │ 7.0" in said
     upload(lab, "--send")
@@ -111,41 +121,113 @@ def test_what_a_person_entered_in_canvas_stays_unless_told(lab: Path, server: Ca
     assert status == 1 and scores(server)[0] == 9.0
 
 
-@pytest.mark.parametrize("where, mark", [("lost before", None), ("lost after", 6.0)])
+@pytest.mark.parametrize("where, mark", [("lost before", 6.0), ("lost after", 7.0)])
 def test_a_lost_connection_is_a_sentence_and_the_same_command_goes_on(
-    lab: Path, server: Canvas, where: str, mark: float | None
+    lab: Path, server: Canvas, where: str, mark: float
 ):
+    upload(lab, "--send")
+    decide(lab, 4)
+    server.users[1]["entered_score"] = None  # Ann comes first again
     server.troubles = [("PUT", ""), ("PUT", where)]
     said, status = upload(lab, "--send")
-    assert "it cannot be reached (ConnectionError); sent already: Ann, A. The same" in said
-    assert status == 2 and scores(server)[1] == mark
-    (lab / "decisions.toml").write_text("", encoding="utf-8")
-    run_grader("class", "grade", lab)
-    upload(lab, "--send")
-    assert scores(server)[:4] == [2.5, 5.0, 10.0, 0.0] and server.graded.count(1) == 1
+    assert "cannot be reached; sent already: Ann, A. The same command goes on from there" in said
+    assert status == 2 and scores(server)[:2] == [2.5, mark]
+    decide(lab, 6)
+    assert "1 sent, 3 unchanged" in upload(lab, "--send")[0]
+    assert scores(server) == [2.5, 8.0, 10.0, 0.0, None]
 
 
-@pytest.mark.parametrize("status", [403, 429])
-def test_a_throttled_request_is_made_again_and_not_for_ever(lab: Path, server: Canvas, status: int):
-    server.troubles = [(each, status) for each in ("GET", "GET", "PUT", "POST", "PUT")]
-    assert "4 sent" in upload(lab, "--send")[0]
-    server.troubles = [("GET", status)] * 5
+def test_an_answer_that_was_lost_is_not_sent_again(lab: Path, server: Canvas):
+    server.troubles = [("PUT", "lost after")]
+    assert "nothing was sent" in upload(lab, "--send")[0]
+    assert "3 sent, 1 unchanged" in upload(lab, "--send")[0]
+    assert server.graded == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize("trouble", [429, "throttled"])
+def test_a_throttled_request_is_made_again_but_not_for_ever(
+    lab: Path, server: Canvas, trouble: int | str
+):
+    server.troubles = [(each, trouble) for each in ("GET", "GET", "PUT", "POST", "PUT")]
+    assert "4 sent" in upload(lab, "--send")[0] and server.graded == [1, 2, 3, 4]
+    server.troubles = [("GET", trouble)] * 5
     said, code = upload(lab, "--send")
     assert "it takes no more requests for now (rate limit)" in said and code == 2
 
 
-@pytest.mark.parametrize("status", [400, 403, 404, 422])
-def test_a_mark_that_is_refused_stops_no_other(lab: Path, server: Canvas, status: int):
-    if status == 403:
-        server.users.pop(1)
-        server.users[1] = server.users.pop(1, {"entered_score": None, "submission_comments": []})
-    server.troubles = [("PUT", status)]
+@pytest.mark.parametrize("status", [400, 401, 403, 404, 422])
+@pytest.mark.parametrize("method", ["PUT", "POST"])
+def test_a_mark_that_is_refused_stops_no_other(lab: Path, server: Canvas, status: int, method: str):
+    server.troubles = [(method, status)]
+    said, code = upload(lab, "--send")
+    assert "Ann, A: left out, Canvas refuses 2.5" in said and "3 sent" in said and code == 1
+    assert "1 sent, 3 unchanged" in upload(lab, "--send")[0]
+
+
+def test_what_canvas_takes_away_for_lateness_is_said(lab: Path, server: Canvas):
+    server.deducted = 1.5
     said, _ = upload(lab, "--send")
-    assert "sent" in said
+    assert "Ann, A: Canvas's own late policy takes 1.5 more points from the mark" in said
 
 
-@pytest.mark.parametrize("status, words", [(401, "may not do that (401)"), (500, "500")])
-def test_errors(lab: Path, server: Canvas, status: int, words: str):
-    server.troubles = [("GET", status)]
-    said, code = upload(lab)
-    assert words in said and code == 2
+CALL = "https://canvas.x.edu/courses/7/assignments/9"
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"token": "wrong"}, "it does not accept the token in CANVAS_TOKEN (401)"),
+        ({"token": ""}, "the environment variable CANVAS_TOKEN holds no token"),
+        ({"token": "two words"}, "the environment variable CANVAS_TOKEN holds no token"),
+        ({"to": "/courses/7/assignments/8"}, "it has no such assignment or student (404)"),
+        ({"to": "/courses/7"}, "is no assignment in Canvas: copy the address"),
+        ({"to": CALL.replace("https", "http")}, "is no assignment in Canvas: copy the address"),
+        ({"points": 20.0}, "out of 10, and the assignment in Canvas is out of 20.0"),
+        ({"kind": "pass_fail"}, "graded as pass_fail"),
+        ({"troubles": [("GET", 500)]}, "status code 500"),
+        ({"troubles": [("GET", 403)]}, "the owner of the token may not do that (403)"),
+    ],
+)
+def test_what_cannot_be_asked_is_a_sentence_before_anything_is_sent(
+    lab: Path, server: Canvas, monkeypatch: pytest.MonkeyPatch, change: dict, words: str
+):
+    before = (lab / "class.toml").read_bytes()
+    monkeypatch.setenv("CANVAS_TOKEN", change.pop("token", TOKEN))
+    to = change.pop("to", "/courses/7/assignments/9")
+    for name, value in change.items():
+        setattr(server, name, value)
+    said, code = upload(lab, "--send", "--to", to if "//" in to else server.base + to)
+    assert words in said and code == 2 and not server.graded and not server.files
+    assert (lab / "class.toml").read_bytes() == before
+
+
+def test_students_who_cannot_be_told_apart_get_nothing(lab: Path, server: Canvas):
+    roster = lab / "roster.csv"
+    text = roster.read_text(encoding="utf-8")
+    roster.write_text(text.replace('A",2,', 'A",1,').replace('A",3,', 'A",,'), encoding="utf-8")
+    said, _ = upload(lab, "--send")
+    assert "the class list has ID '1' 2 times" in said and server.graded == [4]
+    roster.write_text(text.replace("ID,SIS", "Number,SIS"), encoding="utf-8")
+    assert "has no column ID, Canvas's number of a student" in upload(lab)[0]
+
+
+def test_without_canvasapi_it_is_said_how_to_get_it(lab: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(sys.modules, "canvasapi", None)
+    monkeypatch.delitem(sys.modules, "grader.classroom.canvas")
+    assert "-m pip install canvasapi" in upload(lab)[0]
+
+
+def test_the_stand_in_refuses_what_canvas_refuses(server: Canvas):
+    course = Course(Requester(server.base, TOKEN), {"id": 7})
+    ann, *_ = there = list(course.get_assignment(9).get_submissions(per_page=100))
+    assert len(there) == 5 and ann.submission_comments is None  # more than a page; not asked for
+    with pytest.raises(exceptions.BadRequest, match="invalid grade 'ten'"):
+        ann.edit(submission={"posted_grade": "ten"})
+    with pytest.raises(exceptions.BadRequest):
+        ann.edit(grade=10)
+    with pytest.raises(exceptions.Forbidden):
+        ann.edit(submission={"posted_grade": "40%"}, comment={"file_ids": [500]})
+    server.users.pop(1)
+    with pytest.raises(exceptions.Forbidden):
+        ann.edit(submission={"posted_grade": "10"})
+    assert not server.graded

@@ -23,8 +23,8 @@ class Canvas(ThreadingHTTPServer):
         super().__init__(("127.0.0.1", 0), Handler)
         self.users = {user: {"entered_score": None, "submission_comments": []} for user in users}
         self.files: dict[int, dict[str, object]] = {}
-        self.points, self.kind = 10.0, "points"
-        self.troubles: list[tuple[str, int | str]] = []
+        self.points, self.kind, self.deducted = 10.0, "points", None
+        self.troubles: list[tuple[str, int | str]] = []  # a status, or where the line is cut
         self.graded: list[int] = []  # students, in the order of requests
         threading.Thread(target=self.serve_forever, args=(0.01,), daemon=True).start()
 
@@ -62,27 +62,32 @@ class Handler(BaseHTTPRequestHandler):
             return self.answer(200, {"id": file["id"], "url": self.path})
         if self.headers.get("Authorization") != f"Bearer {TOKEN}":
             header = 'Bearer realm="canvas-lms"'
-            return self.answer(401, {"errors": [{"message": "Invalid access token."}]}, WWW_Authenticate=header)
+            words = {"errors": [{"message": "Invalid access token."}]}
+            return self.answer(401, words, WWW_Authenticate=header)
         if trouble and isinstance(trouble[1], int):
-            return self.answer(trouble[1], "403 Forbidden (Rate Limit Exceeded)" if trouble[1] == 403 else {})
-        if trouble == (self.command, "lost before"):
+            return self.answer(trouble[1], {"errors": [{"message": "no"}]})
+        if trouble and trouble[1] == "throttled":
+            return self.answer(403, "403 Forbidden (Rate Limit Exceeded)")
+        if trouble and trouble[1] == "lost before":
             return self.close()
         if not url.path.startswith(HERE):
-            return self.answer(404, {"errors": [{"message": "The specified resource does not exist."}]})
+            return self.answer(404, {"errors": [{"message": "The resource does not exist."}]})
         rest = url.path.removeprefix(HERE).strip("/").split("/")
-        query, form = parse_qs(url.query), parse_qs(body.decode(), strict_parsing=True) if body else {}
+        if len(rest) > 1 and int(rest[1]) not in self.server.users:
+            return self.answer(403, FORBIDDEN)
+        form = parse_qs(body.decode(), strict_parsing=True) if body else {}
         match self.command, rest:
             case "GET", [""]:
                 kind = {"points_possible": self.server.points, "grading_type": self.server.kind}
                 self.answer(200, {"id": 9, "course_id": 7, **kind})
             case "GET", ["submissions"]:
-                self.list_submissions(query)
-            case "POST", ["submissions", user, "comments", "files"] if int(user) in self.server.users:
+                self.list_submissions(parse_qs(url.query))
+            case "POST", ["submissions", _, "comments", "files"]:
                 self.announce(form)
-            case "PUT", ["submissions", user] if int(user) in self.server.users:
+            case "PUT", ["submissions", user]:
                 self.grade(int(user), form, trouble)
             case _:
-                self.answer(403, FORBIDDEN)
+                self.answer(404, {"errors": [{"message": "The resource does not exist."}]})
 
     do_GET = do_POST = do_PUT = handle_any  # noqa: N815
 
@@ -108,16 +113,17 @@ class Handler(BaseHTTPRequestHandler):
         id = 500 + len(self.server.files)
         self.server.files[id] = {"id": id, "name": form["name"][0], "size": int(form["size"][0])}
         url = f"{self.server.base}/upload/{id}"
-        self.answer(200, {"upload_url": url, "upload_params": {"key": f"k{id}"}, "file_param": "file"})
+        self.answer(200, {"upload_url": url, "upload_params": {"key": f"k{id}"}})
 
     def take_file(self, id: int, body: bytes) -> None:
         """Take the second step: the parameters, and the file as the last one, without the token."""
         head = f"Content-Type: {self.headers['Content-Type']}\r\n\r\n".encode()
         parts = message_from_bytes(head + body).get_payload()
-        names = [each.get_param("name", header="content-disposition") for each in parts]
+        fields = [each.get_param("name", header="content-disposition") for each in parts]
         content = parts[-1].get_payload(decode=True)
         file = self.server.files[id]
-        if names != ["key", "file"] or len(content) != file["size"] or "Authorization" in self.headers:
+        right = fields == ["key", "file"] and len(content) == file["size"]
+        if not right or "Authorization" in self.headers:
             return self.answer(400, {"message": "no such upload"})
         file["content"] = content
         self.answer(303, {}, Location=f"{self.server.base}/done/{id}")
@@ -134,6 +140,7 @@ class Handler(BaseHTTPRequestHandler):
         there["submission_comments"].append({"comment": text, "attachments": files})
         there["entered_score"] = float(grade)
         self.server.graded.append(user)
-        if trouble == ("PUT", "lost after"):
+        if trouble and trouble[1] == "lost after":
             return self.close()
-        self.answer(200, {"user_id": user, "assignment_id": 9, **there})
+        taken = {"points_deducted": self.server.deducted}
+        self.answer(200, {"user_id": user, "assignment_id": 9, **there, **taken})
