@@ -46,6 +46,7 @@ ADDRESS = re.compile(
     r"/courses/(?P<course>\d+)/assignments/(?P<assignment>\d+)(?:[/?#]\S*)?"
 )
 WAITS = (2, 5, 15, 60)  # s until a request that Canvas had no room for is made again
+COMMENTS = ["submission_comments"]  # which Canvas leaves out unless told
 PATIENCE = 60  # s until an answer must come
 REASONS = {  # why a request fails, the narrowest kind first
     refused.InvalidAccessToken: f"it does not accept the token in {TOKEN} (401): make a new one",
@@ -96,8 +97,11 @@ class Work:
         """Tell whether Canvas has the comment with its page, or had it."""
         comments = getattr(there, "submission_comments", None) or []
         files = [file for each in comments for file in each.get("attachments") or []]
-        said = [file["display_name"] for file in files] + [each["comment"] for each in comments]
-        return sent.digest == self.digest or any(self.sign in each for each in said)
+        said = [
+            *(each.get("display_name") for each in files),
+            *(e.get("comment") for e in comments),
+        ]
+        return sent.digest == self.digest or any(self.sign in (each or "") for each in said)
 
 
 @dataclass(frozen=True)
@@ -151,9 +155,10 @@ def upload_class(
     """
     address, plan = to or known.settings.canvas, Plan()
     works = list_works(known, others_known, plan)
-    with explain([]):
+    with explain("nothing was sent"):
         assignment = open_assignment(address, known)
-        there = ask(lambda: {str(each.user_id): each for each in list_submissions(assignment)})
+        listed = ask(lambda: list(assignment.get_submissions(include=COMMENTS, per_page=100)))
+    there = {str(getattr(each, "user_id", "")): each for each in listed}
     if to:
         remember_class(known.folder, {"canvas": to}, other_course=False)
     path = known.locate("canvas.json")
@@ -204,7 +209,8 @@ def list_works(known: ClassFolder, others_known: bool, plan: Plan) -> list[Work]
     ids = Counter(row["ID"].strip() for row in roster.rows)
     works = []
     for row, mark, summary in made.rows:
-        user, name = row["ID"].strip(), list_name(row) or row[key]
+        user, full = row["ID"].strip(), list_name(row)
+        name = f"{full} ({row[key]})" if full else row[key]
         if not mark:  # a note of make_marks says why
             plan.left_out += 1
         elif not user or ids[user] > 1:
@@ -274,10 +280,6 @@ def open_assignment(address: str, known: ClassFolder) -> Any:
     return assignment
 
 
-def list_submissions(assignment: Any) -> list[Any]:
-    return list(assignment.get_submissions(include=["submission_comments"], per_page=100))
-
-
 def ask(request: Callable[[], Any]) -> Any:
     """Make a request, and make it again after a while where Canvas has no room for it."""
     for wait in WAITS:
@@ -302,7 +304,8 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
         work, digest = each.work, record.students.get(each.work.user, Sent()).digest
         record.students[work.user] = Sent([each.before, work.mark], digest)
         write_whole(msgspec.json.encode(record), path)
-        with explain(sent):
+        done = f"sent already: {list_names(sent) or 'none'}; {work.name}: may have arrived"
+        with explain(f"{done}. The same command goes on from there"):
             why_not = send_change(each)
         if why_not:
             plan.leave_out(work.name, f"Canvas refuses {work.mark}: {why_not}")
@@ -342,14 +345,12 @@ def upload_page(work: Work, page: Path, there: Any) -> int:
 
 
 @contextmanager
-def explain(sent: list[str]) -> Iterator[None]:
-    """Raise Stop for what ends the talk with Canvas: why, and who has got theirs."""
+def explain(done: str) -> Iterator[None]:
+    """Raise Stop for what ends the talk with Canvas: why, and what is done."""
     try:
         yield
     except (refused.CanvasException, OSError, ValueError, KeyError, KeyboardInterrupt) as error:
-        done = f"sent already: {list_names(sent)}" if sent else "nothing was sent"
-        why = find_reason(error)
-        raise Stop(f"Canvas: {why}; {done}. The same command goes on from there") from error
+        raise Stop(f"Canvas: {find_reason(error)}; {done}") from error
 
 
 def find_reason(error: BaseException) -> str:
