@@ -109,6 +109,7 @@ class Change:
     work: Work
     there: Any  # the submission in Canvas
     before: str  # the mark there
+    ours: list[str]  # the same, if it was sent by us
 
 
 @dataclass
@@ -132,18 +133,18 @@ class Plan:
             return self.leave_out(work.name, "Canvas has them excused: change that there")
         score = getattr(there, "entered_score", getattr(there, "score", None))
         before = "" if score is None else f"{score:g}"
-        same = is_score(work.mark, score)
+        same, ours = is_score(work.mark, score), [m for m in sent.marks if is_score(m, score)]
         if same and work.was_said(there, sent):
             self.unchanged += 1
-        elif same or over or not before or any(is_score(mark, score) for mark in sent.marks):
-            self.changes.append(Change(work, there, before))
+        elif same or over or ours or not before:
+            self.changes.append(Change(work, there, before, ours))
         else:
             why = f"a person entered {before} in Canvas, and the mark here is {work.mark}"
             self.leave_out(work.name, f"{why}: replace it with --over")
 
 
 def is_score(mark: str, score: float | None) -> bool:
-    return mark != "" and score is not None and abs(float(mark) - score) < 1e-6
+    return score is not None and abs(float(mark) - score) < 1e-6
 
 
 def upload_class(
@@ -302,7 +303,7 @@ def send_changes(plan: Plan, record: Record, path: Path) -> list[str]:
     sent: list[str] = []
     for each in plan.changes:
         work, digest = each.work, record.students.get(each.work.user, Sent()).digest
-        record.students[work.user] = Sent([each.before, work.mark], digest)
+        record.students[work.user] = Sent([*each.ours, work.mark], digest)
         write_whole(msgspec.json.encode(record), path)
         done = f"sent already: {list_names(sent) or 'none'}; {work.name}: may have arrived"
         with explain(f"{done}. The same command goes on from there"):

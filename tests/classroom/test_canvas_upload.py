@@ -175,6 +175,13 @@ def test_a_mark_that_is_refused_stops_no_other(lab: Path, server: Canvas, method
     assert "1 sent, 3 unchanged" in upload(lab, "--send")[0]
 
 
+def test_a_persons_mark_stays_theirs_though_replacing_it_was_tried(lab: Path, server: Canvas):
+    server.users[1]["entered_score"] = 9.0
+    server.troubles = [("PUT", 400)]
+    assert "Canvas refuses 2.5" in upload(lab, "--send", "--over")[0]
+    assert "a person entered 9 in Canvas" in upload(lab, "--send")[0] and scores(server)[0] == 9.0
+
+
 def test_what_canvas_takes_away_for_lateness_is_said(lab: Path, server: Canvas):
     server.deducted = 1.5
     said, _ = upload(lab, "--send")
