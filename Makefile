@@ -184,7 +184,7 @@ lock: $(DEV) ## Renew the locked requirement files from pyproject.toml
 	$(LOCK) -o requirements-canvas.txt --extra canvas -c requirements.txt
 	$(LOCK) -o requirements-notebooks.txt --extra notebooks -c requirements.txt
 	$(LOCK) -o requirements-site.txt --extra site -c requirements.txt
-	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster -c requirements.txt
+	$(LOCK) -o requirements-dev.txt --extra dev --extra plots --extra cluster --extra canvas -c requirements.txt
 	@$(PY) -c "$$PLAIN_VERSIONS" requirements*.txt
 
 clean: ## Remove .venv and everything else that can be made again
