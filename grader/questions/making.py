@@ -34,6 +34,7 @@ from grader.report.files import read_result, write_whole
 from grader.report.progress import Counter
 from grader.text import plural, printable
 
+SEED_BITS = 128  # more than anybody can try
 SHEET = replace(GRADING, what="making its sheet")
 ENDED = "it ended the process that makes sheets"
 
@@ -70,7 +71,7 @@ class Making:
         elif file.is_file():
             seed = file.read_text(encoding="utf-8").strip().removeprefix("practice ")
         else:
-            seed = str(secrets.randbelow(10**12))
+            seed = str(secrets.randbits(SEED_BITS))
         write_whole(f"{seed}\n".encode(), file)
         return f"practice {seed}" if self.practice else seed
 

@@ -457,3 +457,9 @@ def test_all_that_the_page_names_is_there():
     assert [each for each in sorted(files) if not (KIT / each).is_file()] == []
     known = {member.name for member in bank() if member.kind in ("hostile", "right")}
     assert {"brings-pytest-along", "shadows-libraries", "stale-bytecode"} <= known
+
+
+def test_the_page_is_short():
+    page = (KIT / "handouts" / "instructor" / "security.md").read_text(encoding="utf-8")
+    assert len(page.partition("| case |")[0].split()) <= 300
+    assert len(page.split()) <= 1500
