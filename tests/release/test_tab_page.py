@@ -206,7 +206,7 @@ def test_endless_loops_end(tab: Tab):
     text = read_source(KIT / "starter" / "mini_engine" / "world.py")
     tab.type_file(text.replace("        keep_vel = 0.99\n", ENDLESS))
     tab.do("check")
-    assert "did not answer" in tab.page.inner_text("#found") or "endless" in tab.page.inner_text(
+    assert "endless loop" in tab.page.inner_text(
         "#found"
     )
     tab.page.click("#run")
@@ -246,7 +246,7 @@ def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
         pytest.skip("needs Node.js, to run Python as the page does")
     folder = tmp_path / "members"
     folder.mkdir()
-    usual = []
+    results = []
     for number, (name, todo) in enumerate(MEMBERS.items()):
         member_named(name).build(KIT, tmp_path / name)
         texts = {
@@ -255,17 +255,20 @@ def test_members_get_the_same_on_the_page(site: Path, tmp_path: Path):
         }
         (folder / f"{number}.json").write_text(json.dumps({"todo": todo, "files": texts}))
         options = Options(trusted=True, only=frozenset({todo}))
-        usual.append(grade(tmp_path / name, options, shared_worker()))
+        results.append(grade(tmp_path / name, options, shared_worker()))
     script = tmp_path / "parity.mjs"
     script.write_text(PARITY)
     done = subprocess.run([node, script, site, folder], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    for line, expected in zip(done.stdout.splitlines(), usual, strict=True):
+    for line, expected in zip(done.stdout.splitlines(), results, strict=True):
         (here,) = msgspec.json.decode(line, type=Result).todos
         (there,) = (each for each in expected.todos if each.id == here.id)
         shown = {check.id: check for check in there.checks}
         for check in here.checks:
-            assert (check.state, check.got) == (shown[check.id].state, shown[check.id].got)
+            usual = shown[check.id]
+            assert (check.state, check.points) == (usual.state, usual.points)
+            if usual.state != "error":  # each version of Python words its errors
+                assert check.got == usual.got
 
 
 @SOAK

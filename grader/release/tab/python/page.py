@@ -27,6 +27,8 @@ MOST_BYTES = 20_000_000  # of a zip that is brought in
 COLUMNS = range(40, 81)
 ALONE = "numpy is not in this page. Use Python's own numbers here, or work on a computer."
 
+USUAL_ENVIRONMENT = dict(os.environ)  # checks set variables that programs read, such as LAB_FRAMES
+
 bridge = None
 
 
@@ -40,6 +42,8 @@ def start(bridge_):
 def lay_out(files):
     """Make the lab's folder: what was handed out, and over it these files, text by name."""
     os.chdir("/")
+    os.environ.clear()
+    os.environ.update(USUAL_ENVIRONMENT)
     shutil.rmtree(LAB)
     shutil.copytree(HANDED_OUT, LAB)
     for name, text in json.loads(files).items():
@@ -221,15 +225,15 @@ def grade_as_json(only):
 
 
 def measure_pace():
-    """Return how many seconds here are worth one of a usual processor, from 1 to 8."""
+    """Return how many seconds here are worth one of a usual processor, from 1 to 2."""
     began = time.perf_counter()
     total = 0
     for number in range(300_000):
         total += number * number % 7
-    return min(max((time.perf_counter() - began) / USUAL, 1.0), 8.0)
+    return min(max((time.perf_counter() - began) / USUAL, 1.0), 2.0)
 
 
-USUAL = 0.02  # s that the loop of measure_pace takes on a usual processor
+USUAL = 0.05  # s that the loop of measure_pace takes on a usual processor
 PACE = measure_pace()
 
 
