@@ -8,7 +8,7 @@ const $ = (id) => document.getElementById(id);
 const SAVE_MS = 300; // after the last key
 const SILENT_MS = 3000; // without a picture, until we say how to stop
 const MOST_PRINTED = 30_000; // characters on the page
-const LETTER = 8.2; // px, about, of a column of the check's text
+const LETTER = 7.9, MARGINS = 52; // px of a column of the check's text, and left and right of it
 
 let lab, given, files = {}, todo, states = {}, saving;
 const python = new Python(hear);
@@ -141,7 +141,7 @@ async function run() {
 }
 
 async function check(only) {
-  const columns = Math.floor($("result").clientWidth / LETTER);
+  const columns = Math.floor(($("result").clientWidth - MARGINS) / LETTER);
   const answer = await ask({ kind: "check", only, columns }, "Checking …");
   if (!answer) return;
   const { lines, todos } = JSON.parse(answer.found);
@@ -154,7 +154,7 @@ async function check(only) {
     return line;
   }));
   $("found").hidden = false;
-  $("result").scrollTop = $("found").offsetTop;
+  $("found").scrollIntoView({ block: "nearest" });
   const own = states[todo.id];
   say(only.length && own ? `TODO ${todo.id}: ${own[0]}, ${own[1]} of ${own[2]} points.` : "Checked.");
   save();

@@ -29,7 +29,9 @@ export class Editor {
       extensions: [
         basicSetup, python(), indentUnit.of("    "), codeFolding(), EditorView.lineWrapping,
         keymap.of([indentWithTab]), syntaxHighlighting(colours),
-        EditorView.contentAttributes.of({ "aria-label": `Code of TODO ${id}. Escape, then Tab leaves it.` }),
+        EditorView.contentAttributes.of({
+          tabindex: "0", "aria-label": `Code of TODO ${id}. Escape, then Tab leaves it.`,
+        }),
         EditorView.decorations.compute(["doc"], (state) => markRegion(state.doc, id)),
         EditorView.updateListener.of((update) => {
           if (update.docChanged) this.changed(update.state.doc.toString());
