@@ -10,7 +10,7 @@ graded, and every change is shown with its reason.
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta, tzinfo
 from pathlib import Path
@@ -20,15 +20,19 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 import msgspec
 from msgspec import Meta, Struct, structs
 
+from grader.classroom.comments import Comment, Remark, place_comment
 from grader.errors import Stop
 from grader.intake.found import Found
-from grader.intake.names import fold, make_portable, split_login
-from grader.intake.roster import ClassList
+from grader.intake.names import fold
+from grader.intake.roster import ClassList, find_student, is_same_student
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
 from grader.text import plural
 
 DAY = timedelta(days=1)
-KINDS = "add = 5, points = 70, late = false, due = 2026-05-09T12:00:00+02:00, cap = 80, bonus = 3"
+KINDS = (
+    "add = 5, points = 70, late = false, due = 2026-05-09T12:00:00+02:00, cap = 80, bonus = 3, "
+    'take = "b.zip"'
+)
 
 Words = Annotated[str, Meta(pattern=r"\S")]
 Points = Annotated[int, Meta(ge=0)]
@@ -45,6 +49,7 @@ class Adjust(Struct, frozen=True, forbid_unknown_fields=True):
     due: datetime | None = None  # an extension
     cap: Points | None = None  # the most that there can be
     bonus: Points | None = None  # points beside the grader's own bonus, counted as these are
+    take: Words | None = None  # the work that counts: of a name, or a path in what was handed in
 
     @property
     def students(self) -> list[str]:
@@ -59,6 +64,7 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     late: Late | None = None
     adjust: list[Adjust] = []
+    comment: list[Comment] = []
     zone: str = ""
 
     def decide(self, found: Found, points: int | None) -> "Final":
@@ -69,7 +75,9 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         if points is not None and self.late is not None:
             points = self.apply_lateness(found, points, reasons)
         for each in decisions:
-            if each.due is not None:
+            if each.take is not None:
+                reasons.append(f"{each.take} counts: {each.reason}")
+            elif each.due is not None:
                 reasons.append(f"due {write_time(each.due)}: {each.reason}")
             elif each.points is not None:
                 points, by_hand = each.points, True
@@ -152,7 +160,21 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def students(self) -> list[str]:
-        return list(dict.fromkeys(name for each in self.adjust for name in each.students))
+        names = [name for each in self.adjust for name in each.students]
+        return list(dict.fromkeys([*names, *(each.student for each in self.comment)]))
+
+    @property
+    def choices(self) -> list[tuple[str, str]]:
+        """Return students and the work that a person says is theirs."""
+        return [(who, each.take) for each in self.adjust if each.take for who in each.students]
+
+    def place_comments(self, found: Found, files: Mapping[str, bytes]) -> list[Remark]:
+        """Return the comments on a student's work, each beside its line."""
+        for name in (found.name, found.handed_in_by):
+            about = [each for each in self.comment if is_same_student(each.student, name)]
+            if about:
+                return [place_comment(each, files) for each in about]
+        return []
 
     def find_unused(self, names: Iterable[str]) -> list[str]:
         """Return the students of decisions who are not among `names`."""
@@ -173,25 +195,8 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         ]
         if faults := list(find_set_twice(adjust)):
             raise Stop(f"in the adjustments {faults[0]}")
-        return structs.replace(self, adjust=adjust)
-
-
-def find_student(who: str, names: list[str], people: ClassList) -> str:
-    """Return the name in the class of whom a decision names; as written, of nobody there."""
-    meant = [name for name in names if is_same_student(who, name)]
-    listed = [each for name in people.list_called(who) for each in (name, make_portable(name))]
-    meant += [name for name in names if any(is_same_student(each, name) for each in listed)]
-    meant = list(dict.fromkeys(meant))
-    if len(meant) > 1:
-        raise Stop(
-            f"{who!r} in the adjustments could be {' or '.join(meant)}: write one of these names"
-        )
-    return meant[0] if meant else who
-
-
-def is_same_student(who: str, name: str) -> bool:
-    """Tell whether a name in the file is this student's: the same, or half of an address."""
-    return fold(who) in split_login(name) or fold(name) in split_login(who)
+        comment = [structs.replace(each, student=known[each.student]) for each in self.comment]
+        return structs.replace(self, adjust=adjust, comment=comment)
 
 
 @dataclass(frozen=True)
@@ -246,12 +251,13 @@ RULES = {  # by what msgspec says
 
 def name_value(words: str, document: dict[str, Any]) -> str:
     """Write a complaint of msgspec's with the line of the file that it is about."""
-    found = re.fullmatch(r"(.*) - at `\$\.(late|adjust\[(\d+)\])(?:\.(\w+))?.*`", words)
+    found = re.fullmatch(r"(.*) - at `\$\.(late|(adjust|comment)\[(\d+)\])(?:\.(\w+))?.*`", words)
     if found is None:
         return words
-    complaint, place, number, name = found.groups()
-    line = document["adjust"][int(number)] if number else document.get("late", {})
-    who = f"the decision about {line.get('student')!r}" if number else place
+    complaint, place, kind, number, name = found.groups()
+    line = document[kind][int(number)] if number else document.get("late", {})
+    what = "comment on" if kind == "comment" else "decision about"
+    who = f"the {what} {line.get('student')!r}" if number else place
     rule = next((rule for sign, rule in RULES.items() if sign in complaint), complaint)
     return f"{who}: {name} = {line.get(name)!r} {rule}" if name else f"{who}: {rule}"
 
@@ -306,7 +312,7 @@ def find_set_twice(decisions: Iterable[Adjust]) -> Iterator[str]:
 
 def find_faults_of_decision(each: Adjust, adjustments: Adjustments, most: int) -> Iterator[str]:
     who = ", ".join(each.students)
-    given = [each.add, each.points, each.late, each.due, each.cap, each.bonus]
+    given = [each.add, each.points, each.late, each.due, each.cap, each.bonus, each.take]
     if given.count(None) != len(given) - 1 or each.late:
         yield f"the decision about {who!r} needs one of {KINDS}"
     for name, value in (("points", each.points), ("cap", each.cap)):

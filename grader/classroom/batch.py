@@ -14,6 +14,7 @@ from rich.console import Console
 
 from grader.classroom.adjustments import Adjustments
 from grader.classroom.book import NOTHING, Book, Outcome, make_outcome
+from grader.classroom.comments import Remark
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.similarity import Prints, make_prints
 from grader.errors import Stop
@@ -53,6 +54,7 @@ class Run:
     same: dict[str, dict[tuple[str, ...], str]] = field(default_factory=dict)  # names, by files
     prints: list[Prints] = field(default_factory=list)  # of whom there is something to compare
     package_notes: dict[str, list[str]] = field(default_factory=dict)  # by name
+    remarks: dict[str, list[Remark]] = field(default_factory=dict)  # by name
 
     def list_tasks(self) -> Iterator[Task]:
         """Return the work that must be graded, each once; record all else on the way."""
@@ -68,6 +70,10 @@ class Run:
                 for found in members:
                     self.record_trouble(found, describe_error(error))
                 continue
+            files = dict(package.files)
+            self.remarks |= {
+                each.name: self.adjustments.place_comments(each, files) for each in members
+            }
             self.same.setdefault(digest, {})[first.team] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
             self.prints.append(prints)
@@ -124,6 +130,7 @@ class Run:
             due=final.due,
             handed_in=decisions.add_zone(found.handed_in) if found.handed_in else None,
             group=list(found.group),
+            remarks=self.remarks.get(found.name) or decisions.place_comments(found, {}),
             full_name=self.people.full_names.get(make_portable(found.name), ""),
             handed_in_by=found.handed_in_by,
         )

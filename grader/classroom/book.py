@@ -18,6 +18,7 @@ import msgspec
 from msgspec import Struct
 
 from grader.classroom.adjustments import write_time
+from grader.classroom.comments import Remark
 from grader.intake.names import sort_key
 from grader.judge.course import FULL, Course
 from grader.judge.result import Result, is_bonus
@@ -54,6 +55,7 @@ class Outcome(Struct, frozen=True):
     full_name: str = ""  # as the class list has it
     before: str = ""  # the mark of an earlier run, where that was another one
     changed: list[str] = []  # the checks that give other points than in that run
+    remarks: list[Remark] = []  # a person's comments
 
     @property
     def label(self) -> str:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.classroom.book import NOTHING
+from grader.classroom.comments import describe_remark
 from grader.classroom.dashboard import Entry, make_standing
 from grader.classroom.owners import find_owners
 from grader.errors import Stop
@@ -114,6 +115,8 @@ def write_text(entry: Entry, course: Course) -> str:
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
     mark += f", which is {standing.scaled} in the gradebook" if standing.scaled else ""
     lines = [f"Mark: {mark}", *(f"{name}: {clean(text)}" for name, text in standing.lines)]
+    remarks = map(describe_remark, entry.outcome.remarks)
+    lines += [f"Comment: {clean(words)}" for words in remarks]
     for todo in list_failed_first(entry.result) if entry.result else []:
         points = f"{todo.points} / {todo.max_points}"
         lines += ["", f"TODO {todo.id} {todo.title}: {todo.state}, {points}"]

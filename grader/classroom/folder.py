@@ -12,6 +12,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
+from grader.classroom.adjustments import load_adjustments
 from grader.errors import Stop
 from grader.intake.roster import ClassList
 from grader.intake.systems import BY_NAME, find_system, read_roster
@@ -115,9 +116,11 @@ class ClassFolder:
         return read_course(self.course_path)
 
     def list_people(self) -> ClassList:
-        """Return the students of the class list; nobody without one."""
+        """Return the students of the class list, with the work that a person says is theirs."""
         roster = read_roster(self.roster) if self.roster else None
-        return ClassList(roster, self.settings.key)
+        people = ClassList(roster, self.settings.key)
+        people.chosen = load_adjustments(self.decisions, self.course).choices
+        return people
 
     @property
     def course_name(self) -> str:

@@ -49,6 +49,7 @@ def run_class(path: Path, wanted: ClassOptions, console: Console) -> Run:
     course = wanted.options.course
     adjustments = load_adjustments(wanted.adjust or find_file(path, "adjustments.toml"), course)
     book = Book(wanted.out or path.with_name(f"{path.stem}-results"))
+    people.chosen = adjustments.choices
     with open_class(path, people) as intake, open_executor(wanted) as executor:
         names = intake.names
         absent = people.list_absent(names)

@@ -25,6 +25,7 @@ class Found:
     handed_in: datetime | None = None  # without a zone where the LMS tells the school's own time
     group: tuple[str, ...] = ()  # the others whose work this is too
     handed_in_by: str = ""  # one of them, where it was not this student
+    taken: tuple[str, ...] = ()  # paths in it that a person chose where two could be meant
 
     @property
     def team(self) -> tuple[str, ...]:
@@ -38,7 +39,24 @@ class Found:
 class Intake:
     found: list[Found] = field(default_factory=list)
     troubles: dict[str, str] = field(default_factory=dict)  # name -> why it cannot be graded
+    refused: dict[str, list[Found]] = field(default_factory=dict)  # the work behind a trouble
     notes: list[str] = field(default_factory=list)
+
+    def refuse(self, name: str, words: str, *works: Found) -> None:
+        """Leave work to a person, who may choose among it."""
+        self.troubles[name] = words
+        self.refused[name] = [*self.refused.get(name, []), *works]
+
+    def drop(self, name: str) -> None:
+        """Leave out all that was handed in under a name."""
+        self.found = [each for each in self.found if each.name != name]
+        self.troubles.pop(name, None)
+        self.refused.pop(name, None)
+
+    @property
+    def works(self) -> list[Found]:
+        """Return all that was handed in, also what is left to a person."""
+        return [*self.found, *(each for works in self.refused.values() for each in works)]
 
     @property
     def names(self) -> list[str]:

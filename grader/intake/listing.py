@@ -16,7 +16,7 @@ from grader.intake.found import CannotTake, Found, Intake, Upload
 from grader.intake.groups import share_work
 from grader.intake.lms import Lms
 from grader.intake.names import fold, make_portable
-from grader.intake.packing import lay_out, pack
+from grader.intake.packing import lay_out, pack, read_first_name
 from grader.intake.pieces import ManyPrograms
 from grader.intake.places import (
     cut_suffix,
@@ -26,7 +26,7 @@ from grader.intake.places import (
     list_modules,
     list_programs,
 )
-from grader.intake.roster import CALLED, ClassList
+from grader.intake.roster import CALLED, ClassList, find_student
 from grader.intake.systems import ANY_OTHER, SYSTEMS
 from grader.judge.outer import READING, Allowance, Exceeded, Failed, Lost, call_alone, call_within
 from grader.judge.workplace import work_folder
@@ -65,6 +65,7 @@ def list_class(folder: Path, people: ClassList) -> Intake:
         raise Stop(f"{folder} is one submission, not a folder of them: leave out --class")
     intake = read_names(folder, people)
     intake.found = list(drop_doubles(intake.found, intake))
+    apply_choices(intake, people)
     share_work(intake, people, hash_files)
     intake.found.sort(key=lambda each: each.name)
     if not intake.found and not intake.troubles:
@@ -148,7 +149,8 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     names = {name for name, _ in groups}
     for name, path in empty.items():
         if name not in names:
-            intake.troubles[name] = f"{path.name}: a text or a link was handed in, and no file"
+            words = f"{path.name}: a text or a link was handed in, and no file"
+            intake.refuse(name, words, Found(name, (path,)))
 
 
 def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator[Found]:
@@ -156,7 +158,8 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
     attempts = sorted({each.attempt for each in uploads})
     if len(attempts) > 1 and any(each.timeless for each in uploads):
         files = " and ".join(sorted({each.path.name for each in uploads}))
-        intake.troubles[name] = f"handed in more than once, at unknown times: {files}"
+        works = [Found(name, (each.path,), each.late, each.handed_in) for each in uploads]
+        intake.refuse(name, f"handed in more than once, at unknown times: {files}", *works)
         return
     last = attempts[-1]
     if len(attempts) > 1:
@@ -196,7 +199,8 @@ def mention_file(path: Path, intake: Intake, people: ClassList) -> None:
     else:
         words = f"nothing of the lab was found: {path.name} is no folder and no archive"
     if name is not None:
-        intake.troubles[make_portable(name)] = words
+        name = make_portable(name)
+        intake.refuse(name, words, Found(name, (path,)))
     elif path.name not in SIDE_FILES and suffix != ".csv":
         intake.notes.append(f"{path.name} is no submission: skipped")
 
@@ -222,7 +226,50 @@ def drop_doubles(found: Iterable[Found], intake: Intake) -> Iterator[Found]:
         else:
             words = f"handed in more than once, as {' and '.join(tell_apart(places))}: leave one"
             other = ", or rename one where they are two students'" * (len(set(places)) > 1)
-            intake.troubles[group[0].name] = words + other
+            intake.refuse(group[0].name, words + other, *group)
+
+
+# ---------------------------------------------------------------- what a person chose
+
+
+def apply_choices(intake: Intake, people: ClassList) -> None:
+    """Give each student the work that a person says is theirs."""
+    for who, path in people.chosen:
+        names = intake.names
+        name = find_student(who, [*names, *people.list_absent(names)], people)
+        if not choose_work(intake, people, make_portable(name), path):
+            intake.notes.append(f"{who}: {path!r} was chosen, and nothing of that name is there")
+
+
+def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool:
+    """Make the work at `path` a student's: a submission of the class, or a file or folder in one.
+
+    Work under a name that is not in the class list is then nobody else's.
+    """
+    first = path.partition("/")[0]
+    works = intake.works
+    other = next((each for each in works if path == each.name != name), None)
+    other = other or next((w for w in works if first in {each.name for each in w.sources}), None)
+    own = [each for each in works if each.name == name]
+    work = other or (own[0] if len(own) == 1 else None)
+    if work is None:
+        return False
+    if work.name != name and work.name not in map(make_portable, people.names):
+        intake.drop(work.name)
+    inside = enter_source(work, path) if work.name == name or path != work.name else ""
+    taken = (*work.taken, inside) if inside else work.taken
+    intake.drop(name)
+    intake.found.append(replace(work, name=name, taken=taken))
+    return True
+
+
+def enter_source(work: Found, path: str) -> str:
+    """Return the path as the submission is laid out; empty for all of it."""
+    first, _, rest = path.partition("/")
+    source = next((each for each in work.sources if each.name == first), None)
+    if source is None or not rest:
+        return "" if source else path
+    return rest if source.is_dir() else f"{read_first_name(source)}/{rest}"
 
 
 def tell_apart(names: list[str]) -> list[str]:

@@ -142,7 +142,7 @@ def open_found(
     """Unpack all that was handed in, and find the lab's files in it."""
     folder = found.sources[0]
     if len(found.sources) == 1 and folder.is_dir():
-        laid = arrange(folder, asked)
+        laid = arrange(folder, asked, found.taken)
         if is_complete(laid, asked) or not list_archives(folder):
             yield folder, laid, note_unopened(folder, laid, asked)
             return
@@ -176,7 +176,7 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
     refused: dict[str, str] = {}
     for _ in range(DEEPEST):
         archives = list_archives(folder)
-        laid = arrange(folder, asked)
+        laid = arrange(folder, asked, found.taken)
         if is_complete(laid, asked) or not archives:
             break
         for path in archives:
@@ -187,7 +187,7 @@ def unpack(found: Found, folder: Path, bounds: Bounds, asked: Collection[str] = 
                 shutil.rmtree(path, ignore_errors=True)
                 refused[path.relative_to(folder).as_posix()] = str(error)
             packed.unlink()
-    laid = arrange(folder, asked)
+    laid = arrange(folder, asked, found.taken)
     if refused and not is_complete(laid, asked):
         names = {each.name for each in found.sources}
         why = (f"{name}: {words}" * (name not in names) or words for name, words in refused.items())

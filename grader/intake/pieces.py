@@ -47,6 +47,10 @@ SIGNS = {  # how a file begins that somebody saved under a program's name
 class ManyPrograms(CannotTake):
     """Two programs of one name in a submission: a person must choose."""
 
+    def __init__(self, words: str, paths: Iterable[PurePosixPath] = ()) -> None:
+        super().__init__(words)
+        self.paths = list(paths)
+
 
 @dataclass
 class Arranged:
@@ -108,14 +112,52 @@ class Piece:
         return mine == others
 
 
-def arrange(folder: Path, asked: Collection[str] = ()) -> Arranged:
+def arrange(folder: Path, asked: Collection[str] = (), taken: Collection[str] = ()) -> Arranged:
     """Return the submission in `folder` with each program of the lab where it belongs.
 
-    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top. Of
-    a program that the course does not ask for, either will do: no mark depends on it.
+    Raises ManyPrograms where two could be the same program, and neither lies nearer to the top,
+    unless one of them is `taken`: a person chose it, or its folder.
     """
-    paths = sorted(PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
-    notes: list[str] = []
+    left_out: set[PurePosixPath] = set()
+    while True:
+        try:
+            return arrange_rest(folder, asked, left_out)
+        except ManyPrograms as error:
+            chosen = {
+                path for path in error.paths if is_covered(path, set(map(PurePosixPath, taken)))
+            }
+            if len(chosen) != 1:
+                raise
+            left_out |= set(error.paths) - chosen
+
+
+def list_choices(folder: Path, asked: Collection[str] = ()) -> list[list[PurePosixPath]]:
+    """Return the files or folders of which a person must choose one, for each program."""
+    choices: dict[PurePosixPath, list[PurePosixPath]] = {}
+    left_out: set[PurePosixPath] = set()
+    while True:
+        try:
+            arrange_rest(folder, asked, left_out)
+        except ManyPrograms as error:
+            first, *others = error.paths
+            choices.setdefault(first, [first]).extend(others)
+            left_out |= set(others)
+        else:
+            break
+    by_folder = (list(dict.fromkeys(path.parent for path in paths)) for paths in choices.values())
+    apart = zip(by_folder, choices.values(), strict=True)
+    found = [at if len(at) == len(paths) else paths for at, paths in apart]
+    return [each for number, each in enumerate(found) if each not in found[:number]]
+
+
+def arrange_rest(folder: Path, asked: Collection[str], left_out: set[PurePosixPath]) -> Arranged:
+    """Arrange all but what is `left_out`.
+
+    Of a program that the course does not ask for, either will do: no mark depends on it.
+    """
+    found_paths = (PurePosixPath(p.relative_to(folder).as_posix()) for p in plain_files(folder))
+    paths = sorted(path for path in found_paths if not is_covered(path, left_out))
+    notes = [f"{path} was left out: another was chosen" for path in sorted(left_out)]
     found = find_candidates(paths)
     asked = asked or list_modules()
     pieces = [
@@ -248,10 +290,15 @@ def is_backup(name: str) -> bool:
     return re.search(rf"\b{WORD}\b", name, re.I) is not None
 
 
-def refuse_two(what: str, paths: list[PurePosixPath]) -> NoReturn:
+def refuse_two(
+    what: str, paths: list[PurePosixPath], choices: Iterable[PurePosixPath] = ()
+) -> NoReturn:
+    """Refuse two programs of one name; a person chooses one of them, or of the `choices`."""
     at = sorted({path.parent.as_posix() for path in paths})
     places = ", ".join(at if len(at) == len(paths) else sorted(map(str, paths)))
-    raise ManyPrograms(f"there is more than one program {what}, in {places}: leave one")
+    raise ManyPrograms(
+        f"there is more than one program {what}, in {places}: leave one", choices or paths
+    )
 
 
 def find_loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
@@ -262,7 +309,7 @@ def find_loose_package(paths: list[PurePosixPath], folder: Path) -> list[Piece]:
     if not at:
         return []
     if len(at) > 1:
-        refuse_two(PACKAGE, [each / INIT for each in at])
+        refuse_two(PACKAGE, [each / INIT for each in at], at)
     inside = [path for path in paths if path.is_relative_to(at[0])]
     if at[0] / INIT not in inside:
         inside = [

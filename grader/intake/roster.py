@@ -127,6 +127,9 @@ class ClassList:
         self.groups: dict[str, list[str]] = {}  # students, by the group's name
         self.times: dict[str, datetime] = {}  # of handing in, without a zone, where the list has it
         self.full_names: dict[str, str] = {}  # as lists have them, by the names of results
+        self.chosen: list[
+            tuple[str, str]
+        ] = []  # students, and the work that a person says is theirs
         self.participants: dict[str, str] = {}  # what Moodle calls students in names of files
         self._students: dict[tuple[str, str], set[str]] = {}  # by column and spelling
         self._columns = set(roster.columns) if roster else set()
@@ -192,3 +195,21 @@ class ClassList:
         """Return those who handed in and are not in the class list."""
         listed = {each for name in self.names for each in split_login(name)}
         return [name for name in handed_in if self.names and fold(name) not in listed]
+
+
+def find_student(who: str, names: list[str], people: ClassList) -> str:
+    """Return the name in the class of whom a decision names; as written, of nobody there."""
+    meant = [name for name in names if is_same_student(who, name)]
+    listed = [each for name in people.list_called(who) for each in (name, make_portable(name))]
+    meant += [name for name in names if any(is_same_student(each, name) for each in listed)]
+    meant = list(dict.fromkeys(meant))
+    if len(meant) > 1:
+        raise Stop(
+            f"{who!r} in the adjustments could be {' or '.join(meant)}: write one of these names"
+        )
+    return meant[0] if meant else who
+
+
+def is_same_student(who: str, name: str) -> bool:
+    """Tell whether a name in the file is this student's: the same, or half of an address."""
+    return fold(who) in split_login(name) or fold(name) in split_login(who)

@@ -9,9 +9,21 @@ from grader.judge.result import Result, TodoResult
 from grader.judge.wording import named_reasons
 from grader.player.page import clean_line, fill_template
 from grader.report.files import write_whole
+from grader.text import harmless
 
 TEMPLATES = Path(__file__).with_name("templates")
 MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are linked to
+
+
+@dataclass(frozen=True)
+class Comment:
+    """What a person says to a student, beside the lines of code that it is about."""
+
+    words: str
+    place: str = ""  # the file and the line
+    line: int = 0  # the one that is meant
+    code: list[tuple[int, str]] = field(default_factory=list)  # numbered lines around it
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -24,6 +36,7 @@ class Standing:
     bonus: int = 0  # beside the mark, if it does not count in it
     scaled: str = ""  # the mark as the gradebook has it, if that counts otherwise
     lines: list[tuple[str, str]] = field(default_factory=list)
+    comments: list[Comment] = field(default_factory=list)
 
 
 def write_report(result: Result, path: Path, standing: Standing | None = None) -> None:
@@ -35,7 +48,9 @@ def write_report(result: Result, path: Path, standing: Standing | None = None) -
 def write_standing(standing: Standing, path: Path) -> None:
     """Write the page of a student of whom there is no result."""
     template = TEMPLATES / "standing.html"
-    page = fill_template(template, "report.css", standing=standing, clean=clean_line)
+    page = fill_template(
+        template, "report.css", standing=standing, clean=clean_line, harmless=harmless
+    )
     write_whole(page.encode("utf-8"), path)
 
 
@@ -51,6 +66,7 @@ def render(result: Result, replays: Mapping[str, str], standing: Standing | None
         standing=standing,
         unconfined=unconfined(result.isolation),
         clean=clean_line,
+        harmless=harmless,
         reasons=named_reasons,
     )
 

@@ -1,0 +1,123 @@
+"""Place a person's comments on lines of code, and find these lines again in another submission.
+
+A comment keeps the text of its line and of the lines around it. So it follows a line that moves, or
+that changes while its neighbours stay.
+"""
+
+from collections.abc import Mapping
+from difflib import SequenceMatcher
+from pathlib import PurePosixPath
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta, Struct
+
+SIMILAR = 0.6  # the share of a changed line that must be as it was, if a neighbour is
+AROUND = 2  # lines shown before and after the one that is meant
+
+Words = Annotated[str, Meta(pattern=r"\S")]
+
+
+class Comment(Struct, frozen=True, forbid_unknown_fields=True):
+    """A comment to a student, on a line of a file or on all of the work."""
+
+    student: Words
+    comment: Words
+    file: str = ""
+    line: Annotated[int, Meta(ge=0)] = 0  # its number when the comment was written
+    code: str = ""  # the line's text
+    above: str = ""  # the line before it that is not empty
+    below: str = ""
+
+
+class Remark(Struct, frozen=True):
+    """A comment beside the lines of a submission that it is about."""
+
+    comment: str
+    file: str = ""
+    line: int = 0  # 0: the line was not found
+    code: list[tuple[int, str]] = []  # numbered lines around it
+    note: str = ""  # how the line was found, where that is not as usual
+
+
+def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
+    """Return the comment with the lines that it is about, as the files have them now."""
+    if not comment.file:
+        return Remark(comment.comment)
+    name = find_file(comment.file, files)
+    lines = split_lines(files[name]) if name else []
+    number = find_line(comment, lines)
+    if not number:
+        words = f"this line was not found in this submission: {comment.code.strip()}"
+        return Remark(comment.comment, comment.file, note=words)
+    first = max(0, number - 1 - AROUND)
+    shown = list(enumerate(lines[first : number + AROUND], first + 1))
+    changed = comment.code and comment.code.strip() != lines[number - 1].strip()
+    note = f"the line has changed; it was: {comment.code.strip()}" if changed else ""
+    return Remark(comment.comment, name, number, shown, note)
+
+
+def find_file(name: str, files: Mapping[str, bytes]) -> str:
+    """Return the file of this name, wherever it lies now; empty where none or several are."""
+    last = PurePosixPath(name).name
+    found = [name] if name in files else [e for e in files if PurePosixPath(e).name == last]
+    return found[0] if len(found) == 1 else ""
+
+
+def split_lines(content: bytes) -> list[str]:
+    return [line.rstrip("\r") for line in content.decode("utf-8-sig", "replace").split("\n")]
+
+
+def find_line(comment: Comment, lines: list[str]) -> int:
+    """Return the number of the line that is meant; 0 where none is for sure.
+
+    The same text counts alone if it stands there once, and beside a neighbour otherwise.
+    """
+    if not comment.code.strip():
+        return comment.line if 0 < comment.line <= len(lines) else 0
+    same = [n for n, text in enumerate(lines, 1) if text.strip() == comment.code.strip()]
+    numbers = same or [n for n, text in enumerate(lines, 1) if is_similar(text, comment.code)]
+    beside = {n: count_neighbours(comment, lines, n) for n in numbers}
+    most = max(beside.values(), default=0)
+    if not most and (not same or len(same) > 1):
+        return 0
+    best = [n for n in numbers if beside[n] == most]
+    return min(best, key=lambda n: abs(n - comment.line))
+
+
+def is_similar(text: str, code: str) -> bool:
+    matcher = SequenceMatcher(None, text.strip()[:200], code.strip()[:200], autojunk=False)
+    return matcher.quick_ratio() >= SIMILAR and matcher.ratio() >= SIMILAR
+
+
+def count_neighbours(comment: Comment, lines: list[str], number: int) -> int:
+    pairs = zip(list_neighbours(lines, number), (comment.above, comment.below), strict=True)
+    return sum(bool(now) and now == was.strip() for now, was in pairs)
+
+
+def list_neighbours(lines: list[str], number: int) -> tuple[str, str]:
+    """Return the lines before and after that are not empty, without their indentation."""
+    above = next(filter(None, (line.strip() for line in reversed(lines[: number - 1]))), "")
+    below = next(filter(None, (line.strip() for line in lines[number:])), "")
+    return above, below
+
+
+def write_comment(student: str, words: str, file: str, line: int, content: bytes) -> Comment:
+    """Return a comment on this line of a file as it is now."""
+    lines = split_lines(content)
+    above, below = list_neighbours(lines, line)
+    return Comment(student, words, file, line, lines[line - 1].strip(), above, below)
+
+
+def describe_remark(remark: Remark) -> str:
+    """Return a comment and its place on one line."""
+    place = f"{remark.file}, line {remark.line}: " if remark.line else ""
+    place = place or f"{remark.file}: " * bool(remark.file)
+    note = f" ({remark.note})" if remark.note else ""
+    return f"{place}{remark.comment}{note}"
+
+
+def encode_comment(comment: Comment) -> dict[str, object]:
+    """Return a comment as the file of decisions holds it: what is empty is left out."""
+    values: dict[str, object] = msgspec.structs.asdict(comment)
+    return {name: value for name, value in values.items() if value}

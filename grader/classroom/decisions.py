@@ -1,0 +1,159 @@
+"""Change the file of decisions table by table: all that a person wrote around them stays.
+
+A table is known by its values. Before anything is written the whole file is read again: it must say
+what it said before, and the change.
+"""
+
+import re
+import tomllib
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from grader.classroom.adjustments import load_adjustments
+from grader.errors import Stop
+from grader.intake.names import fold
+from grader.judge.course import Course
+from grader.judge.workplace import work_folder
+from grader.report.files import write_whole
+
+HEADER = re.compile(r"^[ \t]*\[\[?[ \t]*([\w-]+)[ \t]*\]\]?[ \t]*(#.*)?$")
+HEAD = (
+    "# What people decide about this class. `grader class review` writes it, and you may edit it.\n"
+)
+Table = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Decision:
+    """A table of the file: `adjust` or `comment`, its values, and the lines it takes."""
+
+    kind: str
+    values: Table
+    first: int = 0
+    end: int = 0
+
+    @property
+    def key(self) -> str:
+        """Return words that name it in a form, and no other decision."""
+        return f"{self.kind} {sorted(self.values.items())!r}"
+
+    @property
+    def what(self) -> str:
+        """Return the line that decides something: `points`, `take`, `comment`."""
+        return next((n for n in self.values if n not in ("student", "reason")), self.kind)
+
+    def concerns(self, names: set[str]) -> bool:
+        who = self.values.get("student", [])
+        return any(fold(each) in names for each in ([who] if isinstance(who, str) else who))
+
+
+@dataclass(frozen=True)
+class DecisionsFile:
+    """The file of decisions of a class; it may not be there yet."""
+
+    path: Path
+    course: Course
+
+    @property
+    def text(self) -> str:
+        return self.path.read_text(encoding="utf-8-sig") if self.path.is_file() else HEAD
+
+    def list_decisions(self) -> list[Decision]:
+        return find_decisions(self.text, self.path)
+
+    def add(self, kind: str, values: Table) -> None:
+        """Write a decision at the end of the file."""
+        text = f"{self.text.rstrip()}\n\n{write_table(kind, values)}"
+        self.write(text, [*self.list_decisions(), Decision(kind, values)])
+
+    def replace(self, old: Decision, values: Table) -> None:
+        """Change the lines of a decision whose values are others now; its comments stay."""
+        lines = self.text.splitlines(keepends=True)
+        table = "".join(lines[old.first : old.end])
+        for name, value in values.items():
+            table = set_value(table, name, value)
+        found = [Decision(old.kind, values) if e == old else e for e in self.list_decisions()]
+        self.write("".join([*lines[: old.first], table, *lines[old.end :]]), found)
+
+    def remove(self, key: str) -> None:
+        """Take out a decision with its own lines; raises Stop where it is not there as it was."""
+        found = self.list_decisions()
+        old = next((each for each in found if each.key == key), None)
+        if old is None:
+            raise Stop(f"{self.path} has changed meanwhile: look at it again")
+        lines = self.text.splitlines(keepends=True)
+        found.remove(old)
+        self.write("".join([*lines[: old.first], *lines[old.end :]]), found)
+
+    def write(self, text: str, wanted: list[Decision]) -> None:
+        """Write the file if it says what is wanted, and means something in this course."""
+        found = find_decisions(text, self.path)
+        rest = [without_tables(each) for each in (text, self.text)]
+        if [e.key for e in found] != [e.key for e in wanted] or rest[0] != rest[1]:
+            raise Stop(f"{self.path} is written in a way that is not changed here: edit it")
+        with work_folder() as folder:
+            draft = folder / self.path.name
+            draft.write_text(text, encoding="utf-8")
+            load_adjustments(draft, self.course)
+        write_whole(text.encode("utf-8"), self.path)
+
+
+def without_tables(text: str) -> Mapping[str, Any]:
+    document = tomllib.loads(text)
+    return {name: value for name, value in document.items() if name not in ("adjust", "comment")}
+
+
+def find_decisions(text: str, path: Path) -> list[Decision]:
+    """Return the decisions in the order of the file; raises Stop where their lines are not found.
+
+    A table ends with its last value: notes and empty lines after it belong to the next one.
+    """
+    try:
+        document = tomllib.loads(text)
+    except ValueError as error:
+        raise Stop(f"{path}: {error}") from error
+    lines = text.splitlines(keepends=True)
+    heads = [(n, head[1]) for n, line in enumerate(lines) if (head := HEADER.match(line))]
+    left = {kind: list(document.get(kind, [])) for kind in ("adjust", "comment")}
+    found = []
+    ends = [*(first for first, _ in heads[1:]), len(lines)]
+    for (first, kind), end in zip(heads, ends, strict=False):
+        if left.get(kind):
+            while lines[end - 1].strip() == "" or lines[end - 1].lstrip().startswith("#"):
+                end -= 1
+            values = left[kind].pop(0)
+            if not says("".join(lines[first:end]), kind, values):
+                break
+            found.append(Decision(kind, values, first, end))
+    if len(found) != sum(len(document.get(kind, [])) for kind in left):
+        raise Stop(f"{path} is written in a way that is not changed here: edit it")
+    return found
+
+
+def says(lines: str, kind: str, values: Table) -> bool:
+    """Tell whether these lines are a table of these values and nothing else."""
+    with suppress(ValueError):  # a text over several lines may have one that looks like a table
+        return tomllib.loads(lines) == {kind: [values]}
+    return False
+
+
+def write_table(kind: str, values: Table) -> str:
+    lines = [f"{name} = {write_value(value)}\n" for name, value in values.items()]
+    return "".join([f"[[{kind}]]\n", *lines])
+
+
+def write_value(value: object) -> str:
+    """Return a text, number or list of texts as TOML has it."""
+    return msgspec.json.encode(value).decode("utf-8").replace("\x7f", "\\u007f")
+
+
+def set_value(table: str, name: str, value: object) -> str:
+    """Return the table with this line in the place of an older one, whose note stays."""
+    text = r'"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|[^"\'#\n\[]*?'
+    pattern = re.compile(rf"^([ \t]*{name}[ \t]*=[ \t]*)({text})([ \t]*(?:#.*)?)$", re.MULTILINE)
+    return pattern.sub(lambda found: f"{found[1]}{write_value(value)}{found[3]}", table, count=1)
