@@ -16,7 +16,6 @@ import msgspec
 
 from grader.classroom.adjustments import load_adjustments
 from grader.errors import Stop
-from grader.intake.names import fold
 from grader.judge.course import Course
 from grader.judge.workplace import work_folder
 from grader.report.files import write_whole
@@ -47,9 +46,10 @@ class Decision:
         """Return the line that decides something: `points`, `take`, `comment`."""
         return next((n for n in self.values if n not in ("student", "reason")), self.kind)
 
-    def concerns(self, names: set[str]) -> bool:
+    @property
+    def students(self) -> list[str]:
         who = self.values.get("student", [])
-        return any(fold(each) in names for each in ([who] if isinstance(who, str) else who))
+        return [who] if isinstance(who, str) else who
 
 
 @dataclass(frozen=True)

@@ -146,6 +146,21 @@ def grade_folder(path: Path, wanted: "ClassOptions", decisions: Path | None = No
     raise typer.Exit(2 if open_ones else 0)
 
 
+@class_app.command("review")
+def review_command(folder: Folder = Path(".")) -> None:
+    """Decide on a local page what needs a person: it writes the file of decisions."""
+    known = open_folder(folder)
+    from grader.classroom.review_server import open_review
+
+    with open_review(known) as server:
+        print_note(f"Review: {server.address}")
+        print_note("Only this machine and this address reach it. Ctrl-C ends it.")
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            print_note(f"Ended. Next: grader class grade {folder}")
+
+
 @class_app.command("marks")
 def marks_command(
     folder: Folder = Path("."),

@@ -254,7 +254,7 @@ def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool
     work = other or (own[0] if len(own) == 1 else None)
     if work is None:
         return False
-    if work.name != name and work.name not in map(make_portable, people.names):
+    if work.name != name and (not people.names or people.list_unlisted([work.name])):
         intake.drop(work.name)
     inside = enter_source(work, path) if work.name == name or path != work.name else ""
     taken = (*work.taken, inside) if inside else work.taken

@@ -4,11 +4,13 @@ import hashlib
 import re
 import shutil
 from collections.abc import Callable, Collection, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from io import BufferedReader
 from itertools import islice
 from pathlib import Path, PurePosixPath
+
+from msgspec import Struct
 
 from grader.intake.archives import Bounds, unzip
 from grader.intake.found import CannotTake, Found, Package
@@ -17,6 +19,7 @@ from grader.intake.pieces import (
     Arranged,
     ManyPrograms,
     arrange,
+    list_choices,
     match_name,
     name_type,
     rank_file,
@@ -101,6 +104,34 @@ def read_package(found: Found, asked: Collection[str] = ()) -> Package:
     if len(notes) > MENTIONED:
         notes[MENTIONED:] = [f"and {len(notes) - MENTIONED} notes more"]
     return Package(found.name, sorted(files), notes)
+
+
+class Shown(Struct, frozen=True):
+    """A submission as it came: its files, and those of which a person must choose one."""
+
+    files: list[tuple[str, bytes]]
+    choices: list[list[str]] = []
+
+
+def show(found: Found, asked: Collection[str] = ()) -> Shown:
+    """Read a submission as it came, within the limits; what cannot be read shows no files."""
+    try:
+        return call_within(READING, Shown, partial(read_shown, found, asked), (CannotTake,))
+    except (Exceeded, Failed, Lost, CannotTake, OSError):
+        return Shown([])
+
+
+def read_shown(found: Found, asked: Collection[str]) -> Shown:
+    """Read it in this process; archives are opened until a person must choose."""
+    bounds = Bounds()
+    with work_folder() as folder:
+        copy_all(found, folder, bounds)
+        with suppress(CannotGrade):
+            unpack(found, folder, bounds, asked)
+        paths = [PurePosixPath(path.relative_to(folder).as_posix()) for path in plain_files(folder)]
+        files = [(path.as_posix(), (folder / path).read_bytes()) for path in paths]
+        choices = list_choices(folder, asked)
+    return Shown(sorted(files), [[each.as_posix() for each in group] for group in choices])
 
 
 def find_empty_programs(files: list[tuple[str, bytes]], asked: Collection[str]) -> list[str]:

@@ -1,11 +1,26 @@
 """What a person decides about a class: in the file, on the local page, and by mail."""
 
+import http.client
+import re
+from collections.abc import Iterator
 from pathlib import Path
+from threading import Thread
+from typing import Any
+from urllib.parse import urlencode
 
+import classes
+import packed
 import pytest
+from command_line import run_grader
+from page_readers import PATIENCE, Reader, barriers, chromium
+from points_pool import Inline
 
+from grader.classroom import grading
 from grader.classroom.comments import Comment, place_comment, write_comment
 from grader.classroom.decisions import DecisionsFile
+from grader.classroom.folder import read_class_folder
+from grader.classroom.review import Request, Response, respond
+from grader.classroom.review_server import ReviewServer, open_review
 from grader.errors import Stop
 from grader.intake.listing import open_class
 from grader.intake.packing import pack
@@ -142,3 +157,233 @@ def test_a_choice_of_nothing_is_noted(tmp_path: Path):
     people.chosen = [("zed", "gone.zip")]
     with open_class(tmp_path, people) as intake:
         assert intake.notes == ["zed: 'gone.zip' was chosen, and nothing of that name is there"]
+
+
+# ---------------------------------------------------------------- the page
+
+COURSE = 'title = "Lab 3"\ntodos = ["8a"]\n[points]\n8a = 20\n'
+BAD = "</pre><script>alert(1)</script>"
+
+
+def code(points: int) -> str:
+    return f"points = {points}\n{CODE.decode()}"
+
+
+def lock(archive: bytes) -> bytes:
+    """Return a zip that says that it has a password."""
+    content = bytearray(archive)
+    for sign, at in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        for found in re.finditer(re.escape(sign), archive):
+            content[found.start() + at] |= 1
+    return bytes(content)
+
+
+def call(*words: object) -> str:
+    done = run_grader("class", *words)
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    return " ".join(done.output.split())
+
+
+@pytest.fixture
+def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A graded class with all that needs a person."""
+    monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
+    work = classes.work(5)
+    two = {f"{at}/{name}": text for at in "ab" for name, text in work.items()}
+    export = {
+        "ann.zip": packed.as_zip(work | {"integrators.py": code(5)}),
+        "ben.zip": packed.as_zip(two | {"b/integrators.py": code(9)}),
+        "dora.zip": lock(packed.as_zip(work)),
+        "eve/x.py": BAD,
+        "finn.zip": packed.as_zip(work),
+        "finn/integrators.py": code(7),
+        "Gil_77.zip": packed.as_zip(work | {"integrators.py": code(8)}),
+        "hana.zip": packed.as_zip(work | {"integrators.py": "x = '\xfc'".encode("latin-1")}),
+    }
+    for name, content in export.items():
+        classes.put(tmp_path / "export" / name, content)
+    rows = [
+        f"{n}@x.edu,{n.title()} Lee" for n in ("ann", "ben", "dora", "eve", "finn", "gil", "hana")
+    ]
+    (tmp_path / "list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
+    (tmp_path / "autumn.toml").write_text(COURSE)
+    paths = {"roster": "list.csv", "course": "autumn.toml", "submissions": "export"}
+    options = [word for name, file in paths.items() for word in (f"--{name}", tmp_path / file)]
+    call("new", tmp_path / "lab", *options)
+    assert "5 need manual review" in call("grade", tmp_path / "lab")
+    return tmp_path / "lab"
+
+
+@pytest.fixture
+def server(lab: Path) -> Iterator[ReviewServer]:
+    with open_review(read_class_folder(lab)) as server:
+        yield server
+
+
+def ask(
+    server: ReviewServer, path: str, form: dict[str, object] | None = None, **more: Any
+) -> Response:
+    review, (where, _, query) = server.review, path.partition("?")
+    values = {
+        "method": "GET" if form is None else "POST",
+        "path": where,
+        "query": dict(pair.split("=") for pair in query.split("&") if pair),
+        "form": {name: str(value) for name, value in (form or {}).items()},
+        "host": review.host,
+        "origin": f"http://{review.host}",
+        "cookie": review.token,
+    }
+    return respond(review, Request(**values | more))
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"cookie": ""},
+        {"cookie": "x"},
+        {"host": "evil.example"},
+        {"host": "127.0.0.1"},
+        {"path": "/", "query": {"token": "\u00fc"}, "cookie": ""},
+    ],
+)
+def test_nobody_else_reads_the_page(server: ReviewServer, more: dict[str, Any]):
+    assert ask(server, "/", **more).status == 403
+
+
+@pytest.mark.parametrize("origin", ["", "null", "http://evil.example", "http://127.0.0.1:1"])
+def test_no_other_page_sends_a_form(server: ReviewServer, lab: Path, origin: str):
+    form = {"name": "dora", "kind": "points", "points": 9, "reason": "x"}
+    assert ask(server, "/points", form, origin=origin).status == 403
+    assert not (lab / "decisions.toml").exists()
+
+
+def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Path):
+    listed = Reader(ask(server, "/").body).text
+    assert (
+        "Needs a person: 6" in listed
+        and "encrypted" in listed
+        and "not in the class list" in listed
+    )
+    forms: list[tuple[str, dict[str, object]]] = [
+        ("/points", {"name": "dora", "kind": "points", "points": 8, "reason": "wrong"}),
+        ("/points", {"name": "dora", "kind": "points", "points": 9, "reason": "shown\r\nto me"}),
+        ("/points", {"name": "ann", "kind": "add", "points": -1, "reason": "no docstring"}),
+        ("/work", {"name": "ben", "path": "ben.zip/a", "reason": "told me"}),
+        ("/work", {"name": "ben", "path": "ben.zip/b", "reason": "told me so"}),
+        ("/work", {"name": "finn", "path": "finn.zip", "reason": "the whole"}),
+        ("/owner", {"name": "Gil_77", "student": "gil@x.edu", "reason": "his number"}),
+        ("/comment", {"name": "ann", "file": "integrators.py", "line": 3, "comment": "Which x?"}),
+        ("/comment", {"name": "dora", "comment": f"No password, please.\n{BAD}"}),
+    ]
+    for path, form in forms:
+        assert ask(server, path, form).status == 303, ask(server, path, form).body
+    text = (lab / "decisions.toml").read_text(encoding="utf-8")
+    assert text.count("[[adjust]]") == 5 and text.count("[[comment]]") == 2
+    assert 'student = "gil@x.edu"\ntake = "Gil_77"\nreason = "his number"' in text
+    assert "2 need manual review" in call("grade", lab)
+    with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
+        points = {line.split(",")[0]: line.split(",")[2] for line in table}
+    wanted = {"ann": "4", "ben": "9", "dora": "9", "finn": "5", "gil@x.edu": "8"}
+    assert {name: points[name] for name in wanted} == wanted
+    page = (lab / "results" / "ann.html").read_text(encoding="utf-8")
+    assert "integrators.py, line 3" in page and "Which x?" in page
+    page = (lab / "results" / "dora.html").read_text(encoding="utf-8")
+    assert "No password, please." in page and BAD not in page
+
+
+def test_a_comment_is_on_the_next_submission_too(server: ReviewServer, lab: Path):
+    form = {"name": "ann", "file": "integrators.py", "line": 3, "comment": "Which x?"}
+    ask(server, "/comment", form)
+    work = classes.work(6) | {"integrators.py": f"import math\n\n{code(6)}"}
+    classes.put(lab.parent / "export" / "ann.zip", packed.as_zip(work))
+    call("grade", lab)
+    page = (lab / "results" / "ann.html").read_text(encoding="utf-8")
+    assert "integrators.py, line 5" in page and "<mark>5     x = x + v * dt</mark>" in page
+
+
+@pytest.mark.parametrize(
+    "path, form, words",
+    [
+        ("/points", {"points": "9", "kind": "points"}, "the reason is missing"),
+        ("/points", {"points": "x", "kind": "points", "reason": "x"}, "is no whole number"),
+        ("/points", {"points": "99", "kind": "points", "reason": "x"}, "more than the 20"),
+        ("/points", {"points": "9", "kind": "zone", "reason": "x"}, "choose what"),
+        ("/work", {"path": "/etc/passwd", "reason": "x"}, "choose one of the files"),
+        ("/owner", {"student": "gil@x.edu", "reason": "x"}, "choose a student"),
+        ("/comment", {"comment": " "}, "the comment is empty"),
+        ("/comment", {"comment": "x", "file": "../x", "line": "1"}, "has no line 1"),
+        ("/remove", {"key": "x"}, "has changed meanwhile"),
+    ],
+)
+def test_a_form_that_means_nothing_writes_nothing(
+    server: ReviewServer, lab: Path, path: str, form: dict[str, object], words: str
+):
+    answer = ask(server, path, {"name": "ben"} | form)
+    assert answer.status == 400 and words in answer.body
+    assert not (lab / "decisions.toml").exists()
+
+
+def test_words_of_submissions_are_text(server: ReviewServer):
+    page = Reader(ask(server, "/student?name=eve").body)
+    assert BAD in page.text and page.count("script") == 0 and not page.handlers
+
+
+def test_the_server_answers_who_has_the_address(server: ReviewServer):
+    Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        client = http.client.HTTPConnection(server.review.host, timeout=60)
+
+        def send(
+            method: str, path: str, body: str = "", **headers: str
+        ) -> http.client.HTTPResponse:
+            client.request(method, path, body, headers)
+            answer = client.getresponse()
+            answer.read()
+            return answer
+
+        assert send("GET", "/").status == 403
+        entered = send("GET", "/" + server.address.rpartition("/")[2])
+        cookie = entered.headers["Set-Cookie"].partition(";")[0]
+        assert entered.status == 303 and "SameSite=Strict" in entered.headers["Set-Cookie"]
+        assert send("GET", "/", Cookie=cookie).headers["Cache-Control"] == "no-store"
+        form = urlencode({"name": "dora", "kind": "points", "points": 9, "reason": "shown"})
+        assert send("POST", "/points", form, Cookie=cookie).status == 403
+        sure = {"Cookie": cookie, "Origin": f"http://{server.review.host}"}
+        assert send("POST", "/points", form, **sure).status == 303
+        assert send("POST", "/points", "x" * 200_000, **sure).status == 413
+    finally:
+        server.shutdown()
+
+
+def test_a_person_decides_with_the_keyboard_alone(server: ReviewServer, lab: Path, tmp_path: Path):
+    Thread(target=server.serve_forever, daemon=True).start()
+    with chromium() as browser:
+        page = browser.new_page(java_script_enabled=False)
+        page.set_default_timeout(PATIENCE)
+        page.goto(server.address)
+        tab_to(page, "Ben Lee", "ben")
+        page.keyboard.press("Enter")
+        page.wait_for_url("**/student?name=ben")
+        for key in ("Tab", "Tab", "Space", "Tab"):
+            page.keyboard.press(key)
+        page.keyboard.type("told me")
+        page.keyboard.press("Enter")
+        page.wait_for_url("**done=1")
+        assert "Written to decisions.toml" in page.inner_text("[role=status]")
+        for name in ("ben", "eve"):
+            body = ask(server, f"/student?name={name}").body
+            (tmp_path / f"{name}.html").write_text(body, encoding="utf-8")
+        (tmp_path / "class.html").write_text(ask(server, "/").body, encoding="utf-8")
+        shown = [tmp_path / f"{name}.html" for name in ("ben", "eve", "class")]
+        assert barriers(browser, *shown) == []
+    server.shutdown()
+    assert 'take = "ben.zip/' in (lab / "decisions.toml").read_text(encoding="utf-8")
+
+
+def tab_to(page: Any, *names: str) -> None:
+    """Press Tab until the link of one of these names has the focus."""
+    for _ in range(50):
+        page.keyboard.press("Tab")
+        if page.locator("a:focus").all_inner_texts() and page.inner_text("a:focus") in names:
+            return
+    raise AssertionError(f"no Tab leads to {names}")

@@ -1,0 +1,396 @@
+"""Answer the requests of the local page on which a person decides about a class.
+
+`respond` is a function of a request and the folder of the class: it needs no server. Nothing but
+the file of decisions is written. The words of submissions are text in every page, and no script
+runs in any.
+"""
+
+import hmac
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path, PurePosixPath
+from urllib.parse import quote, urlencode
+
+import msgspec
+
+from grader.classroom.book import Outcome
+from grader.classroom.comments import (
+    Comment,
+    Remark,
+    encode_comment,
+    place_comment,
+    split_lines,
+    write_comment,
+)
+from grader.classroom.dashboard import read_class
+from grader.classroom.decisions import Decision, DecisionsFile, Table
+from grader.classroom.folder import ClassFolder
+from grader.errors import Stop
+from grader.intake.found import CannotTake, Found, Intake
+from grader.intake.names import make_portable
+from grader.intake.packing import Shown, pack, show
+from grader.intake.pieces import name_type, rank_file
+from grader.intake.roster import ClassList, is_same_student
+from grader.player.page import clean_line, fill_template
+from grader.text import harmless
+
+TEMPLATES = Path(__file__).with_name("templates")
+MOST_FILES = 60  # on a page
+LONGEST_FILE = 200_000  # bytes shown of a file
+HEADERS = {
+    "Content-Type": "text/html; charset=utf-8",
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; "
+    "base-uri 'none'; frame-ancestors 'none'",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "same-origin",
+    "X-Content-Type-Options": "nosniff",
+}
+Form = Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a browser asks for."""
+
+    method: str
+    path: str
+    query: Form = field(default_factory=dict)
+    form: Form = field(default_factory=dict)
+    host: str = ""
+    origin: str = ""
+    cookie: str = ""  # the value of ours
+
+
+@dataclass(frozen=True)
+class Response:
+    status: int
+    body: str = ""
+    headers: Form = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Work of which a person must choose one, and why; `paths` with words for each."""
+
+    title: str
+    paths: dict[str, str]
+
+
+@dataclass
+class Review:
+    """A class under review: its submissions as they came, and what is decided so far."""
+
+    known: ClassFolder
+    intake: Intake
+    people: ClassList  # without what a person chose
+    host: str = "127.0.0.1"
+    token: str = field(default_factory=secrets.token_urlsafe)
+    read: dict[str, tuple[Shown, str]] = field(default_factory=dict)  # by name
+
+    @cached_property
+    def outcomes(self) -> dict[str, Outcome]:
+        return {each.outcome.name: each.outcome for each in read_class(self.known.find_results())}
+
+    @cached_property
+    def unlisted(self) -> list[str]:
+        return self.people.list_unlisted(self.intake.names)
+
+    @cached_property
+    def absent(self) -> list[str]:
+        return self.people.list_absent(self.intake.names)
+
+    @property
+    def file(self) -> DecisionsFile:
+        return DecisionsFile(self.known.locate(self.known.settings.decisions), self.known.course)
+
+    @property
+    def names(self) -> list[str]:
+        """Return everybody of the class, sorted as people sort them."""
+        names = dict.fromkeys([*self.outcomes, *self.intake.names, *self.absent])
+        return sorted(names, key=lambda name: self.find_outcome(name).order)
+
+    def find_outcome(self, name: str) -> Outcome:
+        full = self.people.full_names.get(name, "")
+        return self.outcomes.get(name, Outcome(name, full_name=full))
+
+    def find_reason(self, name: str) -> str:
+        """Return why a person must look at this work; empty if nobody must."""
+        outcome = self.find_outcome(name)
+        trouble = self.intake.troubles.get(name) or outcome.trouble
+        return trouble or ("not in the class list" if name in self.unlisted else "")
+
+    def list_decisions(self, name: str) -> list[Decision]:
+        """Return the decisions about a student, by any name that means them."""
+        return [each for each in self.file.list_decisions() if self.is_about(each, name)]
+
+    def is_about(self, decision: Decision, name: str) -> bool:
+        called = [each for who in decision.students for each in self.people.list_called(who)]
+        same = any(is_same_student(who, name) for who in decision.students)
+        return same or name in map(make_portable, called) or decision.values.get("take") == name
+
+    def list_works(self, name: str) -> list[Found]:
+        return [each for each in self.intake.works if each.name == name]
+
+    def read_files(self, name: str) -> tuple[Shown, str]:
+        """Return a student's files as they are graded, or as they came; and which of the two."""
+        if name not in self.read:
+            self.read[name] = self.read_anew(name)
+        return self.read[name]
+
+    def read_anew(self, name: str) -> tuple[Shown, str]:
+        works, asked = self.list_works(name), self.known.course.modules
+        if len(works) == 1 and name not in self.intake.troubles:
+            try:
+                return Shown(pack(works[0], asked).files), "as they are graded"
+            except CannotTake:
+                return show(works[0], asked), "as they came"
+        shown = [(work, show(work, asked)) for work in works]
+        many = len(shown) > 1
+        files = [
+            (f"{work.sources[0].name}/{file}" if many else file, content)
+            for work, each in shown
+            for file, content in each.files
+        ]
+        return Shown(files, shown[0][1].choices if len(shown) == 1 else []), "as they came"
+
+    def list_choices(self, name: str) -> list[Choice]:
+        """Return all that a person may choose for a student, a list for each question."""
+        works, (shown, _) = self.list_works(name), self.read_files(name)
+        choices = [Choice("Which one counts?", {e: e for e in group}) for group in shown.choices]
+        if name in self.intake.refused:
+            sources = [work.sources[0].name for work in works]
+            choices.append(Choice("Which work counts?", {each: each for each in sources}))
+        if (self.find_reason(name) and name not in self.unlisted) or not works:
+            others = {each: f"the work of {each}" for each in self.unlisted}
+            choices.append(Choice("Is other work theirs?", others))
+        return [each for each in choices if each.paths]
+
+
+# ---------------------------------------------------------------- requests
+
+
+def respond(review: Review, request: Request) -> Response:
+    """Return the answer to a request; only who has the token gets anything else than 403."""
+    if request.host not in (review.host, review.host.replace("127.0.0.1", "localhost")):
+        return refuse(403, "This page is for this machine alone.")
+    if request.path == "/" and same(request.query.get("token", ""), review.token):
+        cookie = f"{name_cookie(review)}={review.token}; HttpOnly; SameSite=Strict; Path=/"
+        return Response(303, "", {"Location": "/", "Set-Cookie": cookie})
+    if not same(request.cookie, review.token):
+        return refuse(403, "Open the address that `grader class review` printed.")
+    if request.method == "POST":
+        if request.origin != f"http://{request.host}":
+            return refuse(403, "This form is not of this page.")
+        return change(review, request)
+    if request.method != "GET":
+        return refuse(405, "There is nothing to do so.")
+    if request.path == "/":
+        return Response(200, render_class(review), HEADERS)
+    name = request.query.get("name", "")
+    if request.path != "/student" or name not in review.names:
+        return refuse(404, "There is no such page.")
+    return Response(200, render_student(review, name, request.query), HEADERS)
+
+
+def name_cookie(review: Review) -> str:
+    """Return the name of our cookie: browsers send those of one port to all others."""
+    return f"review-{review.host.rpartition(':')[2]}"
+
+
+def same(given: str, token: str) -> bool:
+    return hmac.compare_digest(given.encode("utf-8", "replace"), token.encode())
+
+
+def refuse(status: int, words: str) -> Response:
+    return Response(status, words, {**HEADERS, "Content-Type": "text/plain; charset=utf-8"})
+
+
+def change(review: Review, request: Request) -> Response:
+    """Do what a form says, and show the student again; or say why nothing was written."""
+    form = request.form
+    name = form.get("name", "")
+    act = ACTS.get(request.path)
+    if act is None or name not in review.names:
+        return refuse(404, "There is no such form.")
+    try:
+        act(review, name, form)
+    except Stop as error:
+        return Response(400, render_student(review, name, form, str(error)), HEADERS)
+    return Response(303, "", {"Location": f"/student?{urlencode({'name': name, 'done': 1})}"})
+
+
+def decide_points(review: Review, name: str, form: Form) -> None:
+    """Write the mark, or points to add, in the place of an earlier one."""
+    kind = form.get("kind", "")
+    if kind not in ("points", "add"):
+        raise Stop("choose what the points do")
+    values = {"student": name, kind: read_number(form, "points"), "reason": read_reason(form)}
+    put(review.file, values, [e for e in review.list_decisions(name) if e.what == kind])
+
+
+def decide_work(review: Review, name: str, form: Form) -> None:
+    """Write which work counts, in the place of another choice of the same question."""
+    path = form.get("path", "")
+    choices = [each for each in review.list_choices(name) if path in each.paths]
+    if not choices:
+        raise Stop("choose one of the files or folders")
+    old = [e for e in review.list_decisions(name) if e.values.get("take") in choices[0].paths]
+    put(review.file, {"student": name, "take": path, "reason": read_reason(form)}, old)
+
+
+def decide_owner(review: Review, name: str, form: Form) -> None:
+    """Write whose work it is that came under a name that is not in the class list."""
+    student = form.get("student", "")
+    if student not in review.people.names or name not in review.unlisted:
+        raise Stop("choose a student of the class list")
+    old = [e for e in review.list_decisions(name) if e.values.get("take") == name]
+    put(review.file, {"student": student, "take": name, "reason": read_reason(form)}, old)
+
+
+def decide_comment(review: Review, name: str, form: Form) -> None:
+    """Write a comment, on a line where one is named."""
+    words, file = harmless(form.get("comment", "").replace("\r", "")).strip(), form.get("file", "")
+    if not words:
+        raise Stop("the comment is empty: write one")
+    comment = Comment(name, words)
+    if file:
+        files = dict(review.read_files(name)[0].files)
+        line = read_number(form, "line")
+        if not 0 < line <= len(split_lines(files.get(file, b""))):
+            raise Stop(f"{file} has no line {line}")
+        comment = write_comment(name, words, file, line, files[file])
+    review.file.add("comment", encode_comment(comment))
+
+
+def remove_decision(review: Review, name: str, form: Form) -> None:
+    review.file.remove(form.get("key", ""))
+
+
+ACTS: dict[str, Callable[[Review, str, Form], None]] = {
+    "/points": decide_points,
+    "/work": decide_work,
+    "/owner": decide_owner,
+    "/comment": decide_comment,
+    "/remove": remove_decision,
+}
+
+
+def put(file: DecisionsFile, values: Table, old: list[Decision]) -> None:
+    """Write a decision, in the place of the old one if that has the same lines."""
+    if old and set(old[0].values) == set(values) and isinstance(old[0].values["student"], str):
+        kept = {"student": old[0].values["student"]} if "take" not in values else {}
+        file.replace(old[0], values | kept)
+    else:
+        file.add("adjust", values)
+
+
+def read_number(form: Form, name: str) -> int:
+    words = form.get(name, "").strip()
+    try:
+        return int(words[:9])
+    except ValueError:
+        raise Stop(f"{name} {words[:40]!r} is no whole number") from None
+
+
+def read_reason(form: Form) -> str:
+    words = " ".join(harmless(form.get("reason", "")).split())
+    if not words:
+        raise Stop("the reason is missing: the student reads it")
+    return words
+
+
+# ---------------------------------------------------------------- pages
+
+
+@dataclass(frozen=True)
+class File:
+    """A file as the page shows it: numbered lines, or why there are none."""
+
+    name: str
+    lines: list[str]
+    note: str = ""
+    remarks: dict[int, list[str]] = field(default_factory=dict)  # comments by line
+
+
+def render_class(review: Review) -> str:
+    rows = [(name, review.find_outcome(name), review.find_reason(name)) for name in review.names]
+    decided = {name: review.list_decisions(name) for name, _, _ in rows}
+    return fill(
+        "review.html",
+        known=review.known,
+        waiting=[row for row in rows if row[2]],
+        others=[row for row in rows if not row[2]],
+        decided=decided,
+    )
+
+
+def render_student(review: Review, name: str, given: Form, problem: str = "") -> str:
+    """Return the page of a student; `given` fills its forms in."""
+    shown, how = review.read_files(name)
+    decisions = review.list_decisions(name)
+    placed = [place_decision(each, dict(shown.files)) for each in decisions]
+    remarks = [remark for remark in placed if remark and remark.line]
+    return fill(
+        "review_student.html",
+        name=name,
+        outcome=review.find_outcome(name),
+        reason=review.find_reason(name),
+        sources=[source.name for work in review.list_works(name) for source in work.sources],
+        choices=review.list_choices(name),
+        owners=list_owners(review) if name in review.unlisted else [],
+        decisions=list(zip(decisions, placed, strict=True)),
+        files=list_files(shown, remarks),
+        how=how,
+        given=given,
+        problem=problem,
+        known=review.known,
+    )
+
+
+def list_owners(review: Review) -> list[tuple[str, str]]:
+    """Return whose the work may be: who handed in nothing first."""
+    names = [*review.absent, *(n for n in review.people.names if n not in review.absent)]
+    return [(name, review.find_outcome(name).label) for name in names]
+
+
+def place_decision(decision: Decision, files: Mapping[str, bytes]) -> Remark | None:
+    """Return a comment beside its line in these files; None for a decision of another kind."""
+    if decision.kind != "comment":
+        return None
+    return place_comment(msgspec.convert(decision.values, Comment), files)
+
+
+def list_files(shown: Shown, remarks: list[Remark]) -> list[File]:
+    """Return the files to show, the lab's first."""
+    ranked = sorted(shown.files, key=lambda each: rank_file(PurePosixPath(each[0])))
+    return [show_file(name, content, remarks) for name, content in ranked[:MOST_FILES]]
+
+
+def show_file(name: str, content: bytes, remarks: list[Remark]) -> File:
+    words = name_type(content[:4096])
+    if (words and words != "empty") or b"\0" in content[:4096]:
+        return File(name, [], f"{words or 'no text'}, {len(content)} bytes")
+    note = "not UTF-8: wrong letters are shown as \ufffd" * (not is_utf8(content))
+    note = note or f"cut off after {LONGEST_FILE} bytes" * (len(content) > LONGEST_FILE)
+    beside: dict[int, list[str]] = {}
+    for each in remarks:
+        if each.file == name:
+            beside.setdefault(each.line, []).append(each.comment)
+    return File(name, split_lines(content[:LONGEST_FILE]), note, beside)
+
+
+def is_utf8(content: bytes) -> bool:
+    try:
+        content.decode("utf-8")
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
+def fill(template: str, **values: object) -> str:
+    values |= {"clean": clean_line, "harmless": harmless, "quote": quote, "forms": True}
+    return fill_template(TEMPLATES / template, "review.css", has_replays=False, **values)
