@@ -126,13 +126,19 @@ def write_text(entry: Entry, course: Course) -> str:
     return "\n".join(lines) + "\n"
 
 
-def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
-    """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
+def find_address_column(roster: Roster) -> str:
+    """Return the column of addresses; raises Stop where there is none."""
     columns = [*ADDRESSES, *roster.columns]
     listed = [name for name in columns if name in roster.columns]
     column = next((name for name in listed if any("@" in row[name] for row in roster.rows)), None)
     if column is None:
         raise Stop(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
+    return column
+
+
+def address_pages(roster: Roster, key: str, graded: GradedClass) -> Feedback:
+    """Return the pages by addresses, for mailing, and a list of them; a group's go to all of it."""
+    column = find_address_column(roster)
     made = Feedback()
     outcomes = [each.outcome for each in graded.entries]
     absent = [each.name for each in outcomes if each.trouble == NOTHING]

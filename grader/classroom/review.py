@@ -260,7 +260,7 @@ def decide_comment(review: Review, name: str, form: Form) -> None:
     if file:
         files = dict(review.read_files(name)[0].files)
         line = read_number(form, "line")
-        if not 0 < line <= len(split_lines(files.get(file, b""))):
+        if file not in files or not 0 < line <= len(split_lines(files[file])):
             raise Stop(f"{file} has no line {line}")
         comment = write_comment(name, words, file, line, files[file])
     review.file.add("comment", encode_comment(comment))

@@ -161,6 +161,31 @@ def review_command(folder: Folder = Path(".")) -> None:
             print_note(f"Ended. Next: grader class grade {folder}")
 
 
+@class_app.command("mail")
+def mail_command(folder: Folder = Path(".")) -> None:
+    """Write a draft to each who must send work again, and mail.csv; nothing is sent."""
+    known = open_folder(folder)
+    results, path = known.find_results(), known.find_roster("a mail")
+    from grader.classroom.dashboard import read_class
+    from grader.classroom.mail import DRAFTS, write_mail
+    from grader.intake.systems import read_roster
+    from grader.report.files import write_whole
+
+    listed = read_roster(path)
+    outcomes = [each.outcome for each in read_class(results)]
+    key = listed.choose_key(known.settings.key)
+    made = write_mail(listed, key, outcomes, known.course.title)
+    for old in (folder / DRAFTS).glob("*.eml"):
+        old.unlink()
+    for name, content in made.files.items():
+        write_whole(content, folder / name)
+    drafts = plural(len(made.files) - 1, "draft")
+    print_notes(
+        [*made.notes, f"{drafts} in {folder / DRAFTS}, and a list in {folder / 'mail.csv'}"]
+    )
+    print_note("Nothing was sent: open the drafts with your mail program.")
+
+
 @class_app.command("marks")
 def marks_command(
     folder: Folder = Path("."),

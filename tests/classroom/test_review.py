@@ -1,5 +1,8 @@
 """What a person decides about a class: in the file, on the local page, and by mail."""
 
+import csv
+import email
+import email.policy
 import http.client
 import re
 from collections.abc import Iterator
@@ -243,7 +246,7 @@ def ask(
         {"cookie": "x"},
         {"host": "evil.example"},
         {"host": "127.0.0.1"},
-        {"path": "/", "query": {"token": "\u00fc"}, "cookie": ""},
+        {"query": {"token": "\u00fc"}, "cookie": ""},
     ],
 )
 def test_nobody_else_reads_the_page(server: ReviewServer, more: dict[str, Any]):
@@ -387,3 +390,30 @@ def tab_to(page: Any, *names: str) -> None:
         if page.locator("a:focus").all_inner_texts() and page.inner_text("a:focus") in names:
             return
     raise AssertionError(f"no Tab leads to {names}")
+
+
+# ---------------------------------------------------------------- mail
+
+
+def test_who_must_send_work_again_gets_a_draft(lab: Path):
+    said = call("mail", lab)
+    assert "5 drafts in" in said and "Nothing was sent" in said
+    drafts = {path.stem: path.read_bytes() for path in (lab / "mail").glob("*.eml")}
+    assert set(drafts) == {f"{name}@x.edu" for name in ("ben", "dora", "eve", "finn", "hana")}
+    mail = email.message_from_bytes(drafts["dora@x.edu"], policy=email.policy.default)
+    assert mail["X-Unsent"] == "1" and mail["To"] == "dora@x.edu" and mail["From"] is None
+    assert mail["Subject"] == "Lab 3: please send your work again"
+    text = mail.get_content()
+    assert "Hello Dora Lee," in text and "has a password. Please send it again" in text
+    with open(lab / "mail.csv", encoding="utf-8-sig", newline="") as table:
+        rows = {row["address"]: row for row in csv.DictReader(table)}
+    assert set(rows) == set(drafts) and "save it as UTF-8" in rows["hana@x.edu"]["text"]
+
+
+def test_a_decided_mark_needs_no_mail(lab: Path):
+    call("mail", lab)
+    decision = '[[adjust]]\nstudent = "dora"\npoints = 9\nreason = "shown"\n'
+    (lab / "decisions.toml").write_text(decision, encoding="utf-8")
+    call("grade", lab)
+    assert "4 drafts in" in call("mail", lab)
+    assert not (lab / "mail" / "dora@x.edu.eml").exists()

@@ -1,0 +1,110 @@
+"""Write mails to those who must send something again: drafts, and a list for mail merge.
+
+Nothing is sent: an EML file with `X-Unsent: 1` opens as a draft in the instructor's own program.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from email.message import EmailMessage
+from email.policy import SMTP
+
+from grader.classroom.book import NOTHING, Outcome
+from grader.classroom.feedback import Feedback, find_address_column
+from grader.classroom.owners import find_owners
+from grader.errors import Stop
+from grader.intake.names import make_portable
+from grader.intake.roster import Roster, Row, list_full_names
+from grader.text import clean, format_csv
+
+DRAFTS = "mail"  # the folder of drafts
+ASKS = {  # by what the reason says, the first that fits
+    "encrypted": "Your archive has a password. Please send it again without one.",
+    "more than one program": "Your submission holds two versions of one file: {reason}. "
+    "Please send it again with the one that counts.",
+    "handed in more than once": "You handed in more than one version: {reason}. "
+    "Please send one submission, with the work that counts.",
+    "not in UTF-8": "One of your files is not saved as UTF-8, so Python cannot read it: {reason}. "
+    "Please save it as UTF-8 and send your work again.",
+    "a text or a link": "A text or a link came from you, and no file. "
+    "Please send your files in a zip.",
+    "nothing of the lab": "None of the lab's files were in what you sent: {reason}. "
+    "Please send the whole folder of the lab in a zip.",
+    "packed in": "Your archive cannot be opened here: {reason}. Please send a zip.",
+    "cut off": "Your archive arrived incomplete. Please make it anew and send it again.",
+    "broken": "Your archive is broken. Please make it anew and send it again.",
+    "too large": "Your archive is too large: {reason}. Please send the lab's files alone.",
+    "empty": "Your files are empty: {reason}. Please send the ones with your work.",
+}
+OTHERWISE = "Your work could not be graded: {reason}. Please send it again in a zip."
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A mail to one student."""
+
+    student: str  # the name of the result
+    name: str  # as people say it; empty where nobody knows
+    address: str
+    body: str
+
+
+def ask_again(reason: str) -> str:
+    """Return what to ask of a student whose work could not be graded."""
+    words = next((words for sign, words in ASKS.items() if sign in reason), OTHERWISE)
+    return words.format(reason=clean(reason).rstrip("."))
+
+
+def write_body(name: str, reason: str, title: str) -> str:
+    greeting = f"Hello {name}," if name else "Hello,"
+    words = f"your submission of “{title}” has no points yet."
+    return f"{greeting}\n\n{words} {ask_again(reason)}\n\nThank you.\n"
+
+
+def list_letters(
+    roster: Roster, key: str, outcomes: list[Outcome], title: str, notes: list[str]
+) -> Iterator[Letter]:
+    """Yield a mail for each student who needs one; say in `notes` who has no address."""
+    column = find_address_column(roster)
+    absent = [each.name for each in outcomes if each.trouble == NOTHING]
+    owners = find_owners(roster, key, [each.name for each in outcomes], absent)
+    for each in outcomes:
+        if each.mark is not None or each.trouble == NOTHING:
+            continue
+        rows = [row for row in roster.rows if each.name in owners.find_results(row)]
+        addressed = [row for row in rows if "@" in row[column]]
+        if not addressed:
+            notes.append(f"{each.label}: no mail, the class list has no address for that name")
+        for row in addressed:
+            name = read_name(row)
+            body = write_body(name, each.trouble, title)
+            yield Letter(each.name, name, " ".join(row[column].split()), body)
+
+
+def read_name(row: Row) -> str:
+    return clean(next(list_full_names(row), "") or row.get("Full name", ""))
+
+
+def write_mail(roster: Roster, key: str, outcomes: list[Outcome], title: str) -> Feedback:
+    """Return a draft for each who needs one and `mail.csv`, by their names."""
+    made = Feedback()
+    subject = clean(f"{title}: please send your work again")
+    table = [["address", "name", "subject", "text"]]
+    for each in list_letters(roster, key, outcomes, title, made.notes):
+        file = f"{DRAFTS}/{make_portable(each.address)}.eml"
+        try:
+            made.files[file] = make_draft(each, subject)
+        except ValueError as error:  # a line break or another sign that no address has
+            raise Stop(f"{roster.path} has {each.address!r}, which is no address") from error
+        table.append([each.address, each.name, subject, each.body])
+    made.files["mail.csv"] = format_csv(table).encode("utf-8-sig")
+    return made
+
+
+def make_draft(letter: Letter, subject: str) -> bytes:
+    """Return a mail without a sender or date, which mail programs open as a draft."""
+    message = EmailMessage(policy=SMTP)
+    message["To"] = letter.address
+    message["Subject"] = subject
+    message["X-Unsent"] = "1"
+    message.set_content(letter.body)
+    return message.as_bytes()
