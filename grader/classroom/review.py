@@ -118,10 +118,13 @@ class Review:
         return self.outcomes.get(name, Outcome(name, full_name=full))
 
     def find_reason(self, name: str) -> str:
-        """Return why a person must look at this work; empty if nobody must."""
-        outcome = self.find_outcome(name)
-        trouble = self.intake.troubles.get(name) or outcome.trouble
-        return trouble or ("not in the class list" if name in self.unlisted else "")
+        """Return why a person must look at this work, as it was graded; empty if nobody must."""
+        outcome = self.outcomes.get(name)
+        if outcome is None:  # it came since, or a person chose whose it is
+            return self.intake.troubles.get(name, "")
+        if outcome.mark is None:
+            return outcome.trouble
+        return "not in the class list" if name in self.unlisted else ""
 
     def list_decisions(self, name: str) -> list[Decision]:
         """Return the decisions about a student, by any name that means them."""
@@ -151,7 +154,7 @@ class Review:
         shown = [(work, show(work, asked)) for work in works]
         many = len(shown) > 1
         files = [
-            (f"{work.sources[0].name}/{file}" if many else file, content)
+            (join_source(work, file) if many else file, content)
             for work, each in shown
             for file, content in each.files
         ]
@@ -168,6 +171,12 @@ class Review:
             others = {each: f"the work of {each}" for each in self.unlisted}
             choices.append(Choice("Is other work theirs?", others))
         return [each for each in choices if each.paths]
+
+
+def join_source(work: Found, file: str) -> str:
+    """Return a file's name with that of the submission it is in."""
+    source = work.sources[0].name
+    return file if file.partition("/")[0] == source else f"{source}/{file}"
 
 
 # ---------------------------------------------------------------- requests

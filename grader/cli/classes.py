@@ -122,7 +122,7 @@ def grade_command(
         people=known.list_people(),
         earlier=known.earlier,
     )
-    grade_folder(submissions, wanted, known.locate(known.settings.decisions))
+    grade_folder(submissions, wanted, known.locate(known.settings.decisions), folder)
 
 
 def open_folder(folder: Path) -> "ClassFolder":
@@ -131,7 +131,9 @@ def open_folder(folder: Path) -> "ClassFolder":
     return read_class_folder(folder)
 
 
-def grade_folder(path: Path, wanted: "ClassOptions", decisions: Path | None = None) -> NoReturn:
+def grade_folder(
+    path: Path, wanted: "ClassOptions", decisions: Path | None = None, folder: Path = Path()
+) -> NoReturn:
     """Grade a class, and end with the status of the command."""
     from grader.classroom.grading import run_class
 
@@ -143,6 +145,7 @@ def grade_folder(path: Path, wanted: "ClassOptions", decisions: Path | None = No
     open_ones = [each for each in run.outcomes if each.mark is None]
     if open_ones and decisions is not None:
         print_note(f"{len(open_ones)} need manual review: set points in {decisions}")
+        print_note(f"or decide on a page: grader class review {folder}")
     raise typer.Exit(2 if open_ones else 0)
 
 

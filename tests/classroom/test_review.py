@@ -284,6 +284,8 @@ def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Pat
     assert text.count("[[adjust]]") == 5 and text.count("[[comment]]") == 2
     assert 'student = "gil@x.edu"\ntake = "Gil_77"\nreason = "his number"' in text
     assert "2 need manual review" in call("grade", lab)
+    with open_review(read_class_folder(lab)) as again:
+        assert "Needs a person: 2" in Reader(ask(again, "/").body).text
     with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
         points = {line.split(",")[0]: line.split(",")[2] for line in table}
     wanted = {"ann": "4", "ben": "9", "dora": "9", "finn": "5", "gil@x.edu": "8"}
