@@ -58,9 +58,9 @@ class Run:
 
     def list_tasks(self) -> Iterator[Task]:
         """Return the work that must be graded, each once; record all else on the way."""
-        works: dict[tuple[Path, ...], list[Found]] = {}
+        works: dict[tuple[object, ...], list[Found]] = {}
         for found in self.intake.found:
-            works.setdefault(found.sources, []).append(found)
+            works.setdefault((found.sources, found.taken), []).append(found)
         for members in works.values():
             first = members[0]
             try:

@@ -55,6 +55,7 @@ def find_problems(files: Files, path: Path | None = None) -> Iterator[str]:
             yield str(error)
     try:
         adjustments = load_adjustments(files.adjust, course)
+        people.chosen = adjustments.choices
     except Stop as error:
         yield str(error)
     names = people.names

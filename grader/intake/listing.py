@@ -259,6 +259,9 @@ def choose_work(intake: Intake, people: ClassList, name: str, path: str) -> bool
     inside = enter_source(work, path) if work.name == name or path != work.name else ""
     taken = (*work.taken, inside) if inside else work.taken
     intake.drop(name)
+    others = (each for each in intake.found if each.sources == work.sources)
+    mates = {e.name: replace(e, taken=taken) for e in others if work.name == name}  # of a group
+    intake.found = [mates.get(each.name, each) for each in intake.found]
     intake.found.append(replace(work, name=name, taken=taken))
     return True
 

@@ -25,7 +25,8 @@ from grader.classroom.folder import read_class_folder
 from grader.classroom.review import Request, Response, respond
 from grader.classroom.review_server import ReviewServer, open_review
 from grader.errors import Stop
-from grader.intake.listing import open_class
+from grader.intake.found import Found, Intake
+from grader.intake.listing import apply_choices, open_class
 from grader.intake.packing import pack
 from grader.intake.roster import ClassList
 from grader.judge.course import FULL
@@ -152,6 +153,15 @@ def test_the_work_that_a_person_takes_counts(
         found = {each.name: each for each in intake.found}
         assert set(found) == {"ann", "zed"} and not intake.troubles
         assert dict(pack(found["ann"]).files)["integrators.py"] == text.encode()
+
+
+def test_a_choice_holds_for_all_who_handed_in_together(tmp_path: Path):
+    put(tmp_path, {"s/a/integrators.py": "1", "s/b/integrators.py": "2"})
+    found = [Found(name, (tmp_path / "s",)) for name in ("ann", "ben")]
+    intake, people = Intake(found), ClassList()
+    people.chosen = [("ben", "a")]
+    apply_choices(intake, people)
+    assert {(each.name, each.taken) for each in intake.found} == {("ann", ("a",)), ("ben", ("a",))}
 
 
 def test_a_choice_of_nothing_is_noted(tmp_path: Path):
