@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 import typer
 
 from grader.cli.shared import (
+    COURSE_HELP,
     Confinement,
     Jobs,
     SecretSeed,
@@ -44,9 +45,7 @@ def new_command(
     submissions: Annotated[
         Path | None, typer.Option(help="The export: a zip or folder; may come later.")
     ] = None,
-    course: Annotated[
-        Path | None, typer.Option(help="What is asked; the kit's course.toml if left out.")
-    ] = None,
+    course: Annotated[Path | None, typer.Option(help=COURSE_HELP)] = None,
     seed: SecretSeed = None,
     earlier: Annotated[
         list[Path] | None, typer.Option(help="An earlier class to compare with; repeatable.")

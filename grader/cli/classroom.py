@@ -40,11 +40,17 @@ if TYPE_CHECKING:
     from grader.intake import roster as lists
 
 app = typer.Typer()
-course_app = typer.Typer(help="A course with nbgrader.", no_args_is_help=True)
+course_app = typer.Typer(
+    help="A course with nbgrader.",
+    epilog="Once: course, roster. After a deadline: collect, nbgrader autograde, bridge. "
+    "handouts/instructor/nbgrader.md describes each.",
+    no_args_is_help=True,
+)
 app.add_typer(course_app, name="nbgrader")
 
-CourseFolder = Annotated[Path, typer.Option("--course", help="The course folder.")]
-TakenFile = Annotated[Path | None, course_option("--course-file")]  # --course is nbgrader's folder
+# Before, --course was nbgrader's folder, and this the course file.
+CourseFileToo = Annotated[Path | None, course_option("--course", "--course-file")]
+CourseFolder = Annotated[Path, typer.Option("--folder", help="The course folder of nbgrader.")]
 ClassList = Annotated[
     Path | None, typer.Option("--roster", help="The class list, if it was graded with one.")
 ]
@@ -66,7 +72,7 @@ def course_command(
     without_checks: Annotated[
         bool, typer.Option(help="Make it of the kit as it is: students get nothing to check with.")
     ] = False,
-    taken: TakenFile = None,
+    taken: CourseFileToo = None,
 ) -> None:
     """Make a course folder: the notebooks, the students' files, and nbgrader's settings."""
     require_checkout("nbgrader course")
@@ -82,7 +88,13 @@ def course_command(
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
 
 
-@course_app.command("collect")
+def refuse_folder(course: Path | None) -> None:
+    """Stop where --course names the folder of nbgrader, as it did in earlier versions."""
+    if course is not None and course.is_dir():
+        raise Stop(f"--course {course} is a folder, and names a course file: say --folder {course}")
+
+
+@course_app.command("collect", hidden=True)
 def collect_command(
     folder: Annotated[Path, typer.Argument(help="A folder of submissions, a folder each.")],
     course: CourseFolder = Path("."),
@@ -108,9 +120,10 @@ def bridge_command(
     jobs: Jobs = 0,
     isolation: Confinement = "auto",
     seed: SecretSeed = None,
-    taken: TakenFile = None,
+    taken: CourseFileToo = None,
 ) -> None:
     """Write the grader's marks into the gradebook. Exit status 1: not for everyone."""
+    refuse_folder(taken)
     if results:
         given = ("jobs", "isolation", "seed")
         refuse_ignored(context, given, "with results, which are graded already")
@@ -133,7 +146,7 @@ def bridge_command(
     raise typer.Exit(1 if troubles else 0)
 
 
-@course_app.command("release")
+@course_app.command("release", hidden=True)
 def release_command() -> None:
     """Renew the notebooks that the starter holds, by nbgrader itself."""
     require_checkout("nbgrader release")
@@ -142,7 +155,7 @@ def release_command() -> None:
     console.print(f"renewed {', '.join(notebooks.renew_notebooks(KIT)) or 'nothing'}")
 
 
-@course_app.command("roster")
+@course_app.command("roster", hidden=True)
 def roster_command(roster: Gradebook, course: CourseFolder = Path("."), key: Key = "") -> None:
     """Write the names of a class list into the gradebook."""
     from grader.classroom.nbgrader.gradebook import write_names
@@ -379,7 +392,9 @@ def return_feedback(recipient: str, results: Path, sources: Sources, out: Path |
 @app.command("marks")
 def marks_command(
     roster: Gradebook,
-    course: Annotated[Path | None, typer.Option(help="The course folder of nbgrader.")] = None,
+    course: Annotated[
+        Path | None, typer.Option("--folder", help="The course folder of nbgrader.")
+    ] = None,
     results: Annotated[
         Path | None, typer.Option(help="Instead: a folder of result files; the engine alone.")
     ] = None,
@@ -392,15 +407,16 @@ def marks_command(
     others_known: Annotated[
         bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
     ] = False,
-    taken: TakenFile = None,
+    taken: CourseFileToo = None,
 ) -> None:
     """Make one mark per student, in the gradebook's own form.
 
     Exit status 0: everybody in the class list has a mark, 1: not everybody, 2: no file was made.
     """
     require_file_target(out, "--out")
+    refuse_folder(taken)
     if results is None and not (course or Path(".")).joinpath("gradebook.db").is_file():
-        raise Stop("name --results, the folder of a graded class, or --course, one of nbgrader")
+        raise Stop("name --results, the folder of a graded class, or --folder, one of nbgrader")
     if settings is None and course is None:
         require_checkout("marks", ", or name marks.toml with --settings")
     from grader.classroom.dashboard import read_class

@@ -1,4 +1,4 @@
-"""Define the maintainers' commands, which verify, release and measure the kit."""
+"""Define the commands that release, verify and measure the kit."""
 
 import random
 from pathlib import Path
@@ -26,10 +26,9 @@ MembersAtATime = Annotated[
 ]
 
 app = typer.Typer()
-maintainers = typer.Typer(help="For maintainers of the kit.", no_args_is_help=True)
 
 
-@maintainers.command("sync")
+@app.command("sync")
 def sync_command(
     check: Annotated[bool, typer.Option("--check", help="Only say what differs.")] = False,
 ) -> None:
@@ -108,7 +107,7 @@ def tab_command(
         print_note(f"made {path}")
 
 
-@maintainers.command("mutants")
+@app.command("mutants")
 def mutants_command(
     count: Annotated[int, typer.Option(min=0, help="How many; 0 for all of them.")] = 200,
     seed: Annotated[int, typer.Option(help="Chooses which.")] = 1,
@@ -141,7 +140,7 @@ def mutants_command(
     raise typer.Exit(1 if any(each.complaint for each in outcomes) else 0)
 
 
-@maintainers.command("bench")
+@app.command("bench")
 def bench_command(
     rounds: Annotated[int, typer.Option(min=1, help="How often each figure is measured.")] = 5,
     size: Annotated[int, typer.Option("--class", min=1, help="Submissions in the class.")] = 6,

@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Collection
 from copy import copy
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
@@ -14,7 +15,6 @@ from typing import Annotated, Any, NoReturn
 import typer
 from rich.console import Console
 from typer.core import TyperGroup
-from typer.models import CommandInfo
 
 from grader.cli import export, student
 from grader.cli.shared import (
@@ -42,6 +42,11 @@ from grader.report.terminal import Printer, show_isolation
 FOR_ONE = ("json", "ci", "at_least")  # options that count for one submission alone
 ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 FOR_CLASS = ("roster", "adjust", "cluster")  # for a class alone
+FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # what --help lists beside the groups
+EPILOG = (
+    "A term is described in handouts/instructor/term.md. Students' commands work here too: check, "
+    "hint, hand-in. All others are listed by: grader dev --help"
+)
 
 
 class Commands(TyperGroup):
@@ -83,7 +88,8 @@ def grade_command(
         typer.Argument(help="The submission: folder, file or zip. Left out: the shipped trees."),
     ] = None,
     class_: Annotated[
-        bool, typer.Option("--class", help="PATH holds submissions: a folder or zip of them.")
+        bool,
+        typer.Option("--class", hidden=True, help="PATH holds submissions: a folder or zip."),
     ] = False,
     out: Annotated[
         Path | None, typer.Option(help="Write NAME.json into this folder; a class always does.")
@@ -108,19 +114,19 @@ def grade_command(
         int | None, typer.Option(min=0, help="Points for exit status 0, instead of full marks.")
     ] = None,
     roster: Annotated[
-        Path | None, typer.Option(help="For a class: its list, as the LMS exports it.")
+        Path | None, typer.Option(hidden=True, help="For a class: its list, from the LMS.")
     ] = None,
     adjust: Annotated[
-        Path | None, typer.Option(help="For a class: late days and points set by hand, as TOML.")
+        Path | None, typer.Option(hidden=True, help="For a class: late days, points set by hand.")
     ] = None,
     cluster: Annotated[
-        str, typer.Option(help="For a class: grade on the Dask cluster at this address.")
+        str, typer.Option(hidden=True, help="For a class: grade on this Dask cluster.")
     ] = "",
     course: CourseFile = None,
 ) -> None:
-    """Grade a submission, or a class of them.
+    """Grade a submission; a class has `grader class grade`.
 
-    Exit status 0: full marks (for a class: all graded), 1: less, 2: could not be graded.
+    Exit status 0: full marks, 1: less, 2: could not be graded.
     """
     refuse_what_is_ignored(context, path, class_, cluster)
     taken = read_course(course)
@@ -279,27 +285,39 @@ def make_app() -> typer.Typer:
         add_completion=False,
         pretty_exceptions_enable=False,
     )
-    apps = [app, student.app, export.app]
     if find_spec("grader.classroom"):  # students get none of these folders
         from grader.cli import classes, classroom, dev, questions
 
-        apps += [classes.app, classroom.app, dev.app, questions.app]
-        whole.add_typer(dev.maintainers, name="dev")
-        whole.registered_commands += map(hide, dev.maintainers.registered_commands)
+        apps = [app, export.app, classroom.app, dev.app, questions.app]
+        whole.add_typer(classes.app)
+        whole.add_typer(make_dev_app(apps), name="dev", hidden=True)
+        whole.add_typer(hide_commands(student.app, ()))
+        for each in apps:
+            whole.add_typer(hide_commands(each, FOR_INSTRUCTORS))
+        whole.info.epilog = EPILOG
     else:
         from grader.cli import practice
 
-        apps += [practice.app]
-    for each in apps:
-        whole.add_typer(each)
+        for each in [app, student.app, export.app, practice.app]:
+            whole.add_typer(each)
     return whole
 
 
-def hide(command: CommandInfo) -> CommandInfo:
-    """Return a command that also works by itself, and that `--help` does not list."""
-    hidden = copy(command)
-    hidden.hidden = True
-    return hidden
+def make_dev_app(apps: Collection[typer.Typer]) -> typer.Typer:
+    """Return the commands that `--help` leaves out, as a group of their own."""
+    maintainers = typer.Typer(help="For maintainers of the kit.", no_args_is_help=True)
+    every = [each for app in apps for each in app.registered_commands]
+    maintainers.registered_commands += [x for x in every if x.name not in FOR_INSTRUCTORS]
+    return maintainers
+
+
+def hide_commands(whole: typer.Typer, shown: Collection[str]) -> typer.Typer:
+    """Return the commands, those not `shown` hidden: they work, and `--help` leaves them out."""
+    part = copy(whole)
+    part.registered_commands = [copy(each) for each in whole.registered_commands]
+    for each in part.registered_commands:
+        each.hidden = each.name not in shown
+    return part
 
 
 def main() -> None:

@@ -19,14 +19,15 @@ from grader.text import plural, printable
 
 CHECKOUT = ("solution/mini_engine", "starter/mini_engine", "tests/bank", "handouts/instructor")
 
+COURSE_HELP = "The TODOs, points and dates of the course; its course.toml if left out."
+
 console = Console(highlight=False, markup=False)
 
 
-def course_option(name: str) -> typer.models.OptionInfo:
+def course_option(*names: str) -> typer.models.OptionInfo:
     """Return the option for the course file, which the environment may name too."""
-    help = "The TODOs, points and dates of the course; its course.toml if left out."
     option: typer.models.OptionInfo = typer.Option(
-        name, envvar=COURSE_FILE, show_envvar=False, help=help
+        *names, envvar=COURSE_FILE, show_envvar=False, help=COURSE_HELP
     )
     return option
 

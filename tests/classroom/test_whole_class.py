@@ -122,7 +122,7 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
     assert "Mark: <strong>5</strong> of 20 points, which is 2.5 of 10 in the gradebook" in report
     (tmp_path / "course.toml").write_text('title = "Lab 3"\nout_of = 10\n', encoding="utf-8")
     words = ["--results", run.book.folder, "--out", tmp_path / "m.csv"]
-    words += ["--course-file", tmp_path / "course.toml"]
+    words += ["--course", tmp_path / "course.toml"]
     assert run_grader("marks", folder / "roster.csv", *words).exit_code == 0
     (tmp_path / "marks.toml").write_text("total = 50\nshares = { engine = 1 }\n", encoding="utf-8")
     other = run_grader(

@@ -6,9 +6,12 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+import typer
 from command_line import run_grader
 from whole_bank import bank
 
@@ -210,8 +213,7 @@ def test_a_command_of_the_kit_says_so_where_the_grader_is_installed_alone(
 
 
 def test_every_command_of_maintainers_is_one_of_the_kit():
-    every = [*dev.app.registered_commands, *dev.maintainers.registered_commands]
-    names = {str(each.name) for each in every}
+    names = {str(each.name) for each in dev.app.registered_commands}
     assert names <= set(ELSEWHERE)
 
 
@@ -246,9 +248,37 @@ def test_an_installed_grader_grades_and_needs_a_checkout_for_the_rest(tmp_path: 
     assert installed("hint", "--todo", "4").returncode == 0
 
 
+def list_commands(group: Any, hidden: bool, before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield each command that `--help` leads to, or every one with those that are `hidden`."""
+    for name, command in group.commands.items():
+        if command.hidden and not hidden:
+            continue
+        if hasattr(command, "commands"):
+            yield from list_commands(command, hidden, f"{before}{name} ")
+        else:
+            yield before + name, command
+
+
+def test_help_leads_an_instructor_to_few_commands_and_options():
+    whole = typer.main.get_command(cli.make_app())
+    shown = dict(list_commands(whole, hidden=False))
+    assert {"class grade", "grade", "release"} <= set(shown)
+    assert len(shown) <= 12, list(shown)
+    params = [each for command in shown.values() for each in command.params]
+    options = [each for each in params if each.param_type_name == "option" and not each.hidden]
+    assert 12 < len(options) <= 50, [each.opts for each in options]
+
+
+def test_course_means_one_thing_in_every_command():
+    whole = typer.main.get_command(cli.make_app())
+    every = [command for _, command in list_commands(whole, hidden=True)]
+    named = [each for command in every for each in command.params if "--course" in each.opts]
+    assert len(named) > 12 and {each.help for each in named} == {commands.COURSE_HELP}
+
+
 def test_help_lists_no_command_of_maintainers_and_each_works_both_ways():
     listed = run_grader("--help").output
-    for name in ("sync", "mutants", "bench"):
+    for name in ("sync", "mutants", "bench", "verify", "course-check", "alike", "marks", "export"):
         assert f" {name} " not in listed and f" {name} " in run_grader("dev", "--help").output
         ways = [run_grader(name, "--help"), run_grader("dev", name, "--help")]
         assert [done.exit_code for done in ways] == [0, 0]

@@ -103,7 +103,8 @@ feedback results --for email --roster list.csv --key Nope
 feedback results --for email --roster list.csv --out list.csv
 marks nosuch.csv --results results
 marks list.csv
-marks list.csv --course nosuch
+marks list.csv --folder nosuch
+marks list.csv --course class
 marks list.csv --results nosuch
 marks list.csv --results class
 marks list.csv --results results --key Nope
@@ -126,8 +127,9 @@ questions --mark nosuch.csv
 questions --mark list.csv class/ann
 nbgrader course list.csv --without-checks
 nbgrader course new --release list.csv
-nbgrader collect class --course nosuch
-nbgrader bridge --course nosuch
+nbgrader collect class --folder nosuch
+nbgrader bridge --folder nosuch
+nbgrader bridge --course class
 nbgrader bridge results --jobs 2
 export nosuch list.csv
 export html nosuch.json

@@ -124,7 +124,7 @@ def run(course, *arguments):
 
 def bridge(course, *results):
     how = results or ["--jobs", "1"]
-    return run_grader("nbgrader", "bridge", "--course", course, *how)
+    return run_grader("nbgrader", "bridge", "--folder", course, *how)
 
 
 @pytest.fixture(scope="module")
@@ -330,7 +330,7 @@ def test_marks_go_out_for_the_class_list(course, tmp_path):
         encoding="utf-8",
     )
     out = tmp_path / "marks.csv"
-    options = ["marks", str(listed), "--course", str(course), "--out", str(out)]
+    options = ["marks", str(listed), "--folder", str(course), "--out", str(out)]
     done = run_grader(*options)
     assert done.exit_code == 1 and "anna: no mark yet" in done.output
     done = run_grader(*options, "--so-far")
@@ -346,7 +346,7 @@ def test_the_gradebook_learns_the_names_of_the_class(course, tmp_path):
     shutil.copytree(course, tmp_path / "copy", ignore=shutil.ignore_patterns("autograded"))
     listed = tmp_path / "class.csv"
     listed.write_text("First name,Last name,Email address\nÅsa,Öberg,Anna@x.example\n", "utf-8")
-    command = ["roster", str(listed), "--course", str(tmp_path / "copy")]
+    command = ["roster", str(listed), "--folder", str(tmp_path / "copy")]
     assert run_grader("nbgrader", *command).exit_code == 0
     with api.Gradebook(f"sqlite:///{tmp_path}/copy/gradebook.db") as book:
         anna = book.find_student("anna")
