@@ -22,6 +22,7 @@ from grader.report.files import write_whole
 
 FILE = "class.toml"
 SEED_BITS = 128  # more than anybody can try
+MARKS = "marks.toml"
 HEAD = """\
 # What this class is. `grader class` reads it, and you may edit it. Paths count from this folder.
 """
@@ -31,6 +32,8 @@ SIGNS = {  # what each line says, for people
     "key": "its column that identifies students; found if left out",
     "submissions": "the export, a zip or a folder",
     "decisions": "what people decide: extensions, points, comments",
+    "marks": "shares of notebooks, decimals, and the mark for absent students",
+    "nbgrader": "the course folder of nbgrader, whose gradebook has the notebooks' points",
     "results": "what grading writes",
     "system": "the learning system",
     "canvas": "the assignment in Canvas, by its page's address",
@@ -48,6 +51,8 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=Tr
     submissions: str = "submissions.zip"
     decisions: str = "decisions.toml"
     results: str = "results"
+    marks: str = ""
+    nbgrader: str = ""
     system: str = ""
     canvas: str = ""
     seed: int | None = None
@@ -98,6 +103,17 @@ class ClassFolder:
         """Return the file of decisions; None while there is none."""
         path = self.locate(self.settings.decisions)
         return path if path.is_file() else None
+
+    @property
+    def nbgrader(self) -> Path | None:
+        return self.locate(self.settings.nbgrader) if self.settings.nbgrader else None
+
+    @property
+    def marks(self) -> Path | None:
+        """Return the settings of marks: the class's own, or those of its course with nbgrader."""
+        if self.settings.marks:
+            return self.locate(self.settings.marks)
+        return self.nbgrader / MARKS if self.nbgrader else None
 
     @property
     def results(self) -> Path:
@@ -206,8 +222,10 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 
 def find_usual_files(folder: Path) -> dict[str, object]:
     """Return the lines of a new class: files of the usual names, if they are there, and a seed."""
-    usual = {"course": "course.toml", "roster": "roster.csv"}
+    usual = {"course": "course.toml", "roster": "roster.csv", "marks": MARKS}
     there = {name: file for name, file in usual.items() if (folder / file).is_file()}
+    if (folder / "gradebook.db").is_file():
+        there["nbgrader"] = "."
     settings = Settings()
     always = ("submissions", "decisions", "results")
     drawn = {"seed": secrets.randbits(SEED_BITS)}

@@ -50,9 +50,14 @@ class Part:
 Parts = dict[str, Part]
 
 
-def load_marking(path: Path, course: Course = FULL) -> Marking:
-    """Read the settings; a title and a total that they do not name are the course's."""
+def load_marking(path: Path | None, course: Course = FULL) -> Marking:
+    """Read the settings; a title and a total that they do not name are the course's.
+
+    Without a file the engine is all there is. Raises Stop where the file is missing or invalid.
+    """
     usual = {"title": course.title, "total": course.out_of or USUAL_TOTAL}
+    if path is None:
+        return msgspec.convert(usual | {"shares": {ENGINE: 1}}, Marking)
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
         marking = msgspec.convert(usual | document, Marking)

@@ -196,19 +196,22 @@ def marks_command(
         bool, typer.Option(help="Who handed in and is not in the class list is nobody in it.")
     ] = False,
 ) -> None:
-    """Write marks.csv, the gradebook with the marks in it. Exit status 1: some have none."""
+    """Write marks.csv, the gradebook with the marks in it. Exit status 1: some have none.
+
+    With a gradebook of nbgrader, its notebooks count as marks.toml says.
+    """
     known = open_folder(folder)
-    results, path = known.find_results(), known.find_roster("a gradebook")
-    from grader.classroom.dashboard import read_class
-    from grader.classroom.marks import Scores, make_parts, mark_by_course
-    from grader.cli.classroom import write_marks
+    path = known.find_roster("a gradebook")
+    from grader.cli.classroom import Assessed, read_scores, write_marks
     from grader.intake.systems import read_roster
 
-    course, listed = known.course, read_roster(path)
-    outcomes = [each.outcome for each in read_class(results)]
-    notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
-    scores = Scores(make_parts(outcomes), mark_by_course(course), so_far, others_known)
+    if known.nbgrader:
+        assessed = Assessed(known.course, known.marks, folder=known.nbgrader)
+    else:
+        assessed = Assessed(known.course, known.marks, results=known.find_results())
+    listed = read_roster(path)
     column = listed.choose_key(known.settings.key)
+    scores, notes = read_scores(assessed, so_far, others_known)
     write_marks(listed, column, scores, folder / "marks.csv", notes)
 
 

@@ -419,32 +419,46 @@ def marks_command(
         raise Stop("name --results, the folder of a graded class, or --folder, one of nbgrader")
     if settings is None and course is None:
         require_checkout("marks", ", or name marks.toml with --settings")
-    from grader.classroom.dashboard import read_class
-    from grader.classroom.marks import (
-        ENGINE,
-        Scores,
-        compare_totals,
-        load_marking,
-        make_parts,
-    )
-    from grader.classroom.nbgrader.gradebook import read_parts
     from grader.intake.systems import read_roster
     from grader.release.nbgrader_course import INSTRUCTOR
 
     listed = read_roster(roster)
     column = listed.choose_key(key)
     path = settings or (course if course else INSTRUCTOR) / "marks.toml"
-    marking = load_marking(path, read_course(taken))
-    notes: list[str] = []
-    if results is not None:
-        marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
-        outcomes = [each.outcome for each in read_class(results)]
-        parts = make_parts(outcomes)
-        notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
-        notes += compare_totals(marking, read_course(taken))
-    else:
-        parts = read_parts(course or Path("."), marking)
-    write_marks(listed, column, Scores(parts, marking, so_far, others_known), out, notes)
+    assessed = Assessed(read_course(taken), path, results, course or Path("."))
+    scores, notes = read_scores(assessed, so_far, others_known)
+    write_marks(listed, column, scores, out, notes)
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """What marks are made of: results of a class, or else the gradebook in nbgrader's folder."""
+
+    course: Course
+    settings: Path | None  # marks.toml
+    results: Path | None = None
+    folder: Path = Path(".")
+
+
+def read_scores(assessed: Assessed, so_far: bool, others_known: bool) -> "tuple[Scores, list[str]]":
+    """Return everybody's parts and how to make marks of them, and what to say of the results.
+
+    Results hold the engine alone, so the shares of notebooks do not count there.
+    """
+    from grader.classroom.dashboard import read_class
+    from grader.classroom.marks import ENGINE, Scores, compare_totals, load_marking, make_parts
+
+    marking = load_marking(assessed.settings, assessed.course)
+    if assessed.results is None:
+        from grader.classroom.nbgrader.gradebook import read_parts
+
+        parts = read_parts(assessed.folder, marking)
+        return Scores(parts, marking, so_far, others_known), []
+    marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
+    outcomes = [each.outcome for each in read_class(assessed.results)]
+    notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
+    notes += compare_totals(marking, assessed.course)
+    return Scores(make_parts(outcomes), marking, so_far, others_known), notes
 
 
 def write_marks(

@@ -12,6 +12,8 @@ from points_pool import Inline
 
 from grader.classroom import grading
 from grader.classroom.folder import read_class_folder
+from grader.classroom.marks import Marking, Part, Parts
+from grader.classroom.nbgrader import gradebook
 
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20}
@@ -51,6 +53,40 @@ def test_no_command_is_told_twice_what_the_class_is(place: Path):
     with open(lab / "marks.csv", encoding="utf-8") as table:
         assert [row["Grade"] for row in csv.DictReader(table)] == ["2.5", "5.0", "10.0", "0"]
     assert "Lab 3" in (lab / "results.class.html").read_text(encoding="utf-8")
+
+
+def read_grades(lab: Path) -> list[str]:
+    with open(lab / "marks.csv", encoding="utf-8") as table:
+        return [row["Grade"] for row in csv.DictReader(table)]
+
+
+def test_marks_are_rounded_and_absent_as_the_settings_say(place: Path):
+    lab = place / "lab"
+    lab.mkdir()
+    (lab / "marks.toml").write_text('decimals = 0\nabsent = "none"\nshares = { engine = 7 }\n')
+    make(place, "--submissions", place / "export")
+    call("grade", lab)
+    assert "4 of 4 marks" in call("marks", lab)
+    assert read_grades(lab) == ["3", "5", "10", "none"]
+
+
+def test_marks_of_notebooks_come_from_the_gradebook_of_nbgrader(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+):
+    lab = place / "lab"
+    lab.mkdir()
+    (lab / "gradebook.db").write_bytes(b"")
+    (lab / "marks.toml").write_text("shares = { engine = 3, quiz = 1 }\n")
+    make(place)
+    asked = []
+
+    def read_parts(folder: Path, marking: Marking) -> dict[str, Parts]:
+        asked.append(folder)
+        return {f"{name}@x.edu": {"engine": Part(points, 20)} for name, points in POINTS.items()}
+
+    monkeypatch.setattr(gradebook, "read_parts", read_parts)
+    call("marks", lab)
+    assert asked == [lab] and read_grades(lab) == ["1.9", "3.8", "7.5", "0"]
 
 
 def test_the_export_may_come_later(place: Path):
