@@ -47,11 +47,14 @@ endef
 export PLAIN_VERSIONS
 
 # A word of the call that no target knows would be passed over in silence.
-KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST SEED FRESH QUICK CFFI
+KNOWN := PYTHON ENGINE WHERE COURSE COURSE_FILE SUBMISSION SUBMISSIONS RESULTS ROSTER ADJUST CLASS SEED FRESH QUICK CFFI
 $(foreach each,$(.VARIABLES),$(if $(filter command,$(firstword $(origin $(each)))),\
 	$(if $(filter $(each),$(KNOWN)),,$(error make knows no $(each)=; it knows $(KNOWN)))))
 ifneq ($(and $(SUBMISSION),$(SUBMISSIONS)),)
 $(error SUBMISSION is one and SUBMISSIONS a class of them: name one of the two)
+endif
+ifneq ($(and $(CLASS),$(SUBMISSION)$(SUBMISSIONS)),)
+$(error CLASS remembers its submissions: name CLASS alone)
 endif
 NEEDED_BY_contained := SUBMISSIONS
 NEEDED_BY_course := COURSE
@@ -73,8 +76,8 @@ help:
 
 setup: $(CORE) ## Set up .venv for grading
 
-grade: $(CORE) ## Grade SUBMISSION=path or each in SUBMISSIONS=folder (COURSE_FILE=path); alone, a demonstration
-	@$(PY) -m grader grade \
+grade: $(CORE) ## Grade SUBMISSION=path, SUBMISSIONS=folder or CLASS=folder of a class; alone, a demonstration
+	@$(PY) -m grader $(if $(CLASS),class grade "$(CLASS)",grade) \
 		$(if $(SUBMISSIONS),--class "$(SUBMISSIONS)",$(if $(SUBMISSION),"$(SUBMISSION)")) $(FOUND)
 
 contained: ## Grade SUBMISSIONS=folder in a container, by ENGINE=docker or podman (SEED=number)

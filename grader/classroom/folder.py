@@ -111,8 +111,9 @@ class ClassFolder:
     @property
     def marks(self) -> Path | None:
         """Return the settings of marks: the class's own, or those of its course with nbgrader."""
-        if self.settings.marks:
-            return self.locate(self.settings.marks)
+        own = self.locate(self.settings.marks or MARKS)
+        if self.settings.marks or own.is_file():
+            return own
         return self.nbgrader / MARKS if self.nbgrader else None
 
     @property
@@ -222,7 +223,7 @@ def remember_class(folder: Path, named: dict[str, object], other_course: bool) -
 
 def find_usual_files(folder: Path) -> dict[str, object]:
     """Return the lines of a new class: files of the usual names, if they are there, and a seed."""
-    usual = {"course": "course.toml", "roster": "roster.csv", "marks": MARKS}
+    usual = {"course": "course.toml", "roster": "roster.csv"}
     there = {name: file for name, file in usual.items() if (folder / file).is_file()}
     if (folder / "gradebook.db").is_file():
         there["nbgrader"] = "."

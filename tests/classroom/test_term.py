@@ -1,0 +1,65 @@
+"""The instructor's guide of a term: each of its command lines runs, in order, on a tiny class."""
+
+import csv
+import re
+from pathlib import Path
+
+import classes
+import packed
+import pytest
+import typer
+from command_line import run_grader
+
+from grader.cli import questions
+from grader.cli.main import make_app
+from grader.judge.grade import KIT
+
+PAGE = (KIT / "handouts" / "instructor" / "term.md").read_text(encoding="utf-8")
+COURSE = 'title = "Lab 3"\ntodos = ["8a", "8b"]\nout_of = 10\n'
+WAITS = ("class review",)  # serves a page until it is stopped
+NAMES = ("ann", "ben")
+
+
+def list_commands(page: str) -> list[list[str]]:
+    """Return the words of each command line of the grader, without comments."""
+    fenced = re.findall(r"^```\n(.*?)^```$", page, re.M | re.S)
+    lines = [line.partition("#")[0].split() for block in fenced for line in block.splitlines()]
+    return [words[1:] for words in lines if words and words[0] == "grader"]
+
+
+def test_the_guide_of_a_term_has_two_pages_and_names_every_command_of_a_class():
+    assert len(PAGE.split()) <= 900
+    whole = typer.main.get_command(make_app())
+    named = {words[1] for words in list_commands(PAGE) if words[0] == "class"}
+    assert set(whole.commands["class"].commands) <= named
+
+
+def make_files() -> None:
+    """Write what the guide names: a class list, a course, exports and answers on paper."""
+    rows = [f"{name}@x.edu,{name.title()} Lee" for name in NAMES]
+    Path("list.csv").write_text("\n".join(["Email address,Full name", *rows, ""]))
+    Path("autumn.toml").write_text(COURSE)
+    Path("answers.csv").write_text("student,question,answer\nann,1,3\n")
+    program = (KIT / "solution" / "integrators.py").read_bytes()
+    work = {f"{name}.zip": packed.as_zip({"integrators.py": program}) for name in NAMES}
+    for name, content in work.items():
+        classes.put(Path("first-week", name), content)
+        classes.put(Path("2025", name), content)
+    Path("submissions.zip").write_bytes(packed.as_zip(work))
+
+
+def test_every_command_line_of_the_guide_of_a_term_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(questions, "TALLY", tmp_path / "tally.json")
+    make_files()
+    there = typer.main.get_command(make_app()).commands["class"].commands
+    for words in list_commands(PAGE):
+        if words[0] == "class" and words[1] not in there:
+            continue
+        more = ["--help"] if " ".join(words[:2]) in WAITS else []
+        done = run_grader(*words, *more)
+        assert done.exit_code in (0, 1), (words, done.output)
+    with open("lab3/marks.csv", encoding="utf-8") as table:
+        assert [row["Grade"] for row in csv.DictReader(table)] == ["10.0", "10.0"]
