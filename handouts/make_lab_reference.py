@@ -1,4 +1,4 @@
-"""Write instructor/lab-reference.md from the docstrings of what a check is given.
+"""Print all that a check can ask, from the docstrings of what it is given.
 
 python handouts/make_lab_reference.py
 """
@@ -6,12 +6,10 @@ python handouts/make_lab_reference.py
 import ast
 import inspect
 import textwrap
-from pathlib import Path
 
 from grader.judge.decode import Decoder
 from grader.judge.lab import Advance, Lab, Moment, Run
 
-TARGET = Path(__file__).resolve().parent / "instructor" / "lab-reference.md"
 SETTINGS = {"__init__", "opened", "probe", "remember", "ended"}  # the judge's own
 HEAD = """# What a check can ask
 
@@ -42,7 +40,7 @@ solution is graded, and nothing is graded until it is mended.
 
 
 def page():
-    """The whole of lab-reference.md."""
+    """Return the reference of Lab, in Markdown."""
     parts = [HEAD]
     for title, kind, name in (
         ("Asking", Lab, "lab."),
@@ -81,8 +79,7 @@ def shown(function, name):
 
 
 def main():
-    TARGET.write_text(page(), encoding="utf-8", newline="\n")
-    print(f"{TARGET} is up to date.")
+    print(page())
 
 
 if __name__ == "__main__":

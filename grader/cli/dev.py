@@ -124,6 +124,10 @@ def mutants_command(
 
     Exit status 0: every mutant lost points in its own TODO alone, 1: not so.
     With --alone, neither what the others lose nor names are looked at.
+
+    A survivor with other results than the solution's is a wrong submission with full marks: put it
+    into tests/bank/wrong, named by its mistake, and make a check stricter until `verify` agrees.
+    One with the same results is listed, with its reason, in grader/bank/equivalent.toml.
     """
     require_checkout("mutants")
     from grader.bank.mutants import all_mutants, choose_mutants, run_mutants
