@@ -1,7 +1,8 @@
-"""Build the release: one archive with all that students get, and proof that nothing else is in it.
+"""Build the release: the lab as one archive, and proof that nothing gives the solution away.
 
-The name has the version and the first digits of the content hash. The same kit makes the same
-archive, byte by byte.
+A folder beside it has an archive of engines to explore, and one of files for CI; both are unpacked
+over the lab. The name has the version and the first digits of the content hash. The same kit makes
+the same archives, byte by byte.
 """
 
 import hashlib
@@ -22,6 +23,7 @@ from rich.console import Console
 
 from grader import __version__
 from grader.bank.members import members
+from grader.bank.sync import is_laid_in
 from grader.bank.verify import verify
 from grader.errors import Stop
 from grader.judge.course import COURSE_FILE, FULL, Course
@@ -30,10 +32,10 @@ from grader.judge.grade import KIT, opened
 from grader.judge.result import Result
 from grader.judge.rubric import visible
 from grader.player.replay import record_expected
-from grader.release.handed_out import make_students_tree, write_tree
+from grader.release.handed_out import FOR_CI, make_students_tree, write_tree
 from grader.release.leaks import find_leaks, find_secrets
-from grader.release.notebooks import make_notebooks
-from grader.release.pages import write_pages
+from grader.release.notebooks import ENGINE, make_notebooks
+from grader.release.pages import write_measured_pages, write_pages
 from grader.release.project import make_project
 from grader.release.recordings import Record, Recordings, record_anew
 from grader.release.students_copy import Tree, write_code, write_copy
@@ -42,6 +44,8 @@ from grader.report.sinks.classroom50 import write_bundle
 from grader.source.regions import python_files, read_source
 
 NAME = "physics-engine"
+MEASURING = "accuracy.ipynb"  # runs the engines to explore
+EXTRA = ("engines", "ci")  # archives to be unpacked over the lab
 SECOND_ONE = "315532800"  # the same, in s
 
 
@@ -101,8 +105,11 @@ def build(
     runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
     runs.write_bytes(record("runs", lambda: record_right_runs(course)))
     lay_out(tree, course)
+    extra = [work / each / NAME for each in EXTRA]
+    lay_out_engines(extra[0], course)
+    lay_out_ci(extra[1], course)
     lock = strip_build_packages((KIT / "requirements.txt").read_text(encoding="utf-8"))
-    content = hash_folders([copy, tree], lock)
+    content = hash_folders([copy, tree, *extra], lock)
     version = f"{__version__}+r{content[:8]}"  # pip puts it in the place of the last one
     wheel = build_wheel(copy, version, tree)
     requirements = f"{lock}./{wheel.name} --hash=sha256:{sha256(wheel.read_bytes())}\n"
@@ -112,6 +119,9 @@ def build(
     write_manifest(tree, version, content)
     name = f"{NAME}-{__version__}-{content[:8]}"
     write_zip(tree, built / f"{name}.zip")
+    (built / f"{name}-extra").mkdir()
+    for folder in extra:
+        write_zip(folder, built / f"{name}-extra" / f"{folder.parent.name}.zip")
     write_bundle(built / f"{name}-classroom50", wheel, tree / "requirements.txt")
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(work / "installed")
@@ -128,11 +138,27 @@ def record_right_runs(course: Course) -> bytes:
 def lay_out(tree: Path, course: Course) -> None:
     """Write the student's folder, except what is made last: wheel, requirements and manifest."""
     files = make_students_tree(KIT, course)
-    del files["requirements.txt"]
-    for name, content in make_notebooks(KIT / "starter" / "notebooks", course).items():
-        files[f"notebooks/{name}"] = content
-    write_tree(files, tree)
+    left = {"requirements.txt", *FOR_CI, *filter(is_laid_in, files)}
+    write_tree({name: files[name] for name in files.keys() - left}, tree)
+    notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
+    opened = {name: notebooks[name] for name in notebooks.keys() - {ENGINE, MEASURING}}
+    write_tree(opened, tree / "notebooks")
     write_pages(KIT / "handouts", tree / "handouts", course)
+
+
+def lay_out_engines(tree: Path, course: Course) -> None:
+    """Write the complete engine, and the programs and pages that measure engines."""
+    files = make_students_tree(KIT, course)
+    write_tree({name: files[name] for name in files if is_laid_in(name)}, tree)
+    notebooks = make_notebooks(KIT / "starter" / "notebooks", course)
+    write_tree({n: notebooks[n] for n in notebooks if n == MEASURING}, tree / "notebooks")
+    write_measured_pages(KIT / "handouts", tree / "handouts", course)
+
+
+def lay_out_ci(tree: Path, course: Course) -> None:
+    """Write the files for a course whose students push their work to GitHub or GitLab."""
+    files = make_students_tree(KIT, course)
+    write_tree({name: files[name] for name in FOR_CI}, tree)
 
 
 def strip_build_packages(lock: str) -> str:

@@ -8,6 +8,7 @@ from grader.judge.course import Course
 from grader.release.handouts import choose_examples, cut_readme
 from grader.source.regions import RegionError, read_source, regions_in
 
+FOR_CI = {".gitlab-ci.yml", ".github/workflows/grade.yml"}
 GIVEN = "# Given in this course: what TODO {} asks for elsewhere is done here."
 
 

@@ -1,9 +1,13 @@
-"""Write the handouts as pages that open with a double click, for the student's folder."""
+"""Write the handouts as pages that open with a double click, for the student's folder.
+
+Each page is one file: its figures, scripts and films are inside it.
+"""
 
 import json
 import re
 import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from base64 import b64encode
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from markdown_it import MarkdownIt
@@ -14,37 +18,76 @@ from grader.player.page import TEMPLATES, load_environment
 from grader.release.formulas import typeset
 from grader.release.handouts import make_handouts
 from grader.release.measured import make_script
+from grader.source.regions import read_source
 
 STAGE = TEMPLATES / "stage.js"
 
 SHARED = ("touch", "laws", "stage", "films", "measured")  # of all movable figures
+MEASURED = ("accuracy.md", "hard-cases.md", "effects.md")  # come with the engines they measure
 START = "index.md"  # its links are in the order in which the pages are read
 FEWEST = 3  # sections of a page that begins with a list of them
 SITE_ONLY = re.compile(r"\A---\n.*?^---\n", re.M | re.S)  # what the site is told of a page
+EMPTY: Mapping[str, str] = {}
 HERE = Path(__file__).with_name("templates")
 STYLE = (HERE / "handout.css").read_text(encoding="utf-8")
 
 
 def write_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
-    """Write a page for each of a course's handouts, and the figures that are in them."""
+    """Write a page for each of a course's handouts that students get with the lab."""
     texts = sort_pages(make_handouts(handouts, course))
-    (folder / "figures").mkdir(parents=True)
-    for name, text in texts.items():
-        target = folder / html_name(name)
-        page = make_page(name, texts, list_scripts(text, handouts))
-        target.write_text(page, encoding="utf-8", newline="\n")
-        for figure in find_figures(text):
-            shutil.copyfile(handouts / figure, folder / figure)
-    lay_out_touch(handouts, folder)
+    write_files(handouts, folder, {n: text for n, text in texts.items() if n not in MEASURED})
+
+
+def write_measured_pages(handouts: Path, folder: Path, course: Course = FULL) -> None:
+    """Write the pages about engines; they also lead to those that come with the lab."""
+    write_files(handouts, folder, sort_pages(make_handouts(handouts, course)), MEASURED)
+
+
+def write_files(
+    handouts: Path, folder: Path, texts: Mapping[str, str], names: Iterable[str] | None = None
+) -> None:
+    """Write the pages of these names, or all; a link to a text that is not there is plain words."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in texts if names is None else names:
+        page = embed_figures(make_page(name, texts, read_scripts(texts[name], handouts)), handouts)
+        (folder / html_name(name)).write_text(page, encoding="utf-8", newline="\n")
+
+
+def embed_figures(page: str, handouts: Path) -> str:
+    """Put the figures of a page into it; scripts and style know each by its name."""
+
+    def embed(found: re.Match[str]) -> str:
+        path = handouts / found[1]
+        kind = "svg+xml" if path.suffix == ".svg" else path.suffix[1:]
+        content = b64encode(path.read_bytes()).decode()
+        return f'data-figure="{found[1]}" src="data:image/{kind};base64,{content}"'
+
+    return re.sub(r'src="(figures/[^"]+)"', embed, page)
+
+
+def read_scripts(text: str, handouts: Path) -> dict[str, str]:
+    """Return what the movable figures of a page need: the style, the scripts, and their films."""
+    names = list_scripts(text, handouts)
+    if not names:
+        return {}
+    touch = handouts / "touch"
+    films = [touch / "films" / f"{Path(figure).stem}.js" for figure in find_figures(text)]
+    texts = {"style": read_source(touch / "touch.css")}
+    texts |= {f"film-{film.stem}": read_source(film) for film in films if film.is_file()}
+    made = {"stage": read_source(STAGE), "measured": write_measurements(handouts)}
+    return texts | {name: made.get(name) or read_source(touch / f"{name}.js") for name in names}
 
 
 def lay_out_touch(handouts: Path, folder: Path) -> None:
     """Copy the scripts and films of movable figures, with the stage of replays and measurements."""
     shutil.copytree(handouts / "touch", folder / "touch")
     shutil.copyfile(STAGE, folder / "touch" / STAGE.name)
-    results = json.loads((handouts / "results.json").read_text(encoding="utf-8"))
     script = folder / "touch" / "measured.js"
-    script.write_text(make_script(results), encoding="utf-8", newline="\n")
+    script.write_text(write_measurements(handouts), encoding="utf-8", newline="\n")
+
+
+def write_measurements(handouts: Path) -> str:
+    return make_script(json.loads((handouts / "results.json").read_text(encoding="utf-8")))
 
 
 def find_figures(text: str) -> list[str]:
@@ -66,7 +109,7 @@ def sort_pages(texts: Mapping[str, str]) -> dict[str, str]:
     return {name: SITE_ONLY.sub("", texts[name]) for name in names}
 
 
-def make_page(name: str, texts: Mapping[str, str], scripts: Sequence[str] = ()) -> str:
+def make_page(name: str, texts: Mapping[str, str], scripts: Mapping[str, str] = EMPTY) -> str:
     """Make one page; a link to a handout that is not among the pages becomes plain words."""
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(typeset(texts[name].replace("- [ ] ", "- \N{BALLOT BOX} ")))

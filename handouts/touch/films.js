@@ -1,6 +1,7 @@
 // Films of what engines did, recorded when the handouts were made, on the stage that replays use.
 //
-// A film is a file films/NAME.js, loaded when its figure comes into view: no page waits for it.
+// A film runs when its figure comes into view: no page waits for it. It is inside the page, as the
+// text of the script script-film-NAME, or else a file films/NAME.js.
 "use strict";
 
 const films = {
@@ -10,7 +11,11 @@ const films = {
   /** Hand the film of this name to `then`, now or when it has come. */
   load(name, then) {
     films.waiting.set(name, then);
-    document.head.append(touch.element("script", { src: `${films.folder}${name}.js` }));
+    const inside = document.getElementById(`script-film-${name}`);
+    const script = inside
+      ? touch.element("script", {}, inside.textContent)
+      : touch.element("script", { src: `${films.folder}${name}.js` });
+    document.head.append(script);
   },
 
   /** Do something once, when an element is about to be seen. */

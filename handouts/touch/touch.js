@@ -10,10 +10,15 @@
 const touch = {
   /** Make all figures of this name or kind; `build(figure)` adds parts and returns what draws them. */
   figure(kind, build) {
-    const ones = `img[src$="figures/${kind}.svg"], img[src*="figures/${kind}-"][src$=".svg"]`;
-    for (const still of document.querySelectorAll(ones)) {
-      new Figure(still.src.replace(/^.*figures\/(.*)\.svg$/, "$1"), still, build);
+    for (const still of document.querySelectorAll("img")) {
+      const [, name] = touch.place(still).match(/figures\/(.*)\.svg$/) ?? [];
+      if (name === kind || name?.startsWith(`${kind}-`)) new Figure(name, still, build);
     }
+  },
+
+  /** Where a picture comes from; one that is inside the page says it beside its content. */
+  place(still) {
+    return still.dataset.figure ?? still.src;
   },
 
   /** An element with these attributes and children; `svg:` before the name makes one of a drawing. */

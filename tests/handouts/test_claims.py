@@ -19,6 +19,9 @@ HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text(encoding="utf-8"))
 CLAIMS = tomllib.loads((HANDOUTS / "claims.toml").read_text(encoding="utf-8"))
 RULES = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq}
+LINES = {
+    name: line for page in RESULTS if page != "charts" for name, line in RESULTS[page].items()
+}
 EACH = [(page, says) for page, claims in CLAIMS.items() for says in claims]
 
 
@@ -50,12 +53,13 @@ def test_a_claim_stands_in_its_handout_and_its_lines_say_so(page: str, says: str
     assert in_one_line(says) in in_one_line((HANDOUTS / page).read_text(encoding="utf-8"))
     evidence = CLAIMS[page][says]
     assert evidence
-    assert not [problem for line in evidence if (problem := wrong(RESULTS[page], line))]
+    assert not [problem for line in evidence if (problem := wrong(RESULTS.get(page, LINES), line))]
 
 
 def test_every_page_with_measurements_has_claims() -> None:
     pages = {"accuracy.md", "effects.md", "hard-cases.md"}
-    assert set(CLAIMS) == set(RESULTS) - {"charts"} == pages
+    assert set(RESULTS) - {"charts"} == pages
+    assert set(CLAIMS) == pages | {"engines.md"}
 
 
 @pytest.mark.parametrize(
