@@ -23,7 +23,7 @@ from grader.judge.rubric import Rubric, load_rubric
 from grader.player import replay
 from grader.questions.program import open_program
 from grader.release import practice
-from grader.release.pages import write_pages
+from grader.release.pages import write_measured_pages, write_pages
 from grader.report.files import write_json
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -131,8 +131,13 @@ def wait_for(path: Path) -> None:
 
 @pytest.fixture(scope="session")
 def handout_pages(once: Once) -> Path:
-    """Write the pages of the handouts as the student's folder has them."""
-    return once("pages", lambda folder: write_pages(KIT / "handouts", folder, FULL))
+    """Write the pages of the handouts as students have them, those about engines included."""
+
+    def fill(folder: Path) -> None:
+        write_pages(KIT / "handouts", folder, FULL)
+        write_measured_pages(KIT / "handouts", folder, FULL)
+
+    return once("pages", fill)
 
 
 @pytest.fixture(scope="session")

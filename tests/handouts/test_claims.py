@@ -19,9 +19,7 @@ HANDOUTS = Path(__file__).parents[2] / "handouts"
 RESULTS = json.loads((HANDOUTS / "results.json").read_text(encoding="utf-8"))
 CLAIMS = tomllib.loads((HANDOUTS / "claims.toml").read_text(encoding="utf-8"))
 RULES = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "=": operator.eq}
-LINES = {
-    name: line for page in RESULTS if page != "charts" for name, line in RESULTS[page].items()
-}
+LINES = {name: line for page in RESULTS if page != "charts" for name, line in RESULTS[page].items()}
 EACH = [(page, says) for page, claims in CLAIMS.items() for says in claims]
 
 

@@ -218,7 +218,7 @@ def test_drawings_are_no_white_slabs_in_the_dark(lesson: Screen) -> None:
     """White paper comes out as dark as the page; what is drawn in black, bright."""
     screen = lesson
     screen.page.emulate_media(color_scheme="dark")
-    drawing = screen.page.locator('img[src$=".svg"]:visible').first
+    drawing = screen.page.locator('img[data-figure$=".svg"]:visible').first
     drawing.scroll_into_view_if_needed()
     box = drawing.bounding_box()
     shot = screen.page.screenshot()

@@ -418,7 +418,7 @@ def test_they_fit_a_phone(screen: Screen) -> None:
 
 
 VISIBLE = """names => names.filter(name => {
-    const picture = document.querySelector(`img[src$="figures/${name}.svg"]`);
+    const picture = document.querySelector(`img[data-figure="figures/${name}.svg"]`);
     return picture.getBoundingClientRect().width > 0;
 })"""
 
@@ -435,5 +435,5 @@ def test_paper_has_the_still_picture(screen: Screen) -> None:
 def test_browsers_without_scripts_have_the_still_picture(browser: Any, handout_pages: Path) -> None:
     plain = Screen(browser, handout_pages / "lesson.html", java_script_enabled=False)
     for name in [*MOVED, "tower"]:
-        assert plain.page.locator(f'img[src$="figures/{name}.svg"]').is_visible()
+        assert plain.page.locator(f'img[data-figure="figures/{name}.svg"]').is_visible()
     plain.page.close()

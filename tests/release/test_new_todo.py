@@ -87,7 +87,6 @@ SECTION = """## TODO 9: how far a spring swings
 Stuck? `make hint TODO=9`, or [the hints](hints.md#todo-9-how-far-a-spring-swings).
 
 """
-README_ROW = "| 9 | `integrators.py` | `amplitude` | the farthest stretch | always 0 |\n"
 
 
 def add_todo_9(kit: Path) -> None:
@@ -110,7 +109,6 @@ def add_todo_9(kit: Path) -> None:
     )
     put_before(sheet, "\n<!--% if every %-->\nTen more points", SHEET_ROW)
     put_before(sheet, "## Done when", SECTION)
-    put_before(kit / "solution" / "README.md", "\nAfter TODO 1, balls", README_ROW)
     edit(kit / "course.toml", '"8a", "8b", "8c",', '"8a", "8b", "8c", "9",')
     wrong = kit / "tests" / "bank" / "wrong" / "9.toml"  # 4
     wrong.write_text(WRONG, encoding="utf-8", newline="\n")

@@ -21,7 +21,7 @@ from whole_bank import bank
 
 from grader.bank import verify
 from grader.bank.members import Member
-from grader.bank.sync import list_students_files
+from grader.bank.sync import is_laid_in, list_students_files
 from grader.bank.verify import Report, shared_worker
 from grader.checks import exact
 from grader.judge import misconceptions, recorded
@@ -39,8 +39,9 @@ from grader.release.build import (
     prove,
     strip_build_packages,
 )
+from grader.release.handed_out import FOR_CI
 from grader.release.leaks import Secret, find_leaks_in_text, find_secrets, read_texts
-from grader.release.pages import make_page
+from grader.release.pages import MEASURED, make_page
 from grader.release.students_copy import Tree, cut_checks, list_hidden_checks, record_answers
 from grader.source.cut import pruned, with_bodies
 from grader.source.regions import replaced
@@ -495,16 +496,48 @@ def test_a_readme_reads_the_same_in_the_repository(folder: Path):
 def test_the_readme_names_what_is_there(released: Released):
     text = (released.tree / "README.md").read_text(encoding="utf-8")
     files = set(re.findall(r"`((?:[\w-]+/)*[\w-]+\.(?:py|html|txt))`", text))
-    assert {"handouts/lab-sheet.html", "MANIFEST.txt", "mini_engine/solver.py"} <= files
+    assert {"handouts/index.html", "MANIFEST.txt", "mini_engine/world.py"} <= files
     places = (released.tree, released.tree / "mini_engine")
     assert not [name for name in files if not any((each / name).is_file() for each in places)]
 
 
-def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
-    files = list_students_files(KIT)
-    for path in (KIT / "starter" / "notebooks").glob("*.ipynb"):
-        files[f"notebooks/{path.name}"] = path
-    assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(files)
+MOST_FILES, MOST_WORDS = 60, 500  # of the student's folder, and of its README
+
+
+def test_a_student_unpacks_few_files_and_reads_a_short_readme(released: Released):
+    assert len(releases.list_files(released.tree)) <= MOST_FILES
+    words = (released.tree / "README.md").read_text(encoding="utf-8").split()
+    assert len(words) <= MOST_WORDS
+
+
+def unpack_extra(released: Released, name: str, folder: Path) -> dict[str, Path]:
+    """Unpack an archive beside the lab; returns its files by name."""
+    (archive,) = released.built.glob(f"*-extra/{name}.zip")
+    shutil.unpack_archive(archive, folder)
+    return dict(releases.list_files(folder / releases.NAME))
+
+
+def test_the_engines_come_in_an_archive_of_their_own(released: Released, tmp_path: Path):
+    files = unpack_extra(released, "engines", tmp_path)
+    given = {name: path for name, path in list_students_files(KIT).items() if is_laid_in(name)}
+    assert {"accuracy.py", "experiments/dials/window.py", "stable_engine/world.py"} < set(given)
+    pages = {f"handouts/{Path(name).stem}.html" for name in MEASURED}
+    assert set(files) == set(given) | pages | {"notebooks/accuracy.ipynb"}
+    assert all(files[name].read_bytes() == path.read_bytes() for name, path in given.items())
+    assert not set(files) & set(dict(releases.list_files(released.tree)))
+
+
+def test_the_files_for_ci_come_in_an_archive_of_their_own(released: Released, tmp_path: Path):
+    files = unpack_extra(released, "ci", tmp_path)
+    assert set(files) == FOR_CI
+    assert all(files[name].read_bytes() == (KIT / "starter" / name).read_bytes() for name in files)
+
+
+def test_the_tree_is_the_starter(released: Released):
+    files = {n: p for n, p in list_students_files(KIT).items() if not is_laid_in(n)}
+    files = {name: files[name] for name in files.keys() - FOR_CI}
+    for name in ("integrators", "journal", "quiz"):
+        files[f"notebooks/{name}.ipynb"] = KIT / "starter" / "notebooks" / f"{name}.ipynb"
     made = {"requirements.txt", "pyproject.toml", "MANIFEST.txt", released.wheel.name}
     there = [name for name, _ in releases.list_files(released.tree)]
     assert {name for name in there if not name.startswith("handouts/")} == set(files) | made
@@ -514,10 +547,11 @@ def test_the_tree_is_the_starter_with_all_that_is_laid_in(released: Released):
 
 def test_every_link_of_the_pages_leads_somewhere(released: Released):
     pages = {page.name: page.read_text(encoding="utf-8") for page in released.tree.glob("*/*.html")}
-    assert {f"{path.stem}.html" for path in (KIT / "handouts").glob("*.md")} == set(pages)
+    there = {path.name for path in (KIT / "handouts").glob("*.md")} - set(MEASURED)
+    assert {f"{Path(name).stem}.html" for name in there} == set(pages)
     assert 'href="hints.html#todo-4' in pages["lab-sheet.html"]
     for name, text in pages.items():
-        for link in re.findall(r'(?:href|src)="([^"]+)"', text):
+        for link in re.findall(r'(?:href|src)="(?!data:)([^"]+)"', text):
             target, _, place = link.partition("#")
             assert (released.tree / "handouts" / (target or name)).is_file(), f"{name}: {link}"
             assert not place or f'id="{place}"' in pages[target or name], f"{name}: {link}"
