@@ -219,7 +219,7 @@ def plan() -> dict[str, dict[str, Any]]:
             "points": int(points),
             "place": (file.strip("`"), function.strip("`")),
         }
-        for todo, minutes, points, file, function in table_below(
+        for todo, minutes, points, file, function, _ in table_below(
             text_of("lab-sheet.md"), "## The plan"
         )
     }
