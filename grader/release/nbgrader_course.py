@@ -5,6 +5,7 @@ import shutil
 import zipfile
 from pathlib import Path
 
+from grader.bank.sync import is_laid_in
 from grader.classroom.nbgrader.submissions import ASSIGNMENT, NOTEBOOKS
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
@@ -38,11 +39,12 @@ def make_course(
             f"there is an assignment in {source} already. --renew replaces it; "
             "settings, submissions and gradebook stay."
         )
+    tree = make_students_tree(KIT, taken)
     if release is None:
-        tree = make_students_tree(KIT, taken)
         files = {name: text for name, text in tree.items() if not name.startswith(".")}
     else:
-        files = read_release(release, taken)
+        engines = {name: text for name, text in tree.items() if is_laid_in(name)}
+        files = engines | read_release(release, taken)
     files |= make_notebooks(KIT / "solution" / NOTEBOOKS, taken)
     shutil.rmtree(source, ignore_errors=True)
     write_tree(files, source)

@@ -75,7 +75,9 @@ WRONG = """# Mistakes in TODO 9.
 why = "Returns the present stretch."
 code = "return abs(x)"
 """
-SHEET_ROW = "| [9](#todo-9-how-far-a-spring-swings) | 3 | 2 | `integrators.py` | `amplitude` | 100 px |\n"
+SHEET_ROW = (
+    "| [9](#todo-9-how-far-a-spring-swings) | 3 | 2 | `integrators.py` | `amplitude` | 100 px |\n"
+)
 SECTION = """## TODO 9: how far a spring swings
 
 3 minutes · `integrators.py` · `amplitude`
