@@ -10,7 +10,7 @@ PROJECT = """\
 [project]
 name = "physics-lab"
 version = "1"
-requires-python = ">=3.11"
+requires-python = ">=3.11,<3.14"
 dependencies = ["physics-grader"]
 
 [tool.uv]
