@@ -192,6 +192,7 @@ ELSEWHERE = {
     "sync": "",
     "mutants": "",
     "bench": "",
+    "tab": "",
     "nbgrader course": "course",
     "nbgrader collect": "class",
     "nbgrader release": "",
