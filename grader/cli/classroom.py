@@ -46,7 +46,7 @@ course_app = typer.Typer(
     "handouts/instructor/nbgrader.md describes each.",
     no_args_is_help=True,
 )
-app.add_typer(course_app, name="nbgrader")
+app.add_typer(course_app, name="nbgrader", hidden=True)
 
 # Before, --course was nbgrader's folder, and this the course file.
 CourseFileToo = Annotated[Path | None, course_option("--course", "--course-file")]
@@ -94,7 +94,7 @@ def refuse_folder(course: Path | None) -> None:
         raise Stop(f"--course {course} is a folder, and names a course file: say --folder {course}")
 
 
-@course_app.command("collect", hidden=True)
+@course_app.command("collect")
 def collect_command(
     folder: Annotated[Path, typer.Argument(help="A folder of submissions, a folder each.")],
     course: CourseFolder = Path("."),
@@ -155,7 +155,7 @@ def release_command() -> None:
     console.print(f"renewed {', '.join(notebooks.renew_notebooks(KIT)) or 'nothing'}")
 
 
-@course_app.command("roster", hidden=True)
+@course_app.command("roster")
 def roster_command(roster: Gradebook, course: CourseFolder = Path("."), key: Key = "") -> None:
     """Write the names of a class list into the gradebook."""
     from grader.classroom.nbgrader.gradebook import write_names

@@ -44,8 +44,8 @@ ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(si
 FOR_CLASS = ("roster", "adjust", "cluster")  # for a class alone
 FOR_INSTRUCTORS = ("grade", "release", "gradescope")  # what --help lists beside the groups
 EPILOG = (
-    "A term is described in handouts/instructor/term.md. Students' commands work here too: check, "
-    "hint, hand-in. All others are listed by: grader dev --help"
+    "A term is described in handouts/instructor/term.md. A course with nbgrader: grader nbgrader "
+    "--help. Students' commands work here too: check, hint, hand-in. All others: grader dev --help"
 )
 
 
