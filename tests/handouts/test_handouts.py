@@ -20,7 +20,7 @@ import integrators
 import mini_engine
 from grader.cli.main import FOR_CLASS, grade_command
 from grader.release.formulas import typeset
-from grader.release.pages import make_page
+from grader.release.pages import MEASURED, make_page
 from grader.source.regions import python_files, regions_in
 
 KIT = Path(__file__).parents[2]
@@ -151,6 +151,21 @@ def test_no_page_names_a_place_on_a_machine(page: Path) -> None:
 def test_pictures_are_small() -> None:
     for picture in (HANDOUTS / "figures").iterdir():
         assert picture.stat().st_size < 60 * 1024, f"{picture.name} is too large for a page"
+
+
+def shown_words(page: Path) -> int:
+    """How many words of a page are shown, the menus around it left out."""
+    text = page.read_text(encoding="utf-8")
+    text = re.sub(r"<(script|style|head|header|footer)\b.*?</\1>", "", text, flags=re.S)
+    return len(re.findall(r"\w[\w'.-]*", html.unescape(re.sub(r"<[^>]+>", " ", text))))
+
+
+def test_what_students_get_with_the_lab_is_short(handout_pages: Path) -> None:
+    measured = {Path(name).stem for name in MEASURED}
+    pages = [page for page in handout_pages.glob("*.html") if page.stem not in measured]
+    readme = (STARTER / "README.md").read_text(encoding="utf-8").split()
+    assert len(pages) == len(STUDENTS) - len(measured)
+    assert sum(map(shown_words, pages)) + len(readme) <= 12_000
 
 
 # ---------------------------------------------------------------- what is made by programs
