@@ -8,12 +8,14 @@ import subprocess
 import threading
 import zipfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from firefox import Firefox, firefox
 from page_readers import PATIENCE, chromium
 from whole_bank import member_named
 
@@ -36,6 +38,7 @@ MEMBERS = {
     "5-rate-without-the-step": "5",
     "8a-explicit-euler-again": "8a",
 }
+CONTROL = "\ue009"  # the key, to a browser
 ENDLESS = "        while True:\n            pass\n"
 PARITY = """
 import fs from "fs";
@@ -79,12 +82,19 @@ class Silent(http.server.SimpleHTTPRequestHandler):
         """Say nothing."""
 
 
-@pytest.fixture(scope="module")
-def address(site: Path) -> Iterator[str]:
+@contextmanager
+def serve(site: Path) -> Iterator[str]:
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(Silent, directory=site))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}/"
     server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def address(site: Path) -> Iterator[str]:
+    with serve(site) as opened:
+        yield opened
 
 
 class Tab:
@@ -161,6 +171,14 @@ def asked(has_pymunk: bool) -> dict[str, str]:
     return {id: name for id, name in files.items() if has_pymunk or id not in PYMUNK}
 
 
+def list_passed(zipped: Path, folder: Path) -> set[str]:
+    """Return the TODOs that pass in what was handed in."""
+    with zipfile.ZipFile(zipped) as archive:
+        archive.extractall(folder)
+    result = grade(folder, Options(trusted=True), shared_worker())
+    return {todo.id for todo in result.todos if todo.state == "passed"}
+
+
 @SOAK
 def test_the_whole_lab_is_done_on_the_page(tab: Tab, tmp_path: Path):
     files = asked(CFFI.is_file())
@@ -174,10 +192,7 @@ def test_the_whole_lab_is_done_on_the_page(tab: Tab, tmp_path: Path):
         [] if CFFI.is_file() else [f"TODO {id}" for id in PYMUNK]
     )
     zipped = tab.download("hand-in", tmp_path / "hand-in.zip")
-    with zipfile.ZipFile(zipped) as archive:
-        archive.extractall(tmp_path / "handed-in")
-    result = grade(tmp_path / "handed-in", Options(trusted=True), shared_worker())
-    assert {todo.id for todo in result.todos if todo.state == "passed"} >= set(files)
+    assert list_passed(zipped, tmp_path / "handed-in") >= set(files)
 
 
 @SOAK
@@ -250,6 +265,77 @@ def test_work_is_kept_offline_too_and_carried_over(
     other.choose("8a")
     assert "# mine" in other.shown()
     other.context.close()
+
+
+# ---------------------------------------------------------------- in Firefox
+
+
+class FirefoxTab:
+    """The page in Firefox, used as in Chromium."""
+
+    def __init__(self, browser: Firefox, address: str) -> None:
+        self.browser = browser
+        browser.open(address)
+        self.wait()
+
+    def do(self, button: str) -> str:
+        self.browser.run(f"document.querySelector('#{button}').click()")
+        return self.wait()
+
+    def wait(self) -> str:
+        shown = "document.body.dataset.shown !== undefined"
+        self.browser.wait_until(f"{shown} && !document.querySelector('#run').disabled")
+        return self.text("status")
+
+    def text(self, name: str) -> str:
+        return self.browser.run(f"document.querySelector('#{name}').innerText")
+
+    def choose(self, todo: str) -> None:
+        select = "document.querySelector('#todo')"
+        self.browser.run(f"{select}.value = '{todo}'")
+        self.browser.run(f"{select}.dispatchEvent(new Event('change'))")
+
+    def type_file(self, text: str) -> None:
+        self.browser.run("document.querySelector('#editor .cm-content').focus()")
+        self.browser.press("a", held=CONTROL)
+        self.browser.run(f"document.execCommand('insertText', false, {json.dumps(text)})")
+
+    def start_program(self) -> None:
+        self.browser.run("document.querySelector('#run').click()")
+        self.browser.wait_until("!document.querySelector('#stop').disabled")
+
+
+@SOAK
+def test_the_lab_is_done_in_firefox_and_kept_offline(site: Path, tmp_path: Path):
+    files = asked(CFFI.is_file())
+    with firefox(tmp_path / "firefox") as browser:
+        with serve(site) as opened:
+            tab = FirefoxTab(browser, opened)
+            for id, name in files.items():
+                tab.choose(id)
+                tab.type_file(read_source(KIT / "solution" / name))
+            assert "Checked." in tab.do("check-all")
+            browser.run("document.querySelector('#hand-in').click()")
+            zipped = browser.wait_for_download("hand-in.zip")
+            assert list_passed(zipped, tmp_path / "handed-in") >= set(files)
+            tab.wait()
+        browser.send("browsingContext.reload", context=browser.tab, wait="none")
+        tab.wait()  # though nothing serves the page any more
+        tab.choose("5")
+        assert tab.do("check").startswith("TODO 5: passed")
+
+
+@SOAK
+def test_endless_loops_end_in_firefox(address: str, tmp_path: Path):
+    text = read_source(KIT / "starter" / "mini_engine" / "world.py")
+    with firefox(tmp_path / "firefox") as browser:
+        tab = FirefoxTab(browser, address)
+        tab.choose("5")
+        tab.type_file(text.replace("        keep_vel = 0.99\n", ENDLESS))
+        tab.do("check")
+        assert re.search("did not answer|never\\s+ends|not to end", tab.text("found"))
+        tab.start_program()
+        assert tab.do("stop") == "The program has ended."
 
 
 # ---------------------------------------------------------------- what it holds
