@@ -51,6 +51,9 @@ UNUSED = re.compile(
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
 )
 SECTION = re.compile(rf"^## TODO ({TODO_ID}): .*\n", re.M)
+PREDICTION = re.compile(
+    r"^\*\*Predict\.\*\*.*?^</details>\n", re.M | re.S
+)  # of films, not played here
 TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
@@ -239,11 +242,12 @@ def write_sheet(
 
 
 def find_sections(text: str) -> dict[str, str]:
-    """Return the text of each TODO on the lab sheet, without its heading."""
+    """Return the text of each TODO on the lab sheet, without its heading and its films."""
     found = {}
     for heading in SECTION.finditer(text):
         rest = text[heading.end() :]
-        found[heading[1]] = re.split(r"^##? ", rest, maxsplit=1, flags=re.M)[0]
+        section = re.split(r"^##? ", rest, maxsplit=1, flags=re.M)[0]
+        found[heading[1]] = PREDICTION.sub("", section)
     return found
 
 

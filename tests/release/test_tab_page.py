@@ -388,6 +388,12 @@ def test_a_leak_stops_the_build(tmp_path: Path):
         tab_page.look_for_own_leaks(tmp_path, FULL)
 
 
+def test_sections_ask_for_no_film_that_the_page_does_not_play():
+    sections = find_sections((KIT / "handouts" / "lab-sheet.md").read_text(encoding="utf-8"))
+    assert len(sections) > 10 and all("**What.**" in text for text in sections.values())
+    assert not [id for id, text in sections.items() if "Predict" in text or "predict" in text]
+
+
 def test_a_section_names_the_buttons_of_the_page():
     text = "# Sheet\n\n## TODO 4: Friction\n\n- [ ] `make check TODO=4` says so.\n\n## After\n"
     html = render(find_sections(text)["4"])
