@@ -164,10 +164,10 @@ sync: $(CORE) ## Carry the solution's given code over into the starter
 	@$(PY) -m grader sync
 
 test: $(DEV) ## Run the test suite, with some of the bank; verify and soak have the rest
-	@$(PY) -m pytest tests $(PLUGINS) -n 2 --dist loadfile
+	@$(PY) -m pytest tests $(PLUGINS) -n 2 --dist loadfile -rs
 
 soak: $(DEV) $(SITE) $(NOTEBOOKS) ## Run the long tests that `make test` leaves out
-	@$(PY) -m pytest tests -m soak
+	@$(PY) -m pytest tests -m soak -rs
 
 lint: $(DEV) ## Check style and types
 	$(PY) -m ruff check
