@@ -129,7 +129,9 @@ def test_what_a_person_entered_in_canvas_stays_unless_told(lab: Path, server: Ca
     assert status == 1 and scores(server)[0] == 9.0
 
 
-@pytest.mark.parametrize("where, mark", [("lost before", 6.0), ("lost after", 7.0)])
+@pytest.mark.parametrize(
+    "where, mark", [("lost before", 6.0), pytest.param("lost after", 7.0, marks=pytest.mark.soak)]
+)
 def test_a_lost_connection_is_a_sentence_and_the_same_command_goes_on(
     lab: Path, server: Canvas, where: str, mark: float
 ):

@@ -185,6 +185,7 @@ def test_an_entry_that_cannot_be_read_makes_no_class(
     assert listing.find_class(tmp_path / "class") == ["anna", GREEK]
 
 
+@pytest.mark.soak
 def test_a_page_that_cannot_be_made_says_so_and_the_others_are_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
@@ -206,6 +207,7 @@ def test_a_page_that_cannot_be_made_says_so_and_the_others_are_made(
     assert words in (book.folder / "ben.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.soak
 def test_a_class_that_cannot_be_compared_is_graded_all_the_same(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
