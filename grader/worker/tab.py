@@ -15,7 +15,7 @@ import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -74,11 +74,13 @@ class Surroundings:
     random: tuple[Any, ...]
     deep: int  # calls, at most
     values: list[tuple[Any, str, Any]]
+    environment: dict[str, str]
 
     @classmethod
     def current(cls) -> "Surroundings":
         values = [(owner, n, getattr(owner, n, MISSING)) for owner, names in OWN for n in names]
-        return cls(os.getcwd(), random.getstate(), sys.getrecursionlimit(), values)
+        deep, environment = sys.getrecursionlimit(), dict(os.environ)
+        return cls(os.getcwd(), random.getstate(), deep, values, environment)
 
     def copy(self) -> "Surroundings":
         """Return the same with lists of its own."""
@@ -86,7 +88,7 @@ class Surroundings:
             (owner, name, list(value) if isinstance(value, list) else value)
             for owner, name, value in self.values
         ]
-        return Surroundings(self.folder, self.random, self.deep, values)
+        return replace(self, values=values)
 
     def put_in_place(self) -> None:
         for owner, name, value in self.values:
@@ -98,6 +100,9 @@ class Surroundings:
                 setattr(owner, name, value)
         with suppress(OSError):  # a submission may have removed its folder
             os.chdir(self.folder)
+        if dict(os.environ) != self.environment:  # a program finds its number of frames there
+            os.environ.clear()
+            os.environ.update(self.environment)
         random.setstate(self.random)
         sys.setrecursionlimit(self.deep)
 

@@ -1,5 +1,6 @@
 """The worker without processes grades as the usual one does, and bounds each child."""
 
+import os
 import random
 import signal
 import sys
@@ -106,6 +107,13 @@ def test_what_is_printed_is_bounded(tab: InlineWorker, hand_in: HandIn):
     prints = "\n\ndef semi_implicit_euler(x, v, dt, accel):\n    print('x' * 10**6)\n    return 0\n"
     result = assert_same(hand_in(integrators_py=INTEGRATORS + prints), tab, "8a")
     assert "bytes and then" in str(checks(result)[0].printed)
+
+
+def test_what_a_submission_sets_in_the_environment_ends_with_it(tab: InlineWorker, hand_in: HandIn):
+    sets = "\n\nimport os\nos.environ['LAB_FRAMES'] = '1'\nos.environ.pop('PATH', None)\n"
+    before = dict(os.environ)
+    assert_same(hand_in(integrators_py=INTEGRATORS + sets), tab, "8a")
+    assert dict(os.environ) == before
 
 
 def test_a_program_that_ends_its_process_loses_the_answer_alone(tab: InlineWorker, hand_in: HandIn):

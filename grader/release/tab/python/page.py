@@ -27,8 +27,6 @@ MOST_BYTES = 20_000_000  # of a zip that is brought in
 COLUMNS = range(40, 81)
 ALONE = "numpy is not in this page. Use Python's own numbers here, or work on a computer."
 
-USUAL_ENVIRONMENT = dict(os.environ)  # checks set variables that programs read, such as LAB_FRAMES
-
 bridge = None
 
 
@@ -42,8 +40,6 @@ def start(bridge_):
 def lay_out(files):
     """Make the lab's folder: what was handed out, and over it these files, text by name."""
     os.chdir("/")
-    os.environ.clear()
-    os.environ.update(USUAL_ENVIRONMENT)
     shutil.rmtree(LAB)
     shutil.copytree(HANDED_OUT, LAB)
     for name, text in json.loads(files).items():
