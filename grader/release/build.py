@@ -196,10 +196,11 @@ def write_manifest(tree: Path, version: str, content: str) -> None:
     (tree / "MANIFEST.txt").write_text(head + "".join(rows), encoding="utf-8", newline="\n")
 
 
-def write_zip(tree: Path, target: Path) -> None:
+def write_zip(tree: Path, target: Path, top: str = NAME) -> None:
+    """Pack the files of a folder, below a folder of the name `top`."""
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, path in list_files(tree):
-            put_in(archive, f"{NAME}/{name}", path.read_bytes())
+            put_in(archive, f"{top}/{name}", path.read_bytes())
 
 
 def list_files(folder: Path) -> list[tuple[str, Path]]:

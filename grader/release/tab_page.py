@@ -4,7 +4,6 @@ The page needs no server of ours and no installation: Python runs in it as WebAs
 made of lies in `tab/`; what is fetched once, by hash, is kept in `build/tab-cache`.
 """
 
-import io
 import json
 import re
 import shutil
@@ -29,6 +28,7 @@ from grader.release.build import (
     list_files,
     move_into,
     sha256,
+    write_zip,
 )
 from grader.release.formulas import typeset
 from grader.release.handed_out import make_students_tree
@@ -101,7 +101,7 @@ def build_tab(
     bundle_scripts(site, cache)
     write_service_worker(site)
     look_for_own_leaks(site, course)
-    write_zip(site, built / f"{NAME}-tab.zip")
+    write_zip(site, built / f"{NAME}-tab.zip", site.name)
     return built
 
 
@@ -285,11 +285,3 @@ def write_service_worker(site: Path) -> None:
     text = text.replace("FILES = []", f"FILES = {json.dumps(names)}")
     text = text.replace("-VERSION", f"-{hash_folders([site], text)[:16]}")
     (site / "sw.js").write_text(text, encoding="utf-8", newline="\n")
-
-
-def write_zip(site: Path, target: Path) -> None:
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, path in list_files(site):
-            put_in(archive, f"{site.name}/{name}", path.read_bytes())
-    target.write_bytes(packed.getvalue())
