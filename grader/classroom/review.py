@@ -128,7 +128,10 @@ class Review:
 
     def list_decisions(self, name: str) -> list[Decision]:
         """Return the decisions about a student, by any name that means them."""
-        return [each for each in self.file.list_decisions() if self.is_about(each, name)]
+        return self.select_decisions(name, self.file.list_decisions())
+
+    def select_decisions(self, name: str, decisions: list[Decision]) -> list[Decision]:
+        return [each for each in decisions if self.is_about(each, name)]
 
     def is_about(self, decision: Decision, name: str) -> bool:
         called = [each for who in decision.students for each in self.people.list_called(who)]
@@ -327,7 +330,8 @@ class File:
 
 def render_class(review: Review) -> str:
     rows = [(name, review.find_outcome(name), review.find_reason(name)) for name in review.names]
-    decided = {name: review.list_decisions(name) for name, _, _ in rows}
+    decisions = review.file.list_decisions()
+    decided = {name: review.select_decisions(name, decisions) for name, _, _ in rows}
     return fill(
         "review.html",
         known=review.known,
