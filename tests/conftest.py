@@ -5,14 +5,15 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 import pytest
 from hypothesis import HealthCheck, settings
+from page_readers import chromium
 
 from grader.bank.sync import list_students_files
 from grader.bank.verify import shared_worker
@@ -209,3 +210,10 @@ def result_of(tree: str, once: Once, todos: tuple[str, ...] = ()) -> Result:
 
     folder = once("-".join(("graded", tree, *todos)), fill)
     return msgspec.json.decode((folder / "result.json").read_bytes(), type=Result)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A browser, where this machine has one."""
+    with chromium() as opened:
+        yield opened

@@ -7,7 +7,7 @@ from pathlib import Path
 import classes
 import packed
 import pytest
-from command_line import run_grader
+from command_line import call_class
 from points_pool import Inline
 
 from grader.classroom import grading
@@ -17,12 +17,6 @@ from grader.classroom.nbgrader import gradebook
 
 COURSE = 'title = "Lab 3"\ntodos = ["8a"]\nout_of = 10\n[points]\n8a = 20\n'
 POINTS = {"ann": 5, "ben": 10, "cem": 20}
-
-
-def call(*words: object) -> str:
-    done = run_grader("class", *words)
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
-    return " ".join(done.output.split())
 
 
 @pytest.fixture
@@ -39,17 +33,17 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def make(place: Path, *more: object) -> Path:
     words = ("--roster", place / "list.csv", "--course", place / "autumn.toml")
-    said = call("new", place / "lab", *words, *more)
+    said = call_class("new", place / "lab", *words, *more)
     assert "No problems found" in said and "Lab 3, 20 points" in said and "4 students" in said
     return place / "lab"
 
 
 def test_no_command_is_told_twice_what_the_class_is(place: Path):
     lab = make(place, "--submissions", place / "export")
-    assert "3 submissions" in call("grade", lab)
+    assert "3 submissions" in call_class("grade", lab)
     with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
         assert [row["points"] for row in csv.DictReader(table)] == ["5", "10", "20"]
-    assert "4 of 4 marks" in call("marks", lab)
+    assert "4 of 4 marks" in call_class("marks", lab)
     with open(lab / "marks.csv", encoding="utf-8") as table:
         assert [row["Grade"] for row in csv.DictReader(table)] == ["2.5", "5.0", "10.0", "0"]
     assert "Lab 3" in (lab / "results.class.html").read_text(encoding="utf-8")
@@ -65,8 +59,8 @@ def test_marks_are_rounded_and_absent_as_the_settings_say(place: Path):
     lab.mkdir()
     (lab / "marks.toml").write_text('decimals = 0\nabsent = "none"\nshares = { engine = 7 }\n')
     make(place, "--submissions", place / "export")
-    call("grade", lab)
-    assert "4 of 4 marks" in call("marks", lab)
+    call_class("grade", lab)
+    assert "4 of 4 marks" in call_class("marks", lab)
     assert read_grades(lab) == ["3", "5", "10", "none"]
 
 
@@ -85,31 +79,31 @@ def test_marks_of_notebooks_come_from_the_gradebook_of_nbgrader(
         return {f"{name}@x.edu": {"engine": Part(points, 20)} for name, points in POINTS.items()}
 
     monkeypatch.setattr(gradebook, "read_parts", read_parts)
-    call("marks", lab)
+    call_class("marks", lab)
     assert asked == [lab] and read_grades(lab) == ["1.9", "3.8", "7.5", "0"]
 
 
 def test_the_export_may_come_later(place: Path):
     lab = make(place)
-    said = call("grade", lab)
+    said = call_class("grade", lab)
     assert "there is nothing at" in said and "--submissions FILE" in said
     (place / "export").rename(lab / "submissions")
-    assert "3 submissions" in call("grade", lab)
+    assert "3 submissions" in call_class("grade", lab)
 
 
 def test_another_course_over_results_is_refused_unless_it_is_wanted(place: Path):
     lab = make(place, "--submissions", place / "export")
-    call("grade", lab)
+    call_class("grade", lab)
     before = (lab / "class.toml").read_text(encoding="utf-8")
     (place / "other.toml").write_text(COURSE.replace("20", "30"))
     other = ("--course", place / "other.toml")
-    said = call("new", lab, *other)
+    said = call_class("new", lab, *other)
     assert "TODO 8a has 20 points there, and 30 here" in said and "--other-course" in said
     assert (lab / "class.toml").read_text(encoding="utf-8") == before
-    call("new", lab, *other, "--other-course")
+    call_class("new", lab, *other, "--other-course")
     for command in ("grade", "marks", "feedback", "questions"):
-        assert "TODO 8a has 20 points there, and 30 here" in call(command, lab), command
-    assert "3 submissions" in call("grade", lab, "--other-course")
+        assert "TODO 8a has 20 points there, and 30 here" in call_class(command, lab), command
+    assert "3 submissions" in call_class("grade", lab, "--other-course")
 
 
 def test_lines_that_a_person_wrote_stay(place: Path):
@@ -117,7 +111,7 @@ def test_lines_that_a_person_wrote_stay(place: Path):
     file = lab / "class.toml"
     text = re.sub("seed = .*", "seed = 3 # drawn", file.read_text(encoding="utf-8"))
     file.write_text(f"# mine\n{text}", "utf-8")
-    call("new", lab, "--submissions", place / "export")
+    call_class("new", lab, "--submissions", place / "export")
     text = file.read_text(encoding="utf-8")
     assert text.startswith("# mine\n") and "seed = 3 # drawn" in text
     assert f'submissions = "{place.as_posix()}/export"' in text
@@ -138,17 +132,17 @@ def test_a_line_that_nobody_can_mean_is_a_sentence(place: Path, line: str, words
     name = line.partition(" ")[0]
     others = [each for each in file.read_text(encoding="utf-8").splitlines() if name not in each]
     file.write_text("\n".join([*others, line, ""]), encoding="utf-8")
-    assert words in call("grade", lab)
+    assert words in call_class("grade", lab)
 
 
 def test_a_class_draws_a_seed_that_nobody_can_try_and_keeps_it(place: Path):
     lab = make(place)
-    call("new", place / "other")
+    call_class("new", place / "other")
     first, second = (read_class_folder(each).settings.seed for each in (lab, place / "other"))
     assert first and second and first != second and max(first, second).bit_length() > 100
-    call("new", lab, "--submissions", place / "export")
+    call_class("new", lab, "--submissions", place / "export")
     assert read_class_folder(lab).settings.seed == first
-    call("new", lab, "--seed", "7")
+    call_class("new", lab, "--seed", "7")
     assert read_class_folder(lab).settings.seed == 7
 
 
@@ -158,14 +152,14 @@ def test_killed_twice_and_finished_later_a_class_has_the_same_bytes(
     lab = make(place, "--submissions", place / "export")
     for _ in range(2):
         monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline(1))
-        assert "the same command goes on from there" in call("grade", lab)
+        assert "the same command goes on from there" in call_class("grade", lab)
     monkeypatch.setattr(grading, "open_executor", lambda wanted: Inline())
-    assert "1 graded, 2 kept" in call("grade", lab)
+    assert "1 graded, 2 kept" in call_class("grade", lab)
     other = place / "at once"
     lab.joinpath("class.toml").rename(place / "class.toml")
     other.mkdir()
     (place / "class.toml").rename(other / "class.toml")
-    call("grade", other)
+    call_class("grade", other)
     names = {path.name for path in (lab / "results").glob("*.json")}
     assert len(names) == 3
     for name in names:
@@ -177,8 +171,10 @@ def test_what_needs_review_names_the_file_of_decisions_and_takes_them(place: Pat
     classes.put(place / "export" / "dora.zip", b"PK broken")
     lab = make(place)
     (place / "export").rename(lab / "submissions")
-    assert f"1 need manual review: set points in {lab / 'decisions.toml'}" in call("grade", lab)
+    assert f"1 need manual review: set points in {lab / 'decisions.toml'}" in call_class(
+        "grade", lab
+    )
     decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown in the lab"\n'
     (lab / "decisions.toml").write_text(decision, encoding="utf-8")
-    assert "need manual review" not in call("grade", lab)
-    assert "4 of 4 marks" in call("marks", lab)
+    assert "need manual review" not in call_class("grade", lab)
+    assert "4 of 4 marks" in call_class("marks", lab)

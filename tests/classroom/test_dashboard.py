@@ -11,7 +11,7 @@ import msgspec
 import pytest
 from command_line import run_grader
 from msgspec import structs
-from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers, chromium
+from page_readers import HARMLESS, HOSTILE, Reader, Screen, barriers
 from whole_bank import bank
 
 from grader.bank.verify import shared_worker
@@ -198,12 +198,6 @@ def test_a_replay_is_made_of_each_known_mistake(tmp_path: Path):
 
 
 # ---------------------------------------------------------------- in a browser
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture

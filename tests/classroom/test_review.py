@@ -14,7 +14,7 @@ from urllib.parse import urlencode
 import classes
 import packed
 import pytest
-from command_line import run_grader
+from command_line import call_class
 from page_readers import PATIENCE, Reader, barriers, chromium
 from points_pool import Inline
 
@@ -191,12 +191,6 @@ def lock(archive: bytes) -> bytes:
     return bytes(content)
 
 
-def call(*words: object) -> str:
-    done = run_grader("class", *words)
-    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
-    return " ".join(done.output.split())
-
-
 @pytest.fixture
 def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A graded class with all that needs a person."""
@@ -222,8 +216,8 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "autumn.toml").write_text(COURSE)
     paths = {"roster": "list.csv", "course": "autumn.toml", "submissions": "export"}
     options = [word for name, file in paths.items() for word in (f"--{name}", tmp_path / file)]
-    call("new", tmp_path / "lab", *options)
-    assert "5 need manual review" in call("grade", tmp_path / "lab")
+    call_class("new", tmp_path / "lab", *options)
+    assert "5 need manual review" in call_class("grade", tmp_path / "lab")
     return tmp_path / "lab"
 
 
@@ -293,7 +287,7 @@ def test_what_a_person_decides_on_the_page_counts(server: ReviewServer, lab: Pat
     text = (lab / "decisions.toml").read_text(encoding="utf-8")
     assert text.count("[[adjust]]") == 5 and text.count("[[comment]]") == 2
     assert 'student = "gil@x.edu"\ntake = "Gil_77"\nreason = "his number"' in text
-    assert "2 need manual review" in call("grade", lab)
+    assert "2 need manual review" in call_class("grade", lab)
     with open_review(read_class_folder(lab)) as again:
         assert "Needs a person: 2" in Reader(ask(again, "/").body).text
     with open(lab / "results.class.csv", encoding="utf-8-sig") as table:
@@ -311,7 +305,7 @@ def test_a_comment_is_on_the_next_submission_too(server: ReviewServer, lab: Path
     ask(server, "/comment", form)
     work = classes.work(6) | {"integrators.py": f"import math\n\n{code(6)}"}
     classes.put(lab.parent / "export" / "ann.zip", packed.as_zip(work))
-    call("grade", lab)
+    call_class("grade", lab)
     page = (lab / "results" / "ann.html").read_text(encoding="utf-8")
     assert "integrators.py, line 5" in page and "<mark>5     x = x + v * dt</mark>" in page
 
@@ -408,7 +402,7 @@ def tab_to(page: Any, *names: str) -> None:
 
 
 def test_who_must_send_work_again_gets_a_draft(lab: Path):
-    said = call("mail", lab)
+    said = call_class("mail", lab)
     assert "5 drafts in" in said and "Nothing was sent" in said
     drafts = {path.stem: path.read_bytes() for path in (lab / "mail").glob("*.eml")}
     assert set(drafts) == {f"{name}@x.edu" for name in ("ben", "dora", "eve", "finn", "hana")}
@@ -423,9 +417,9 @@ def test_who_must_send_work_again_gets_a_draft(lab: Path):
 
 
 def test_a_decided_mark_needs_no_mail(lab: Path):
-    call("mail", lab)
+    call_class("mail", lab)
     decision = '[[adjust]]\nstudent = "dora"\npoints = 9\nreason = "shown"\n'
     (lab / "decisions.toml").write_text(decision, encoding="utf-8")
-    call("grade", lab)
-    assert "4 drafts in" in call("mail", lab)
+    call_class("grade", lab)
+    assert "4 drafts in" in call_class("mail", lab)
     assert not (lab / "mail" / "dora@x.edu.eml").exists()

@@ -12,7 +12,7 @@ from typing import Any
 
 import pygame
 import pytest
-from page_readers import Screen, chromium
+from page_readers import Screen
 
 from grader.judge.rubric import load_rubric
 
@@ -114,12 +114,6 @@ def test_they_are_light() -> None:
 
 
 # ---------------------------------------------------------------- in a browser
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as browser:
-        yield browser
 
 
 def shown(screen: Screen, name: str) -> Any:

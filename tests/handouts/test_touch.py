@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from page_readers import Screen, chromium
+from page_readers import Screen
 from samples import sample
 
 import integrators
@@ -56,12 +56,6 @@ def test_none_of_them_asks_for_anything_from_elsewhere() -> None:
     for path in (each for each in TOUCH.rglob("*") if each.is_file()):
         found = re.findall(r"https?://\S+", path.read_text("utf-8"))
         assert not [each for each in found if "www.w3.org" not in each], path.name
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as browser:
-        yield browser
 
 
 @pytest.fixture(scope="module")

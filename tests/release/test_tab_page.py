@@ -17,7 +17,7 @@ from typing import Any
 import msgspec
 import pytest
 from firefox import Firefox, firefox
-from page_readers import PATIENCE, chromium
+from page_readers import PATIENCE
 from whole_bank import member_named
 
 from grader.bank.verify import shared_worker
@@ -146,12 +146,6 @@ class Tab:
         waiting.value.save_as(target)
         self.wait()
         return target
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as opened:
-        yield opened
 
 
 @pytest.fixture
