@@ -95,7 +95,9 @@ class Firefox:
 @contextmanager
 def firefox(folder: Path) -> Iterator[Firefox]:
     """Start it with a profile of its own in `folder`, and end it."""
-    websocket = pytest.importorskip("websocket", reason="needs websocket-client, to drive Firefox")
+    websocket = pytest.importorskip(
+        "websocket", reason="needs websocket-client, of the extra `notebooks`"
+    )
     program = shutil.which("firefox-esr") or shutil.which("firefox")
     if program is None:
         pytest.skip("needs Firefox on the PATH, to open a page as a person would")

@@ -566,7 +566,10 @@ def test_what_no_tool_unpacks_is_not_laid_to_the_student(tmp_path: Path, monkeyp
         read_package(tools_alone(tmp_path, monkeypatch, **{"7z": b"Cannot open"}))
 
 
-@pytest.mark.skipif(not shutil.which("unrar") and not shutil.which("bsdtar"), reason="no tool here")
+@pytest.mark.skipif(
+    not shutil.which("unrar") and not shutil.which("bsdtar"),
+    reason="needs unrar or bsdtar on the PATH, to unpack a packed rar",
+)
 def test_a_packed_rar_is_read(tmp_path: Path):
     classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
     package = read_package(Found("ann", (tmp_path / "work.rar",)))
