@@ -103,7 +103,9 @@ def test_a_check_leaves_replays_of_what_failed_and_nothing_else(hand_in, monkeyp
     assert (tree / "build" / "replays" / ".gitignore").read_text(encoding="utf-8") == "*\n"
 
 
-@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="needs a folder nobody may write to")
+@pytest.mark.skipif(
+    os.name == "nt" or os.geteuid() == 0, reason="needs a folder nobody may write to"
+)
 def test_a_tree_that_cannot_be_written_is_checked_all_the_same(hand_in):
     tree = hand_in("starter")
     tree.chmod(0o500)
