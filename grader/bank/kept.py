@@ -15,14 +15,14 @@ import msgspec
 from msgspec import Struct
 
 from grader.bank.halfway import Halfway
-from grader.bank.members import Member
+from grader.bank.members import BESIDES, Member
 from grader.judge.fingerprint import fingerprint
 from grader.judge.grade import KIT
 from grader.judge.result import Result
 from grader.report.files import write_whole
 
+UNREAD = ("README.md", "Makefile", "requirements.txt")  # files of a tree: no mark hangs on them
 DECIDING = ("halfway.py", "members.py", "traces.py", "verify.py")  # of this folder
-BESIDES = ("__pycache__", "notebooks", ".*")  # in a tree: no submission is made of them
 
 
 class Record(Struct, frozen=True):
@@ -104,7 +104,7 @@ def hash_surroundings() -> str:
     """Hash the judge, its libraries and Python, both trees, and the rules of the bank."""
     rules = [line for name in DECIDING for line in hash_contents(KIT / "grader" / "bank" / name)]
     trees = (KIT / "solution", KIT / "starter", KIT / "tests" / "bank" / "single_file")
-    files = [line for tree in trees for line in hash_contents(tree, *BESIDES)]
+    files = [line for tree in trees for line in hash_contents(tree, *BESIDES, *UNREAD)]
     return hash_lines([fingerprint(), sys.version, platform.platform(), *rules, *files])
 
 

@@ -49,6 +49,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace as replace_in
 
+from grader.bank.sync import LAID_IN
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
 from grader.judge.result import Result, is_bonus
@@ -63,7 +64,8 @@ Regions = Mapping[str, tuple[str, ...]]  # lines of code, by TODO
 CONSTANTS = "all-constants"  # the member that is made of the ladders' constants
 MOST_FOR_CONSTANTS = 3  # points, of all TODOs together
 LESSON = "lesson-"  # how the names of the lesson's programs and their variants begin
-CLEAN = shutil.ignore_patterns("__pycache__", "notebooks", ".*")  # no submission has these
+BESIDES = ("__pycache__", "notebooks", ".*", *LAID_IN)  # of a tree: no submission is judged by them
+CLEAN = shutil.ignore_patterns(*BESIDES)
 TREES = ("solution", "starter")
 IS_TODO = re.compile(r"[0-9]+[a-z]?|B[0-9]+|whole")
 SKIPPED_LINES = r"\n(?:.*\n)*?"  # for a line `...`
@@ -571,10 +573,9 @@ def add_odd_names(folder: Path) -> None:
 
 def copies_beside(folder: Path) -> None:
     """Put copies of the starter beside the work, as people keep them."""
-    ignored = shutil.ignore_patterns("__pycache__", "notebooks", ".*")
     for name in ("backup", "original"):
-        shutil.copytree(KIT / "starter", folder / name, ignore=ignored)
-    shutil.copytree(KIT / "starter" / "mini_engine", folder / "mini_engine copy", ignore=ignored)
+        shutil.copytree(KIT / "starter", folder / name, ignore=CLEAN)
+    shutil.copytree(KIT / "starter" / "mini_engine", folder / "mini_engine copy", ignore=CLEAN)
     for name in ("integrators_original.py", "pymunk_scene2.py", "z_integrators.py"):
         source = "pymunk_scene.py" if "scene" in name else "integrators.py"
         shutil.copyfile(KIT / "starter" / source, folder / name)

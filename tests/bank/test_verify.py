@@ -19,7 +19,7 @@ from rich.console import Console
 from grader.bank import kept, traces, verify
 from grader.bank.halfway import halfway
 from grader.bank.kept import StoredResults, StoredStates, make_key
-from grader.bank.members import Entry, Member
+from grader.bank.members import BESIDES, Entry, Member
 from grader.bank.verify import (
     HalfwayVerdict,
     Report,
@@ -167,10 +167,10 @@ def test_every_file_of_a_folder_counts_but_those_left_out(tmp_path: Path):
     for name in ("a.py", "mini/b.py", ".cache/c", "mini/__pycache__/b.pyc"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text(name, encoding="utf-8")
-    rows = kept.hash_contents(tree, *kept.BESIDES)
+    rows = kept.hash_contents(tree, *BESIDES)
     assert [row.partition(" ")[0] for row in rows] == ["tree/a.py", "tree/mini/b.py"]
     (tree / "mini" / "b.py").write_text("other", encoding="utf-8")
-    assert kept.hash_contents(tree, *kept.BESIDES) != rows
+    assert kept.hash_contents(tree, *BESIDES) != rows
 
 
 def test_verify_grades_once_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
