@@ -201,6 +201,7 @@ class Import(Struct, frozen=True, tag="import"):
     module: str
     pieces: list[Piece] = []
     watched: bool = False  # so that it can be asked what was kept since; see Remembered
+    deal: int = 0  # added to the seed of each random.Random: other balls than usual
 
 
 class Remembered(Struct, frozen=True, tag="remembered"):

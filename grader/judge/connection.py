@@ -49,6 +49,7 @@ class Connection:
     heard: int = 0  # bytes of their answers
     over: NotYet | Broke | None = None  # why nothing more can be asked
     watched: bool = False  # whether the child notes what the submission keeps from call to call
+    deal: int = 0  # added to the seeds that the submission gives its random generators
 
     def ask(self, request: Request, ran: str) -> Answer:
         """Return the answer; raises NotYet or Broke where the submission gave none."""
@@ -62,7 +63,8 @@ class Connection:
         except ChildEnded as error:
             self._stop(ran, error)
         try:
-            self._ask(self.child, Import(self.module, self.pieces, self.watched), ran)
+            wanted = Import(self.module, self.pieces, self.watched, self.deal)
+            self._ask(self.child, wanted, ran)
         except (Broke, NotYet) as failure:
             self.over = failure
             raise

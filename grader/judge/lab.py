@@ -438,6 +438,11 @@ class Lab(Decoder):
             self.fail("six numbers for each moving body", "another count of them")
         return reply
 
+    def deal(self, number: int) -> None:
+        """Add a number to the seeds of the submission's random generators from now on."""
+        self.connection.deal = number
+        self.start_anew()
+
     def start_anew(self) -> None:
         """Ask a new process from now on: in this one a program has run."""
         self.connection.restart()

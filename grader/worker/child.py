@@ -55,7 +55,7 @@ from grader.worker.memory import Memory
 from grader.worker.output import Output
 from grader.worker.play import call_stepping, play, simulate
 from grader.worker.recorder import Recorder
-from grader.worker.scripted import ScriptedClock
+from grader.worker.scripted import ScriptedClock, shift_seeds
 from grader.worker.subject import ContractError, Subject, refs_in
 
 pygame.sysfont.initsysfonts = lambda: None  # it would start fc-list; the default font serves
@@ -145,7 +145,9 @@ def answer(
 ) -> Reply:
     """Do what a request asks; raises ContractError and whatever the submission raises."""
     match request:
-        case Import(module, pieces, watched):
+        case Import(module, pieces, watched, deal):
+            if deal:
+                shift_seeds(deal)
             subject.load(module, pieces)
             subject.memory = Memory(str(subject.folder)) if watched else None
             return Returned(None)

@@ -10,6 +10,7 @@ every way of writing a game loop is measured alike.
 
 import datetime
 import os
+import random
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -283,3 +284,13 @@ class FrameClock:
     def get_fps(self) -> float:
         """Frames per second, going by the last frame; 0 before there was one."""
         return 1000 / self.length if self.length else 0.0
+
+
+def shift_seeds(number: int) -> None:
+    """Add a number to each whole number with which a random.Random is seeded from now on."""
+    draw = random.Random.seed
+
+    def seed(self: random.Random, a: Any = None, version: int = 2) -> None:
+        draw(self, a + number if type(a) is int else a, version)
+
+    random.Random.seed = seed  # type: ignore[method-assign]

@@ -47,6 +47,7 @@ OWN = [  # what each child has for itself, by whom it belongs to
     (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
     (tempfile, ("tempdir",)),
     (os, ("_exit", "abort")),
+    (random.Random, ("seed",)),
     (pygame, ("Clock",)),
     (pygame.time, ("Clock", "get_ticks", "wait", "delay")),
     (pygame.key, ("get_pressed",)),

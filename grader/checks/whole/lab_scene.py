@@ -71,6 +71,11 @@ def ball(pos: Pair, radius: float) -> Part:
     return Part(pos, (radius,), radius**2 / 100, 0.4)
 
 
+def first_radius(seed: int) -> int:
+    """Return the radius that random.Random(seed) draws for the first ball, px."""
+    return random.Random(seed).randint(10, 22)
+
+
 def turning_as_a_disc(part: Part) -> Part:
     """With the moment of a full disc, where the engine and not the student gives it."""
     return part._replace(moment=part.mass * part.shape[0] ** 2 / 2) if part.mass else part
@@ -78,7 +83,7 @@ def turning_as_a_disc(part: Part) -> Part:
 
 def want_parts(lab: Lab, found: list[Part], expected: list[Part], seed: int) -> None:
     """Insist on these parts, on eight balls drawn by this seed, and on nothing else."""
-    first = random.Random(seed).randint(10, 22)  # px
+    first = first_radius(seed)
     for part in expected:
         want_part(lab, found, part)
     own_moments = any(part.moment for part in expected if len(part.shape) == 1)

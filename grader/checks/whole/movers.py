@@ -32,6 +32,10 @@ class Mover:
         return self.radius == BOB_RADIUS
 
     @property
+    def begin(self) -> tuple[float, float]:
+        return self.trail[0].x, self.trail[0].y
+
+    @property
     def tenths(self) -> list[Moment]:
         """Return a moment of each tenth of a second, ending with the last one."""
         return self.trail[::-TENTH][::-1]
