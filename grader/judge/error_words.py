@@ -17,13 +17,21 @@ from grader.judge.failures import REBOUND
 from grader.judge.submission import handed_out, load_given
 from grader.source.definitions import statements
 from grader.source.given import given_pieces, imported_names
+from grader.text import listed
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
 DEBUGGER = re.compile(r"\bbreakpoint\(|\bset_trace\(")
 LONGEST, MOST_KNOWN = 80, 500  # letters of a name, and names that it is compared with
-ENGINE = "mini_engine/"
+ENGINE, SCENE = "mini_engine/", "pymunk_scene.py"
 NEAR = 0.5  # likeness of two names, from which on one may be meant for the other
 SHAPES = ("Circle", "Box")  # what body.shape may be
+FEW = 8  # attributes of a class that are listed
+IN_PLACE = ("append", "sort", "extend", "reverse", "update")  # methods that return None
+OLD_HANDLERS = ("add_collision_handler", "add_wildcard_collision_handler")
+SPACE = (  # what the lesson uses of a pymunk.Space
+    *("add", "bodies", "constraints", "damping", "gravity", "iterations", "on_collision"),
+    *("shapes", "static_body", "step"),
+)
 
 Match = re.Match[str]
 
@@ -70,6 +78,42 @@ class Error:
     def around(self) -> set[str]:
         """Return the names that the file has outside its functions."""
         return {*imported_names(self.body), *bound(self.body)}
+
+    @property
+    def targets(self) -> set[str]:
+        """Return the names that the line itself gives a value: none of them has one before."""
+        nodes = ast.walk(self.function) if self.function else ()
+        here = (node for node in nodes if isinstance(node, ast.Name) and node.lineno == self.line)
+        return {node.id for node in here if isinstance(node.ctx, ast.Store)}
+
+    def reads_self(self, name: str) -> bool:
+        """Return whether the line reads self.name."""
+        nodes = ast.walk(self.function) if self.function else ()
+        return any(
+            isinstance(node, ast.Attribute)
+            and node.attr == name
+            and node.lineno == self.line
+            and isinstance(node.value, ast.Name)
+            and node.value.id == "self"
+            for node in nodes
+        )
+
+    def hands_over(self, name: str) -> bool:
+        """Return whether the line gives a call the answer of a function that is defined here."""
+        inner = {
+            node.name
+            for node in ast.walk(self.function or ast.Module([], []))
+            if isinstance(node, ast.FunctionDef)
+        }
+        given = [
+            each
+            for call in self.calls()
+            for each in (*call.args, *(keyword.value for keyword in call.keywords))
+        ]
+        return name in inner and any(
+            isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id == name
+            for each in given
+        )
 
     def calls(self) -> Iterator[ast.Call]:
         """Yield the calls that begin in the line."""
@@ -144,7 +188,9 @@ def explain_undefined(match: Match, error: Error) -> str:
     if error.file.startswith(ENGINE) and (file := given_home(name, error.file)):
         module = file.rpartition("/")[2].removesuffix(".py")
         return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
-    known = {*error.values, *error.parameters, *error.around}
+    if name in SPACE and "space" in error.parameters:
+        return f"{name} belongs to the space: write space.{name}."
+    known = {*error.values, *error.parameters, *error.around} - error.targets
     near = find_similar(name, sorted(known))
     if near:
         return f"Nothing is called {name} here. Is {near[0]} meant?"
@@ -157,9 +203,11 @@ def show_arguments(error: Error) -> str:
     return f" The function is given {', '.join(error.parameters)}." * bool(error.parameters)
 
 
-def explain_math(match: Match, error: Error) -> str:
-    near = find_similar(match[1], dir(math), NEAR)
-    return f"math has no {match[1]}." + (f" Is {near[0]} meant?" if near else "")
+def explain_module(match: Match, error: Error) -> str:
+    module, name = match.groups()
+    known = dir(math) if module == "math" else pymunk_names()
+    near = find_similar(name.replace("disc", "circle"), known, NEAR)
+    return f"{module} has no {name}." + (f" Is {near[0]} meant?" if near else "")
 
 
 def explain_field(match: Match, error: Error) -> str:
@@ -181,10 +229,21 @@ def explain_attribute(match: Match, error: Error) -> str:
         for node in ast.walk(error.function) if error.function else ():
             match node:
                 case ast.Attribute(ast.Name(id=thing), attr, lineno=line) if (
-                    attr == name and line == error.line and thing in error.values
+                    attr == name
+                    and line == error.line
+                    and thing in error.values
+                    and thing in error.parameters
                 ):
                     return REBOUND.format(line=error.values[thing], name=thing)
+        if name == "clamp":
+            return f"A number has no clamp: {CLAMP}."
         return f"What stands before .{name} is a number, not a vector or a body."
+    if kind.endswith("Vector2") and name == "clamp":
+        return f"A vector has no clamp: {CLAMP}, of x and y apart."
+    if kind == "Space" and name in OLD_HANDLERS:
+        return f"pymunk 7 has no {name}: write space.on_collision(BALL, PEG, begin=begin)."
+    if name in error.values and error.reads_self(name):
+        return f"{name} is a variable here: write {name}, without self."
     home = next((owner for owner, names in given_attributes().items() if name in names), "")
     if kind == "Body" and home in SHAPES:
         return f"{name} belongs to the body's shape: write .shape.{name}."
@@ -192,12 +251,15 @@ def explain_attribute(match: Match, error: Error) -> str:
         return f"A Body has no {name}: write .pos.{name}, or .vel.{name}."
     if given_home(name, ""):
         return f"{name} is a function, not part of a {kind}: write {name}(...)."
-    ours = sorted(given_attributes().get(kind, ()))
-    starts = [each for each in ours if each.startswith(name)]
+    ours = SPACE if kind == "Space" else sorted(given_attributes().get(kind, ()))
+    starts = [each for each in ours if each.startswith(name) or name.startswith(each)]
     near = starts or find_similar(name, ours, NEAR)
     if near:
         return f"A {kind} has no {name}. Is {near[0]} meant?"
-    return f"{name} belongs to a {home}, not to a {kind}." if home else ""
+    if home:
+        return f"{name} belongs to a {home}, not to a {kind}."
+    fields = [each for each in ours if not each.startswith("_")]
+    return f"A {kind} has no {name}. It has {listed(fields)}." if 0 < len(fields) <= FEW else ""
 
 
 def explain_not_callable(match: Match, error: Error) -> str:
@@ -220,11 +282,42 @@ def explain_not_callable(match: Match, error: Error) -> str:
 def explain_arguments(match: Match, error: Error) -> str:
     """Show a function that was called with too few or too many arguments."""
     owner, _, name = match[1].rpartition(".")
-    if name in PYMUNK:
-        return f"It is {PYMUNK[name]}."
-    called = owner if name == "__init__" else name
-    arguments = given_arguments().get(f"{owner}.{name}", given_arguments().get(name))
+    called = owner.rpartition(".")[2] if name == "__init__" else name
+    is_ours = f"{called}.__init__" in given_arguments() and error.file != SCENE
+    if called in PYMUNK and not is_ours:
+        return f"It is {PYMUNK[called]}."
+    if error.hands_over(name):
+        return f"{name}() calls it at once: hand over {name}, without brackets."
+    usual = None if name == "__init__" else given_arguments().get(name)
+    arguments = given_arguments().get(f"{owner}.{name}", usual)
     return f"It is {called}({', '.join(arguments)})." if arguments is not None else ""
+
+
+def explain_mixed(match: Match, error: Error) -> str:
+    """Explain a vector and a number: a number comes first where a number is wanted."""
+    if "**" in match[0]:
+        return "A vector has no power: square a number, such as a length or a cross product."
+    return NUMBER_NEEDED if "first" in match.re.groupindex else DIRECTION_NEEDED
+
+
+def explain_none(match: Match, error: Error) -> str:
+    """Name a method that changes a thing in place, where its answer is kept."""
+    for node in ast.walk(error.function) if error.function else ():
+        match node:
+            case ast.Assign(value=ast.Call(func=ast.Attribute(attr=name))) if (
+                name.endswith("_ip") or name in IN_PLACE
+            ):
+                instead = f": use {name.removesuffix('_ip')}()" if name.endswith("_ip") else ""
+                return f"{name}() changes the thing before the dot and returns None{instead}."
+    return NONE_BEFORE_DOT if "before" in match.re.groupindex else NONE_AMONG
+
+
+def explain_not_iterable(match: Match, error: Error) -> str:
+    for call in error.calls():
+        name = ast.unparse(call.func)
+        if name in ("min", "max") and len(call.args) == 1:
+            return f"{name}() gets one number here and needs two: is a bracket in the wrong place?"
+    return ""
 
 
 def explain_tuple(match: Match, error: Error) -> str:
@@ -234,6 +327,13 @@ def explain_tuple(match: Match, error: Error) -> str:
 def explain_pair(match: Match, error: Error) -> str:
     """Explain an error of pymunk's where it needs two numbers and got something else."""
     lines = error.text.splitlines()
+    for call in error.calls():
+        for joint in (call, *call.args):
+            match joint:
+                case ast.Call(ast.Attribute(attr="PinJoint"), [ast.Name(a), ast.Name(b), *_]) if (
+                    a == b
+                ):
+                    return f"Both ends are {a}: the first body is space.static_body."
     target = lines[error.line - 1].partition("=")[0].strip() if error.line else ""
     return f"{target} needs two numbers, (x, y)." if target.endswith(".gravity") else ""
 
@@ -328,7 +428,18 @@ def pymunk_names() -> Collection[str]:
 
 TUPLE = "A tuple (x, y) is no vector and cannot be computed with: write Vector2(x, y)."
 NUMBERS = "A tuple cannot be computed with: compute with each of its numbers."
-MIXED = "A vector and a number cannot be added or compared: one coordinate or a length is meant."
+NUMBER_NEEDED = (
+    "A number and a vector do not go together here: a number is needed, which is a coordinate, a "
+    "length or a dot product."
+)
+DIRECTION_NEEDED = (
+    "A vector and a number cannot be added or compared: multiply the number by a vector that gives "
+    "it a direction, or take a coordinate or a length."
+)
+NONE_BEFORE_DOT = "What stands before the dot is None: a function without return gives one."
+NONE_AMONG = "There is a None among the values: a function without return gives one."
+PARTS = "The parts of this vector cannot be changed: give the whole a new pair, (x, y)."
+CLAMP = "write max(low, min(number, high))"
 
 RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^EOFError", "input() waits for somebody to type, and here nobody does: use the arguments."),
@@ -344,17 +455,22 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     ),
     (r"^UnboundLocalError: .*variable '(\w+)'", explain_unbound),
     (r"^NameError: name '(\w+)'", explain_undefined),
+    (r"^(?P<before>AttributeError): 'NoneType'", explain_none),
     (
-        r"^AttributeError: 'NoneType'",
-        "What stands before the dot is None: a function without return gives one.",
+        r"^AttributeError: 'dict_keys' object has no attribute 'append'",
+        "The lists of a space are only to be read: write space.add(...).",
     ),
     (r"^AttributeError: '([\w.]+)' object has no attribute '(\w+)'", explain_attribute),
-    (r"^AttributeError: module 'math' has no attribute '(\w+)'", explain_math),
-    (r"^TypeError: '([\w.]+)' object is not callable", explain_not_callable),
+    (r"^AttributeError: module '(math|pymunk)' has no attribute '(\w+)'", explain_module),
+    (r"^AttributeError: can't set attribute", PARTS),
     (
-        r"^TypeError: .*(NoneType|\bNone\b)",
-        "There is a None among the values: a function without return gives one.",
+        r"^Exception: Unsupported type",
+        "space.add is for bodies, shapes and joints. A setting gets its value with =.",
     ),
+    (r"^TypeError: 'Vec2d' object does not support item assignment", PARTS),
+    (r"^TypeError: '([\w.]+)' object is not callable", explain_not_callable),
+    (r"^TypeError: .*(NoneType|\bNone\b)", explain_none),
+    (r"^TypeError: '(float|int)' object is not iterable", explain_not_iterable),
     (r"^TypeError: ([\w.<>]+)\(\) (missing|takes|got)", explain_arguments),
     (r"^(TypeError: .*has no len|AssertionError)", explain_pair),
     (
@@ -365,8 +481,9 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^TypeError: unsupported operand type.*'(tuple|list)'", explain_tuple),
     (r"^TypeError: unsupported operand type\(s\) for \^", "^ is no power in Python: write **."),
     (r"^AssertionError: .*already added", "The space has this already: add each thing once."),
-    (r"^TypeError: .*Vector2' and '(float|int)'", MIXED),
-    (r"^TypeError: .*'(float|int)' and 'pygame.math.Vector2'", MIXED),
+    (r"^TypeError: .*for \*\*.*Vector2'", explain_mixed),
+    (r"^TypeError: .*Vector2' and '(float|int)'", explain_mixed),
+    (r"^TypeError: .*'(?P<first>float|int)' and 'pygame.math.Vector2'", explain_mixed),
     (
         r"^ValueError: Can't normalize",
         "A vector of length 0 has no direction: treat that case before this line.",

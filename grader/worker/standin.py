@@ -31,6 +31,8 @@ def put_in_place(original: FunctionType, stand_in: Function) -> FunctionType:
         original.__closure__,
     )
     before.__kwdefaults__ = original.__kwdefaults__
+    if isinstance(stand_in, FunctionType):  # so that an error of a call has the name it knows
+        stand_in.__qualname__ = original.__qualname__
     original.__code__ = DETOUR.replace(
         co_name=original.__name__,
         co_freevars=original.__code__.co_freevars,  # Python wants as many as there are cells

@@ -38,7 +38,7 @@ def told(error: str, line: int, todo: str = "3") -> str:
         ("NameError: name 'exp' is not defined", 13, "math.exp"),
         ("NameError: name 'moment_for_circle' is not defined", 13, "pymunk.moment_for_circle"),
         ("NameError: name 'apply_impulse' is not defined", 13, "from .solver import apply_impulse"),
-        ("NameError: name 'totl' is not defined", 13, "Is total meant?"),
+        ("NameError: name 'totl' is not defined", 14, "Is total meant?"),
         ("NameError: name 'clamp' is not defined", 13, "Nothing is called clamp"),
         ("UnboundLocalError: cannot access local variable 'cross' where", 14, "another name"),
         ("UnboundLocalError: cannot access local variable 'total' where", 13, "no value before"),
@@ -80,3 +80,66 @@ def test_what_the_stub_set_must_be_set():
 def test_an_error_outside_of_their_files_is_read_by_its_message_alone():
     assert explain_error("EOFError: EOF when reading a line", lambda file: "", "3").startswith("in")
     assert explain_error("a sentence of ours", lambda file: "", "3") == ""
+
+
+SPACE = """import pymunk
+
+
+def add_pendulum(space):
+    axis = pymunk.Vec2d(1, 0)
+    self.axis = 3
+    total = axis.normalize_ip()
+    a_new = a_nw + 1
+    best = min(total)
+    joint = pymunk.PinJoint(space)
+
+    def begin(arbiter, space, data):
+        return True
+
+    space.on_collision(1, 2, begin=begin())
+    total.clamp(1)
+    print(self.axis)
+    return None ** 2 + total
+"""
+
+
+@pytest.mark.parametrize(
+    ("error", "line", "says"),
+    [
+        ("NameError: name 'static_body' is not defined", 5, "write space.static_body"),
+        ("NameError: name 'a_nw' is not defined", 8, "misspelt"),
+        ("AttributeError: 'Space' object has no attribute 'static'", 5, "Is static_body meant?"),
+        ("AttributeError: 'Space' object has no attribute 'add_constraint'", 5, "Is add meant?"),
+        ("AttributeError: 'Space' object has no attribute 'add_collision_handler'", 5, "pymunk 7"),
+        ("AttributeError: module 'pymunk' has no attribute 'moment_for_disc'", 5, "for_circle"),
+        ("AttributeError: 'SpringJoint' object has no attribute 'axis'", 17, "without self"),
+        ("AttributeError: 'Box' object has no attribute 'width'", 5, "It has half"),
+        ("AttributeError: 'float' object has no attribute 'clamp'", 16, "write max(low, min("),
+        ("AttributeError: 'pygame.math.Vector2' object has no attribute 'clamp'", 16, "of x and y"),
+        ("AttributeError: can't set attribute", 5, "give the whole a new pair"),
+        ("AttributeError: 'NoneType' object has no attribute 'x'", 7, "use normalize()"),
+        ("TypeError: unsupported operand type(s) for *: 'NoneType' and 'float'", 7, "normalize_ip"),
+        ("TypeError: 'float' object is not iterable", 9, "min() gets one number"),
+        ("TypeError: PinJoint.__init__() missing 3 required", 10, "PinJoint(a, b, anchor_a"),
+        ("TypeError: add_pendulum.<locals>.begin() missing 3 required", 15, "without brackets"),
+        (
+            "TypeError: unsupported operand type(s) for -: 'float' and 'pygame.math.Vector2'",
+            5,
+            "a number is needed",
+        ),
+        (
+            "TypeError: unsupported operand type(s) for -=: 'pygame.math.Vector2' and 'float'",
+            5,
+            "multiply the number by a vector",
+        ),
+        (
+            "TypeError: unsupported operand type(s) for ** or pow(): 'pygame.math.Vector2' and "
+            "'int'",
+            5,
+            "square a number",
+        ),
+    ],
+)
+def test_an_error_names_what_it_is_due_to(error: str, line: int, says: str):
+    got = f"{error} (in pymunk_scene.py, line {line}: {SPACE.splitlines()[line - 1].strip()})"
+    assert says in explain_error(got, lambda file: SPACE, "7c")
