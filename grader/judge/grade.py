@@ -16,7 +16,7 @@ from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
-from grader.judge.failures import IDLE, LOOP, REBOUND, Broke, Failing, NotYet
+from grader.judge.failures import IDLE, LOOP, REBOUND, UNREAD, Broke, Failing, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.meaning import Evidence, Left, explain
@@ -30,7 +30,14 @@ from grader.judge.submission import Submission, handed_out, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import Changed, change_of_file, changes, restored
-from grader.source.leftovers import find_dead_end, find_idle, find_leftover, find_loop, find_rebound
+from grader.source.leftovers import (
+    find_dead_end,
+    find_idle,
+    find_leftover,
+    find_loop,
+    find_rebound,
+    find_unread,
+)
 from grader.source.regions import python_files, read_source, shape_of
 from grader.text import harmless, listed
 
@@ -288,6 +295,9 @@ class Grading:
             open_child = self.sandbox.changed({where.file: leftover.without}).open_child
             if loop.again(key, open_child).failure is None:
                 return Left(leftover.words, Where(where.file, leftover.line), True)
+            if leftover.answers:
+                words = leftover.words_of_the_return
+                return Left(words, Where(where.file, leftover.last), False, answers=True)
         if idle := find_idle(text, todo.id):
             return Left(IDLE.format(line=idle[0], text=idle[1]), Where(where.file, idle[0]), True)
         dead_end = find_dead_end(text, todo.id, todo.function.partition(":")[2])
@@ -300,20 +310,23 @@ class Grading:
         """Return by TODO which line of its function was changed outside its region, in words."""
         return {each.todo: each.outside for each in self.changed_given(()) if each.outside}
 
-    def read_region(self, todo: Todo) -> tuple[str, str, str]:
+    def read_region(self, todo: Todo) -> tuple[str, str, str, str]:
         """Return what the text of a failed TODO shows, in words.
 
-        That is a line outside its region, an argument with another value, and a loop.
+        That is a line outside its region, an argument with another value, a loop, and a name that
+        gets a value which nothing reads.
         """
         where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
         if where is None or not path:
-            return "", "", ""
+            return "", "", "", ""
         text = read_source(self.submission.folder / where.file)
         rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
+        unread = find_unread(text, todo.id, path)
         return (
             self.outside_of_region.get(todo.id, ""),
             REBOUND.format(line=rebound[0], name=rebound[1]) if rebound else "",
             LOOP.format(line=loop[0], text=loop[1]) if loop else "",
+            UNREAD.format(line=unread[0], name=unread[1]) if unread else "",
         )
 
     def keeps_points(self, todo: Todo) -> bool:
@@ -440,7 +453,7 @@ class Grading:
             lambda check: self.names.hint(todo, modules[check.id], check),
             {id: starts[module] for id, module in modules.items() if module in starts},
             self.left.get(todo.id),
-            *(self.read_region(todo) if ran else ("", "", "")),
+            *(self.read_region(todo) if ran else ("", "", "", "")),
             self.submission.remarks.get(todo.id, ""),
         )
         told = explain(evidence, checks, ran)

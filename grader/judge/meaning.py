@@ -26,6 +26,7 @@ RESTORE = (
 ROUNDED = (
     "Right to four digits and more, but not to all: is a number rounded, or float32 used for it?"
 )
+PRINTED_ERROR = re.compile(r"\b(\w+(?:Error|Exception): [^|]*)$")
 NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -38,6 +39,7 @@ class Left:
     words: str
     where: Where
     is_all: bool  # whether nothing else needs to be told
+    answers: bool = False  # whether it gives all answers that come at all
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,7 @@ class Evidence:
     outside: str = ""  # which line of its function stands outside its region
     rebound: str = ""  # which argument gets another value
     loop: str = ""  # which loop of its code may never end
+    unread: str = ""  # which name gets a value that nothing reads
     remark: str = ""  # why no code of the TODO counts
 
     @cached_property
@@ -107,8 +110,10 @@ def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
 
     Where some of these run, what they do comes first.
     """
-    if evidence.left is None or evidence.left.is_all:
-        return evidence.left.words if evidence.left else ""
+    if evidence.left is None:
+        return ""
+    if evidence.left.is_all or (evidence.left.answers and check.state != "error"):
+        return evidence.left.words
     told = next(filter(None, (each(evidence, check) for each in EXPLAINERS[2:])), "")
     return f"{told} {evidence.left.words}".strip()
 
@@ -118,9 +123,25 @@ def name_loop(evidence: Evidence, check: CheckResult) -> str:
     return evidence.loop if check.state == "error" and check.got.startswith(ENDLESS) else ""
 
 
+def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
+    """Name the error of a function that pymunk calls: pymunk prints it and goes on."""
+    found = PRINTED_ERROR.search(check.printed or "") if check.state == "not yet" else None
+    error = re.sub(r"\w+\.<locals>\.", "", found[1].strip()) if found else ""
+    return f"pymunk called a function of yours that raised an error: {error}" if error else ""
+
+
 def explain_names(evidence: Evidence, check: CheckResult) -> str:
     """Name a function or an argument that is called otherwise than it was handed out."""
     return evidence.hint(check)
+
+
+def name_unread(evidence: Evidence, check: CheckResult) -> str:
+    """Name a value that nothing reads, which may be why the answers are wrong as they are."""
+    if not evidence.unread or check.state == "error":
+        return ""
+    after = EXPLAINERS[EXPLAINERS.index(name_unread) + 1 :]
+    told = next(filter(None, (each(evidence, check) for each in after)), "")
+    return f"{told} {evidence.unread}".strip()
 
 
 def name_mistake(evidence: Evidence, check: CheckResult) -> str:
@@ -191,7 +212,9 @@ EXPLAINERS: tuple[Explainer, ...] = (
     blame_given_code,
     name_what_was_left,
     name_loop,
+    name_printed_error,
     explain_names,
+    name_unread,
     name_mistake,
     name_earlier_todos,
     name_trespass,

@@ -27,6 +27,7 @@ CASE = "_case"  # the name of what a question is, in words
 FEWEST = 2  # answers that speak for anything
 MOST = 3  # clauses of one kind in a sentence
 LONGEST = 150  # characters of these
+IS_WRONG = "is wrong"
 
 Numbers = list[tuple[float, float]]  # of the answer, and of the right one
 
@@ -47,7 +48,7 @@ class Question:
         if isinstance(self.answer, str):
             return f"the answer is {self.answer}"
         if self.answer is None and self.right is not None:
-            return "there is no answer (None; is a return missing?)"
+            return "None is returned"
         if self.right is None and self.answer is not None:
             return "there is an answer where None is right"
         ours, theirs = len(flatten(self.answer)), len(flatten(self.right))
@@ -135,14 +136,17 @@ class Narrowed:
         if not self.wrong:
             return ""
         verb = "is" if len(self.fine) == 1 else "are"
-        fine = f" {capitalise(' and '.join(self.fine))} {verb} right." if self.fine else ""
+        fine = " " + capitalise(f"{' and '.join(self.fine)} {verb} right.") if self.fine else ""
         return word_parts(self.wrong) + fine + (show(self.example) if self.example else "")
 
 
 def word_parts(wrong: Sequence[WrongPart]) -> str:
     """Return `the normal is turned round where ..., and the depth is too large where ...`."""
     if len({each.where for each in wrong}) == 1:
-        words = " and ".join(f"{each.name} {each.how}".strip() for each in wrong)
+        if len(wrong) > 1 and {each.how for each in wrong} == {IS_WRONG}:
+            words = f"{' and '.join(each.name for each in wrong)} are wrong"
+        else:
+            words = " and ".join(f"{each.name} {each.how}".strip() for each in wrong)
         return capitalise(f"{words} {wrong[0].where}".strip()) + "."
     clauses = (f"{each.name} {each.how} {each.where}".strip() for each in wrong[:2])
     return " ".join(f"{capitalise(clause)}." for clause in clauses)
@@ -183,7 +187,7 @@ def narrow(questions: Sequence[Question], first: Question, left: frozenset[str])
 def narrow_misfit(same: list[Question], first: Question) -> Narrowed:
     wrong = [each for each in same if each.misfit == first.misfit]
     others = [each for each in same if each.misfit != first.misfit]
-    where = find_condition(wrong, others)
+    where = find_condition(wrong, others, are_right=not any(each.wrong for each in others))
     raised = isinstance(first.answer, str) and not others
     return Narrowed((WrongPart(first.misfit, "", where),)) if where and not raised else Narrowed()
 
@@ -194,15 +198,13 @@ def narrow_part(answered: list[Question], name: str) -> WrongPart | None:
     where, how = find_condition(wrong, others), find_relation(name, wrong)
     if not where and not how:
         return None
-    return WrongPart(
-        name, how or "is wrong", where or f"in {len(wrong)} of {len(answered)} questions"
-    )
+    return WrongPart(name, how or IS_WRONG, where or f"in {len(wrong)} of {len(answered)} cases")
 
 
-def find_condition(wrong: list[Question], others: list[Question]) -> str:
+def find_condition(wrong: list[Question], others: list[Question], are_right: bool = True) -> str:
     """Find a trait that tells the questions with a wrong answer from the others."""
     if not others:
-        return "in every question" if len(wrong) > 1 else ""
+        return "in every case" if len(wrong) > 1 else ""
     kinds = list(dict.fromkeys(k for each in wrong for k in each.traits if k != CASE))
     for ways in (1, 2):
         for some in combinations(kinds, ways):
@@ -211,7 +213,7 @@ def find_condition(wrong: list[Question], others: list[Question]) -> str:
             if many or None in bad or bad.keys() & good.keys():
                 continue
             if is_readable(bad):
-                right_too = ways == 1 and is_readable(good)
+                right_too = are_right and ways == 1 and is_readable(good)
                 return f"where {join(bad)}" + f", and right where {join(good)}" * right_too
             if is_readable(good):
                 return f"but where {join(good)}"
@@ -225,7 +227,7 @@ def find_majority(wrong: list[Question], others: list[Question], kinds: list[str
         bad, good = count_traits(wrong, kind), count_traits(others, kind)
         mixed = sum(good[each] for each in bad)
         if is_readable(bad) and mixed < least:
-            count = f"in {len(wrong)} of {len(wrong) + mixed} questions"
+            count = f"in {len(wrong)} of {len(wrong) + mixed} cases"
             best, least = f"{count} where {join(bad)}", mixed
     return best
 

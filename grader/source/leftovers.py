@@ -29,6 +29,7 @@ class Leftover:
     last: int  # and of the last one
     text: str  # of the first one
     without: str  # the file's text with all of them empty
+    answers: bool = False  # whether it is the one return, below the student's own code
 
     @property
     def words(self) -> str:
@@ -39,6 +40,13 @@ class Leftover:
         return (
             f"{lines}, `{self.text}`, {are} still there as handed out, beside your own code. "
             f"Remove {them}, and this passes."
+        )
+
+    @property
+    def words_of_the_return(self) -> str:
+        return (
+            f"Line {self.last} still returns what was handed out, below your own code: return "
+            "what your code has computed."
         )
 
 
@@ -78,7 +86,13 @@ def find_leftover(text: str, todo: str, stub: str) -> Leftover | None:
     shown = show(lines[numbers[0]])
     for number in numbers:
         lines[number] = ""
-    return Leftover(numbers[0] + 1, numbers[-1] + 1, shown, "\n".join(lines) + "\n")
+    without = "\n".join(lines) + "\n"
+    answers = left[-1] is own[-1] and [*returns(own)] == [own[-1]]
+    return Leftover(numbers[0] + 1, numbers[-1] + 1, shown, without, answers)
+
+
+def returns(body: Sequence[ast.stmt]) -> Iterator[ast.AST]:
+    return (node for node in ast.walk(ast.Module([*body], [])) if isinstance(node, ast.Return))
 
 
 def dumped(node: ast.stmt) -> str:
@@ -154,6 +168,23 @@ def find_rebound(text: str, todo: str, path: str) -> tuple[int, str] | None:
     inside = range(region.start + 1, region.stop + 1)
     found = [(line, name) for line, name in rebound if name in things and line in inside]
     return min(found, default=None)
+
+
+def find_unread(text: str, todo: str, path: str) -> tuple[int, str] | None:
+    """Return the line of a region that gives a name a value which nothing reads, and the name."""
+    region = region_of(text, todo)[0]
+    function = function_named(statements(text), path)
+    if region is None or function is None:
+        return None
+    names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
+    read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+    inside = range(region.start + 1, region.stop + 1)
+    unread = (
+        (node.lineno, node.id)
+        for node in names
+        if isinstance(node.ctx, ast.Store) and node.id not in read and node.lineno in inside
+    )
+    return min((each for each in unread if not each[1].startswith("_")), default=None)
 
 
 def region_of(text: str, todo: str) -> tuple[Region | None, list[ast.stmt]]:

@@ -405,7 +405,7 @@ def type_name(thing: Any) -> str:
 def polynomial(coefficients: list[float]) -> Callable[..., float]:
     """accel(x) for an integrator, from its coefficients, lowest power first."""
 
-    def accel(x: float, *_: Any) -> float:
+    def accel(x: float) -> float:
         total = 0.0
         for coefficient in reversed(coefficients):
             total = total * x + coefficient

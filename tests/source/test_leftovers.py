@@ -2,7 +2,13 @@
 
 import pytest
 
-from grader.source.leftovers import find_dead_end, find_leftover, find_loop, find_rebound
+from grader.source.leftovers import (
+    find_dead_end,
+    find_leftover,
+    find_loop,
+    find_rebound,
+    find_unread,
+)
 
 STUB = "    world.step(STEP)\n    steps = 1"
 RETURN = "    return None"
@@ -57,6 +63,26 @@ def test_an_argument_with_fields_keeps_its_value():
     text = function("world.step(STEP)", "x = 1", "world = 2")
     assert find_rebound(text, "6", "work") == (5, "world")
     assert find_rebound(function("world.step(x)", "x = 1"), "6", "work") is None
+
+
+def test_a_name_that_nothing_reads_is_found():
+    assert find_unread(function("world.step(x)", "gravity = 3", "_ = 4"), "6", "work") == (
+        4,
+        "gravity",
+    )
+    assert find_unread(function("y = 3", "x = y"), "6", "work") is None  # given code returns x
+
+
+@pytest.mark.parametrize(
+    ("lines", "answers"),
+    [
+        (("x += 1", "return None"), True),
+        (("if x:", "    return 1", "return None"), False),
+    ],
+)
+def test_a_given_return_below_own_code_gives_every_answer(lines: tuple[str, ...], answers: bool):
+    left = find_leftover(function(*lines), "6", "return None")
+    assert left is not None and left.answers is answers
 
 
 def test_the_first_loop_is_the_one_to_look_at():
