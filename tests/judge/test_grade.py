@@ -262,7 +262,7 @@ def test_a_failed_check_says_what_ran_what_was_expected_and_what_came_out(hand_i
     assert check.expected == "60.65% of its speed left at every step size (e^-0.5)"
     assert check.got == "54.72% at 1/60 s, 29.94% at 1/120 s, 8.96% at 1/240 s"
     assert todo.misconception == "the-same-share-every-step"
-    assert check.meaning.startswith("The loss grows with the number of steps")
+    assert check.meaning.startswith("Every step loses 1 %")
     assert check.where is not None and check.where.file == "mini_engine/world.py"
 
 

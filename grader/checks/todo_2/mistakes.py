@@ -134,9 +134,24 @@ known(
     with_term(lambda lever, axis: lever_cross(lever, axis) ** 2),
 )
 known(
+    "inertia-forgotten-in-the-first",
+    "The spin term of the first body lacks its inertia: multiply it by a.inv_inertia.",
+    lambda a, b, axis: masses(a, b) + lever_cross(a, axis) ** 2 + spin_term(b, axis),
+)
+known(
+    "inertia-forgotten-in-the-second",
+    "The spin term of the second body lacks its inertia: multiply it by b.inv_inertia.",
+    lambda a, b, axis: masses(a, b) + spin_term(a, axis) + lever_cross(b, axis) ** 2,
+)
+known(
     "size-for-the-square",
     "The cross product counts by its size and is not squared: abs() makes no square.",
     with_term(lambda lever, axis: abs(lever_cross(lever, axis)) * inverse(lever.inertia)),
+)
+known(
+    "doubled-for-the-square",
+    "The cross product is doubled, * 2, and not squared, ** 2.",
+    with_term(lambda lever, axis: 2 * lever_cross(lever, axis) * inverse(lever.inertia)),
 )
 known(
     "half-of-the-terms",

@@ -313,7 +313,7 @@ def in_px_a_second(speed: float, digits: int) -> str:
 
 
 def nothing_happens_where_no_end_can_move(lab: Lab) -> None:
-    """Where neither end can move, k is 0 and nothing happens"""
+    """solve does nothing where neither end can move, and its work where one can"""
     lab.ran("solve on a stretched rod after inv_mass and inv_inertia of both ends were set to 0")
     rod = like(lab, Rod(3.0, 1.0, 50.0, (60.0, 0.0), (5.0, 0.0), (0.0, 7.0), STEP))
     joint, a, b = joined(lab, rod, (2.0, -3.0))

@@ -117,12 +117,12 @@ known(
 )
 known(
     "adds-the-speed",
-    "Speed and bias are added; the impulse is for the difference, bias - speed.",
+    "The speed counts with the wrong sign: the impulse is for bias - speed, B's speed minus A's.",
     velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)),
 )
 known(
     "pushes-the-wrong-way",
-    "Both ends are pushed the wrong way: A gets -impulse, B gets +impulse.",
+    "Both ends are pushed the wrong way: of (bias - speed) / k, A gets -impulse and B +impulse.",
     velocities(lambda rod: exact.pushed(rod, -right_impulse(rod))),
 )
 known(
@@ -159,6 +159,29 @@ known(
     "b-does-it-all",
     "B changes speed for both, as if A were static; each end takes the impulse by its inv_mass.",
     velocities(lambda rod: (rod.vel_a, moved(rod.vel_b, rod.axis, rod.bias - rod.speed))),
+)
+
+
+def speed_of_lengths(rod: Rod) -> float:
+    return math.hypot(*rod.vel_b) - math.hypot(*rod.vel_a)
+
+
+known(
+    "speeds-by-their-lengths",
+    "The speeds are compared by their lengths; only the part along the rod counts: a dot product.",
+    velocities(lambda rod: exact.pushed(rod, (rod.bias - speed_of_lengths(rod)) / rod.k)),
+)
+
+
+def length_error(rod: Rod) -> float:
+    return rod.length - math.hypot(*rod.offset)
+
+
+known(
+    "length-error-for-the-bias",
+    "The error of the length is used as a speed; bias has it already, as a share per dt.",
+    velocities(lambda rod: exact.pushed(rod, (length_error(rod) - rod.speed) / rod.k)),
+    velocities(lambda rod: exact.pushed(rod, (-length_error(rod) - rod.speed) / rod.k)),
 )
 
 

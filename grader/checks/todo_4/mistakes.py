@@ -74,7 +74,7 @@ known(
 )
 known(
     "arithmetic-mean-of-mu",
-    "Half the sum of the frictions: rubber would grip even on ice.",
+    "The limit takes the mean of both frictions; it must take sqrt(mu_a mu_b).",
     with_limit(lambda mu, jn: (mu[0] + mu[1]) / 2 * jn),
 )
 known(
@@ -137,6 +137,13 @@ known(
 )
 
 
+known(
+    "total-for-the-lower-bound",
+    "The lower bound is the total's opposite; it must be -limit.",
+    with_clamp(lambda total, wanted, limit: max(-wanted, min(wanted, limit))),
+)
+
+
 def at_the_limit(total: float, wanted: float, limit: float) -> float:
     if abs(wanted) < 1e-9:
         raise Undecided  # either way
@@ -145,7 +152,7 @@ def at_the_limit(total: float, wanted: float, limit: float) -> float:
 
 known(
     "always-at-the-limit",
-    "Friction is always as large as its limit; less may end the slip.",
+    "Friction is always as large as its limit, whatever the slip; less may end the slip.",
     with_clamp(at_the_limit),
 )
 
@@ -192,7 +199,7 @@ for sign in (1, -1):
     )
     known(
         "clamp-is-turned-round",
-        "min and max are swapped: the total is the same whatever the slip.",
+        "The total is the limit whatever the slip: min and max swapped, or the slip left out?",
         with_clamp(lambda total, wanted, limit: -limit, sign),
     )
 

@@ -48,19 +48,19 @@ def per_step(factor: Factor) -> Model:
 
 known(
     "the-same-share-every-step",
-    "The loss grows with the number of steps: 0.99^60, 0.99^120, 0.99^240.",
+    "Every step loses 1 %, so more steps lose more: 0.99^60, 0.99^120, 0.99^240.",
     per_step(lambda rate, dt: 0.99),
 )
 known(
     "one-percent-per-frame",
-    "1% is lost in a time of its own; the loss must follow the two rates, as exp(-rate * dt) does.",
+    "The loss ignores the two rates; a step of dt seconds must keep exp(-rate * dt).",
     per_step(lambda rate, dt: 0.99 ** (60 * dt)),
     per_step(lambda rate, dt: 0.99 ** (120 * dt)),
     per_step(lambda rate, dt: 0.99**dt),
 )
 known(
     "rate-without-the-step",
-    "exp(-rate) is lost in every step; a step of dt seconds may lose only exp(-rate * dt).",
+    "Every step keeps exp(-rate) of the speed; a step of dt seconds must keep exp(-rate * dt).",
     per_step(lambda rate, dt: math.exp(-rate)),
 )
 known(
@@ -75,12 +75,12 @@ known(
 )
 known(
     "sixty-for-the-step",
-    "exp(-rate * 60) is lost in every step: the step is dt seconds long, not 60.",
+    "Every step keeps exp(-rate * 60): the step is dt seconds long, not 60.",
     per_step(lambda rate, dt: math.exp(-rate * 60)),
 )
 known(
     "rate-left-out",
-    "exp(-dt) is lost in every step, whatever the rate: the rate belongs in it, -rate * dt.",
+    "Every step keeps exp(-dt), whatever the rate: the rate belongs in it, -rate * dt.",
     per_step(lambda rate, dt: math.exp(-dt)),
 )
 known(
@@ -112,6 +112,32 @@ known(
     "rate-taken-for-a-share",
     "The rate is taken for the share lost per second; at a rate of 1 exp(-1) = 37% must be left.",
     per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt),
+)
+known(
+    "a-share-typed-in",
+    "A share is typed in, 0.95; the world's rates decide: exp(-rate * dt).",
+    per_step(lambda rate, dt: 0.95),
+    per_step(lambda rate, dt: 0.95**dt),
+)
+known(
+    "rate-over-the-step",
+    "The rate is divided by dt: a step of dt seconds keeps exp(-rate * dt).",
+    per_step(lambda rate, dt: math.exp(-rate / dt)),
+)
+known(
+    "rate-to-the-step",
+    "The rate itself is raised to dt: the base is e, exp(-rate * dt).",
+    per_step(lambda rate, dt: rate**dt),
+)
+known(
+    "rate-lost-in-every-step",
+    "Every step keeps 1 - rate, however short it is: a step of dt seconds keeps exp(-rate * dt).",
+    per_step(lambda rate, dt: 1 - rate),
+)
+known(
+    "share-times-the-step",
+    "A step keeps 0.99 * dt, next to nothing: it must keep exp(-rate * dt).",
+    per_step(lambda rate, dt: 0.99 * dt),
 )
 known(
     "grows-instead-of-fading",

@@ -61,7 +61,7 @@ def explain_too_much(shares: dict[int, float]) -> str:
     if shares[30] > 1.05 * shares[144]:
         return (
             "The longer a frame, the more is simulated in it: a step is STEP long whatever the "
-            "frame, and as many run as the accumulator holds."
+            "frame, as many run as the accumulator holds, and their time leaves it."
         )
     return (
         f"About {shares[144]:.2g} times as much is simulated as passes: a step is not STEP long, "

@@ -85,6 +85,16 @@ known_7b(
     lambda radius, mass: mass * 2 * radius**2 / 12,
 )
 known_7b(
+    "moment-of-the-bob",
+    "That is the bob's moment, for every ball: use this ball's mass and radius.",
+    lambda radius, mass: exact.disc_moment(6.0, 24.0),
+)
+known_7b(
+    "a-hole-of-a-pixel",
+    "That is a disc with a hole of 1 px: the inner radius must be 0.",
+    lambda radius, mass: mass * (1.0 + radius**2) / 2,
+)
+known_7b(
     "moment-of-a-sphere",
     "2/5 m r² is the moment of a sphere; in two dimensions a ball is a disc.",
     lambda radius, mass: mass * radius**2 * 2 / 5,

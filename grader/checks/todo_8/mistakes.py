@@ -129,6 +129,25 @@ known_8a(
 )
 
 
+def velocity_replaced(x: float, v: float, dt: float, force: Force) -> State:
+    v = polynomial(force)(x) * dt
+    return x + v * dt, v
+
+
+known_8a(
+    "velocity-is-replaced",
+    "The new v is the change alone: add accel(x) * dt to the v there was.",
+    velocity_replaced,
+)
+
+
+known_8a(
+    "pair-swapped-and-both-old",
+    "The pair is the wrong way round, and x moves with the old velocity: change v first.",
+    lambda x, v, dt, force: explicit_euler(x, v, dt, force)[::-1],
+)
+
+
 def mean_velocity(x: float, v: float, dt: float, force: Force) -> State:
     new_v = v + polynomial(force)(x) * dt
     return x + (v + new_v) / 2 * dt, new_v
@@ -487,6 +506,34 @@ for bend_name, (bend_words, bend) in BENDS.items():
         known_8b(f"{bend_name}+{kick_name}", f"{bend_words} And: {kick_words}", both)
 
 
+def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    begin = accel(x)
+    v += begin * dt
+    x += v * dt + begin * dt**2 / 2
+    return x, v + (begin + accel(x)) / 2 * dt
+
+
+known_8b(
+    "velocity-changes-twice",
+    "v changes twice: before x moves, and by the mean after it. Leave out the first.",
+    changed_twice,
+)
+
+
+def speed_left_out(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    end = x + accel(x) * dt**2 / 2
+    return end, v + (accel(x) + accel(end)) / 2 * dt
+
+
+known_8b(
+    "speed-is-missing-in-x",
+    "x moves by the acceleration alone: v * dt is missing.",
+    speed_left_out,
+)
+
+
 def second_at_v(x: float, v: float, dt: float, force: Force) -> State:
     accel = polynomial(force)
     return parabola(x, v, dt, accel), v + (accel(x) + accel(v)) / 2 * dt
@@ -578,6 +625,14 @@ OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
     "sum-is-not-divided": (
         "The weighted sum is used as it is; the weights 1, 2, 2, 1 add up to 6, so divide by 6.",
         ((1.0, 2.0, 2.0, 1.0),),
+    ),
+    "third-sample-counts-once": (
+        "The third sample, k3, counts once; it counts twice, like the second: 1, 2, 2, 1.",
+        ((1 / 6, 2 / 6, 1 / 6, 1 / 6), (1 / 5, 2 / 5, 1 / 5, 1 / 5)),
+    ),
+    "second-sample-counts-once": (
+        "The second sample, k2, counts once; it counts twice, like the third: 1, 2, 2, 1.",
+        ((1 / 6, 1 / 6, 2 / 6, 1 / 6), (1 / 5, 1 / 5, 2 / 5, 1 / 5)),
     ),
     "last-sample-is-missing": (
         "Only three samples count; the fourth, k4, at the end of the step, is missing.",

@@ -36,7 +36,11 @@ known_others(
     "Balls that hit balls are counted; the collision types are BALL and PEG.",
     always([1, 0, 0]),
 )
-known_hits("counts-nothing", "No hit is counted: is begin handed to the space?", always(0))
+known_hits(
+    "counts-nothing",
+    "No hit of a peg is counted: is begin handed to the space, for BALL and PEG?",
+    always(0),
+)
 
 
 def every_step(what: str, steps: int) -> int:
