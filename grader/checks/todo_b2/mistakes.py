@@ -43,6 +43,11 @@ known(
     lambda s: pulled(s, s.stiffness * (s.stretch + s.rod.length) + brake(s)),
 )
 known(
+    "stretch-the-other-way",
+    "The stretch is turned round: it is the distance minus the length at rest.",
+    lambda s: pulled(s, -s.stiffness * s.stretch + brake(s)),
+)
+known(
     "only-pulls",
     "It only pulls, like a rubber band; a squeezed spring must push.",
     lambda s: pulled(s, max(0.0, s.stiffness * s.stretch + brake(s))),
