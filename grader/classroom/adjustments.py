@@ -13,6 +13,7 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta, tzinfo
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
@@ -20,12 +21,13 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 import msgspec
 from msgspec import Meta, Struct, structs
 
-from grader.classroom.comments import Comment, Remark, place_comment
+from grader.classroom.comments import Comment, Remark, place_all
 from grader.errors import Stop
 from grader.intake.found import Found
 from grader.intake.names import fold
 from grader.intake.roster import ClassList, find_student, is_same_student
 from grader.judge.course import END_OF_DAY, EXAMPLE, FULL, Course, Late
+from grader.judge.outer import READING, call_within
 from grader.text import plural
 
 DAY = timedelta(days=1)
@@ -169,11 +171,15 @@ class Adjustments(Struct, frozen=True, forbid_unknown_fields=True):
         return [(who, each.take) for each in self.adjust if each.take for who in each.students]
 
     def place_comments(self, found: Found, files: Mapping[str, bytes]) -> list[Remark]:
-        """Return the comments on a student's work, each beside its line."""
+        """Return the comments on a student's work, each beside its line.
+
+        Raises Exceeded, Failed or Lost where its files cannot be searched within the limits.
+        """
         for name in (found.name, found.handed_in_by):
             about = [each for each in self.comment if is_same_student(each.student, name)]
             if about:
-                return [place_comment(each, files) for each in about]
+                placing = partial(place_all, about, files)
+                return call_within(READING, list[Remark], placing) if files else placing()
         return []
 
     def find_unused(self, names: Iterable[str]) -> list[str]:

@@ -65,14 +65,13 @@ class Run:
             try:
                 package = pack(first, self.course.modules)
                 digest, prints = package.digest, make_prints(package, first.team)
+                files = dict(package.files)
+                remarks = {e.name: self.adjustments.place_comments(e, files) for e in members}
             except Exception as error:  # this one submission; the others go on
                 for found in members:
                     self.record_trouble(found, describe_error(error))
                 continue
-            files = dict(package.files)
-            self.remarks |= {
-                each.name: self.adjustments.place_comments(each, files) for each in members
-            }
+            self.remarks |= remarks
             self.same.setdefault(digest, {})[first.team] = first.name
             self.notes += [f"{first.name}: {each}" for each in package.notes]
             self.prints.append(prints)

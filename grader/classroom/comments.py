@@ -4,8 +4,9 @@ A comment keeps the text of its line and of the lines around it. So it follows a
 that changes while its neighbours stay.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import SequenceMatcher
+from itertools import accumulate
 from pathlib import PurePosixPath
 from typing import Annotated
 
@@ -14,6 +15,8 @@ from msgspec import Meta, Struct
 
 SIMILAR = 0.6  # the share of a changed line that must be as it was, if a neighbour is
 AROUND = 2  # lines shown before and after the one that is meant
+LONGEST_LINE = 500  # letters of a line that are compared, kept and shown
+MOST_TRIED = 1000  # lines nearest to the old number that may be a changed one
 
 Words = Annotated[str, Meta(pattern=r"\S")]
 
@@ -45,7 +48,7 @@ def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
     if not comment.file:
         return Remark(comment.comment)
     name = find_file(comment.file, files)
-    lines = split_lines(files[name]) if name else []
+    lines = read_lines(files[name]) if name else []
     number = find_line(comment, lines)
     if not number:
         words = f"this line was not found in this submission: {comment.code.strip()}"
@@ -55,6 +58,10 @@ def place_comment(comment: Comment, files: Mapping[str, bytes]) -> Remark:
     changed = comment.code and comment.code.strip() != lines[number - 1].strip()
     note = f"the line has changed; it was: {comment.code.strip()}" if changed else ""
     return Remark(comment.comment, name, number, shown, note)
+
+
+def place_all(comments: Iterable[Comment], files: Mapping[str, bytes]) -> list[Remark]:
+    return [place_comment(each, files) for each in comments]
 
 
 def find_file(name: str, files: Mapping[str, bytes]) -> str:
@@ -68,6 +75,11 @@ def split_lines(content: bytes) -> list[str]:
     return [line.rstrip("\r") for line in content.decode("utf-8-sig", "replace").split("\n")]
 
 
+def read_lines(content: bytes) -> list[str]:
+    """Return the lines of a file, of each no more than a person looks at."""
+    return [line[:LONGEST_LINE] for line in split_lines(content)]
+
+
 def find_line(comment: Comment, lines: list[str]) -> int:
     """Return the number of the line that is meant; 0 where none is for sure.
 
@@ -76,8 +88,11 @@ def find_line(comment: Comment, lines: list[str]) -> int:
     if not comment.code.strip():
         return comment.line if 0 < comment.line <= len(lines) else 0
     same = [n for n, text in enumerate(lines, 1) if text.strip() == comment.code.strip()]
-    numbers = same or [n for n, text in enumerate(lines, 1) if is_similar(text, comment.code)]
-    beside = {n: count_neighbours(comment, lines, n) for n in numbers}
+    first = max(1, comment.line - MOST_TRIED // 2)
+    near = range(first, min(first + MOST_TRIED, len(lines) + 1))
+    numbers = same or [n for n in near if is_similar(lines[n - 1], comment.code)]
+    above, below = list_above(lines), list_above(lines[::-1])[::-1]
+    beside = {n: count_same(comment, above[n - 1], below[n - 1]) for n in numbers}
     most = max(beside.values(), default=0)
     if not most and (not same or len(same) > 1):
         return 0
@@ -90,22 +105,21 @@ def is_similar(text: str, code: str) -> bool:
     return matcher.quick_ratio() >= SIMILAR and matcher.ratio() >= SIMILAR
 
 
-def count_neighbours(comment: Comment, lines: list[str], number: int) -> int:
-    pairs = zip(list_neighbours(lines, number), (comment.above, comment.below), strict=True)
+def count_same(comment: Comment, above: str, below: str) -> int:
+    """Return how many of a line's two neighbours are those of the comment's line."""
+    pairs = (above, comment.above), (below, comment.below)
     return sum(bool(now) and now == was.strip() for now, was in pairs)
 
 
-def list_neighbours(lines: list[str], number: int) -> tuple[str, str]:
-    """Return the lines before and after that are not empty, without their indentation."""
-    above = next(filter(None, (line.strip() for line in reversed(lines[: number - 1]))), "")
-    below = next(filter(None, (line.strip() for line in lines[number:])), "")
-    return above, below
+def list_above(lines: list[str]) -> list[str]:
+    """Return for each line the nearest one before it that is not empty, without indentation."""
+    return list(accumulate(lines[:-1], lambda last, line: line.strip() or last, initial=""))
 
 
 def write_comment(student: str, words: str, file: str, line: int, content: bytes) -> Comment:
     """Return a comment on this line of a file as it is now."""
-    lines = split_lines(content)
-    above, below = list_neighbours(lines, line)
+    lines = read_lines(content)
+    above, below = list_above(lines[:line])[-1], list_above(lines[line - 1 :][::-1])[-1]
     return Comment(student, words, file, line, lines[line - 1].strip(), above, below)
 
 

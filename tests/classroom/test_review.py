@@ -19,7 +19,7 @@ from page_readers import PATIENCE, Reader, barriers, chromium
 from points_pool import Inline
 
 from grader.classroom import grading
-from grader.classroom.comments import Comment, place_comment, write_comment
+from grader.classroom.comments import LONGEST_LINE, Comment, place_comment, write_comment
 from grader.classroom.decisions import DecisionsFile
 from grader.classroom.folder import read_class_folder
 from grader.classroom.review import Request, Response, respond
@@ -115,6 +115,14 @@ def test_of_two_lines_of_one_text_the_neighbours_decide():
     assert place_comment(comment, {"a.py": b"\n\n" + CODE}).line == 9
     alone = Comment("ann", "Why?", "a.py", 7, "return x")
     assert place_comment(alone, {"a.py": CODE}).line == 0
+
+
+def test_of_a_line_no_more_is_kept_and_shown_than_a_person_looks_at():
+    content = b"x = 1\n" + b"y" * 10**6 + b"\nz = 2\n"
+    comment = write_comment("ann", "Why?", "a.py", 2, content)
+    remark = place_comment(comment, {"a.py": content})
+    assert remark.line == 2 and all(len(text) <= LONGEST_LINE for _, text in remark.code)
+    assert len(comment.code) == LONGEST_LINE
 
 
 # ---------------------------------------------------------------- which work is meant

@@ -18,6 +18,7 @@ from counting import count_calls
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from grader.classroom.comments import Comment, place_comment
 from grader.classroom.similarity import hash_runs
 from grader.cli.hand_in import has_no_answer
 from grader.intake import names
@@ -196,6 +197,13 @@ def read_tokens(text: str) -> None:
     hash_runs(text)
 
 
+def find_comment(text: str) -> None:
+    """Look for the line of a comment, where it is as it was and where it has changed."""
+    for code in (text.partition("\n")[0], "something else"):
+        comment = Comment("ann", "Why?", "a.py", 3, code, "pass", "x = 1")
+        place_comment(comment, {"a.py": text.encode()})
+
+
 # ---------------------------------------------------------------- archives, replies, notebooks
 
 
@@ -264,6 +272,11 @@ def test_work_grows_little_faster_than_its_input(kind: str):
 @pytest.mark.parametrize("kind", WORKS)
 def test_work_grows_little_faster_than_any_input(kind: str):
     try_shapes(kind, 300)
+
+
+@pytest.mark.parametrize("unit", ["x = 1\n", "\n", "x = 1\n\n"])
+def test_a_comment_is_found_in_time_among_lines_of_one_text(unit: str):
+    check_growth(find_comment, Shape("x = 1\n", unit, ""), 80_000)
 
 
 def test_a_square_is_noticed():
