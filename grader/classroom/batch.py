@@ -16,7 +16,7 @@ from grader.classroom.book import NOTHING, Book, Outcome, make_outcome
 from grader.classroom.comments import Remark
 from grader.classroom.executor import LOST, Executor, ExecutorFailed, Graded
 from grader.classroom.similarity import Prints, make_prints
-from grader.errors import Stop
+from grader.errors import Stop, say_error
 from grader.intake.found import CannotTake, Found, Intake, Package
 from grader.intake.names import list_names, make_portable
 from grader.intake.packing import pack
@@ -238,4 +238,4 @@ def describe_error(error: Exception) -> str:
     """Return an exception in words; some have all of them in their message."""
     if isinstance(error, CannotTake | Exceeded | Failed):
         return str(error)
-    return f"{type(error).__name__}: {error}"
+    return f"{type(error).__name__}: {say_error(error)}"

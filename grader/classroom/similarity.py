@@ -250,7 +250,7 @@ def mark_lines(package: Package, common: frozenset[int]) -> Side:
         shown = {line + by for line in marked for by in range(-CONTEXT, CONTEXT + 1)}
         lines = [
             Line(number, line, number in marked)
-            for number, line in enumerate(text.splitlines(), 1)
+            for number, line in enumerate(text.split("\n"), 1)
             if number in shown
         ]
         if lines:

@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
+from grader.errors import say_error
 from grader.intake import repack
 from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
@@ -175,7 +176,7 @@ def open_zip(path: Path, bounds: Bounds) -> Iterator[zipfile.ZipFile]:
         cut = path.suffix.lower() == ".zip" and not zipfile.is_zipfile(path)
         why = ": it is cut off, or no zip" if cut else ""
         raise CannotTake(
-            f"the zip is broken{why} ({type(error).__name__}: {error!s:.100})"
+            f"the zip is broken{why} ({type(error).__name__}: {say_error(error):.100})"
         ) from error
 
 

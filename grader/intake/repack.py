@@ -19,6 +19,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from grader.errors import say_error
+
 try:
     import resource
 except ImportError:  # Windows: the time that the parent waits is the only limit
@@ -61,7 +63,7 @@ def main(source: str, target: str, seconds: int = SECONDS) -> int:
     except MemoryError:
         words = "the archive takes too much memory to unpack"
     except Exception as error:  # each library has many; the bytes are a stranger's
-        words = f"the archive is broken ({type(error).__name__}: {error!s:.100})"
+        words = f"the archive is broken ({type(error).__name__}: {say_error(error):.100})"
     else:
         return 0
     say(words)

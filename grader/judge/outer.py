@@ -29,7 +29,7 @@ import msgspec
 import psutil
 from msgspec import Struct
 
-from grader.errors import Stop
+from grader.errors import Stop, say_error
 from grader.judge.children import command
 from grader.judge.workplace import work_folder
 
@@ -290,7 +290,7 @@ def answer(work: Callable[[], object]) -> bytes:
     except (KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:
-        reply = Refusal(type(error).__name__, str(error))
+        reply = Refusal(type(error).__name__, say_error(error))
     return msgspec.msgpack.encode(reply)
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from io import BytesIO
 
-from grader.source.regions import CHAIN, MAX_SOURCE
+from grader.source.regions import CHAIN, MAX_SOURCE, number_lines
 
 UNDECODED = "\ufffd"  # what stands in a text for bytes that are none
 MAX_LINE = 80  # characters of a line that are quoted
@@ -130,7 +130,7 @@ def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 def find_bad_bytes(data: bytes) -> Flaw | None:
     """Return the first line of a file whose bytes are no text in its encoding."""
-    text = data.decode("utf-8-sig", "replace")
+    text = number_lines(data.decode("utf-8-sig", "replace"))
     try:
         encoding, _ = tokenize.detect_encoding(BytesIO(data).readline)
         data.decode(encoding)

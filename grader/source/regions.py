@@ -26,6 +26,10 @@ END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
 MEANT = re.compile(
     r"[ \t]*# ?(?:TODO ?\w*[0-9]\w*:|END ?TODO ?\w*[0-9]\w*\s{0,80}$)", re.IGNORECASE
 )
+# What ends a line for `str.splitlines` and not for Python, which refuses it outside of texts.
+NO_END = dict.fromkeys(map(ord, "\v\x1c\x1d\x1e\x85\u2028\u2029"), "\u2424")
+# A space to Python, and at the start of a line nothing, with what stands before it.
+PAGE_BREAK = re.compile(r"(?P<start>^[ \t\f]*\f)|\f", re.MULTILINE)
 
 
 class RegionError(ValueError):
@@ -135,7 +139,13 @@ def python_files(tree: Path) -> Iterator[Path]:
 def read_source(path: Path) -> str:
     """Return a file as text, whatever its bytes: BOM, CRLF and bad encodings included."""
     data = path.read_bytes()
-    return data.decode(encoding_of(data), "replace").replace("\r\n", "\n")
+    return number_lines(data.decode(encoding_of(data), "replace").replace("\r\n", "\n"))
+
+
+def number_lines(text: str) -> str:
+    """Return a source text in which lines have the same numbers for Python and `splitlines`."""
+    text = text.translate(NO_END)
+    return PAGE_BREAK.sub(lambda found: " " if found["start"] is None else "", text)
 
 
 def encoded(text: str) -> bytes:

@@ -517,7 +517,8 @@ def test_names_in_the_old_dos_letters_are_read(classroom):
 
 
 def test_a_file_that_is_also_a_folder_is_refused(classroom):
-    assert "broken" in refused(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
+    words = refused(classroom, zipped(PROGRAM | {"a.py": "", "a.py/b.py": ""}))
+    assert "broken" in words and "/" not in words  # no path of this machine
 
 
 def test_a_zip_with_any_bytes_changed_is_taken_or_refused_with_a_sentence(classroom):

@@ -13,7 +13,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
 from grader.source.flaws import find_flaw
 from grader.source.mending import MAX_MENDING, HandedOut, Mender
-from grader.source.regions import read_source, regions_in
+from grader.source.regions import number_lines, read_source, regions_in
 
 SOLVER, CONTACTS = "mini_engine/solver.py", "mini_engine/contacts.py"
 SPRINGS, POISON = "mini_engine/bonus/springs.py", b"    # caf\xe9\n"
@@ -54,6 +54,27 @@ def programs(tmp_path: Path) -> Callable[[], Path]:
         return tree
 
     return make
+
+
+@pytest.mark.parametrize("sign", list("\f\v\x1c\x1d\x1e\x85\u2028\u2029"))
+def test_a_sign_that_ends_a_line_for_others_than_python_changes_nothing(sign: str, tmp_path: Path):
+    starter = (KIT / "starter" / "integrators.py").read_text(encoding="utf-8")
+    right = (KIT / "solution" / "integrators.py").read_text(encoding="utf-8")
+    notes = f"# one{sign} two{sign} three\nNOTES = 'four{sign} five'\n"
+    broken = right.replace("0.5 * (a_start", "0.5 * ((a_start")
+    for name, text, flaws in (("stub", starter, set()), ("broken", broken, {"8b"})):
+        tree, plain = tmp_path / name, tmp_path / f"{name}-plain"
+        for folder, added in ((tree, notes), (plain, "\n\n")):
+            folder.mkdir()
+            (folder / "integrators.py").write_text(added + text, encoding="utf-8")
+        taken, usual = (take(each, tmp_path / f"{each.name}-copy") for each in (tree, plain))
+        assert (taken.begun, taken.where) == (usual.begun, usual.where)
+        assert set(taken.flaws) == flaws and not taken.outside
+
+
+def test_a_page_break_ends_the_indent_before_it():
+    text = "\f\ndef f():\n    x = 1\f\n \f    return x\n"
+    assert number_lines(text) == "\ndef f():\n    x = 1 \n    return x\n"
 
 
 HEAD_2, END_2 = "    # TODO 2: add the spin terms\n", "    # END TODO 2\n"
