@@ -16,6 +16,7 @@ from grader.source.regions import CHAIN, MAX_SOURCE, number_lines
 
 UNDECODED = "\ufffd"  # what stands in a text for bytes that are none
 MAX_LINE = 80  # characters of a line that are quoted
+MAX_SAID = 300  # characters of Python's words: they may quote a name of any length
 Version = tuple[int, int]
 
 # Syntax by the first Python that has it, and what says the same in an older one.
@@ -103,7 +104,8 @@ def flaw_at(text: str, line: int, message: str) -> Flaw:
     line = min(max(line, 1), max(len(lines), 1))
     there = lines[line - 1].strip() if lines else ""
     shown = there if len(there) <= MAX_LINE else f"{there[: MAX_LINE - 1]}…"
-    return Flaw(line, message, shown)
+    said = message if len(message) <= MAX_SAID else f"{message[: MAX_SAID - 1]}…"
+    return Flaw(line, said, shown)
 
 
 def misplaced(tree: ast.Module) -> Iterator[tuple[int, str]]:

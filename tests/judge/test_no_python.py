@@ -11,7 +11,7 @@ from grader.bank.verify import shared_worker
 from grader.judge.grade import KIT, Options, grade, load_stubs, shipped_reference
 from grader.judge.rubric import load_rubric
 from grader.judge.submission import Submission, take_in
-from grader.source.flaws import find_flaw
+from grader.source.flaws import find_bad_bytes, find_flaw
 from grader.source.mending import MAX_MENDING, HandedOut, Mender
 from grader.source.regions import number_lines, read_source, regions_in
 
@@ -75,6 +75,11 @@ def test_a_sign_that_ends_a_line_for_others_than_python_changes_nothing(sign: st
 def test_a_page_break_ends_the_indent_before_it():
     text = "\f\ndef f():\n    x = 1\f\n \f    return x\n"
     assert number_lines(text) == "\ndef f():\n    x = 1 \n    return x\n"
+
+
+def test_of_a_name_that_python_quotes_no_more_is_said_than_a_person_reads():
+    flaw = find_bad_bytes(b"# coding: " + b"a" * 100_000 + b"\n")
+    assert flaw is not None and "unknown encoding" in flaw.message and len(flaw.message) < 400
 
 
 HEAD_2, END_2 = "    # TODO 2: add the spin terms\n", "    # END TODO 2\n"
