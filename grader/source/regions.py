@@ -24,7 +24,7 @@ START = re.compile(rf"[ \t]*# TODO (?P<id>{TODO_ID}): (?P<task>\S.*)$")
 END = re.compile(rf"[ \t]*# END TODO (?P<id>{TODO_ID})\s{{0,80}}$")
 # What is meant for a marker: an id with a colon, or at the end.
 MEANT = re.compile(
-    r"[ \t]*# ?(?:TODO ?\w*[0-9]\w*:|END ?TODO ?\w*[0-9]\w*\s{0,80}$)", re.IGNORECASE
+    r"[ \t]*# ?(?:TODO ?(?=\w*[0-9])\w++:|END ?TODO ?(?=\w*[0-9])\w++\s{0,80}$)", re.IGNORECASE
 )
 # What ends a line for `str.splitlines` and not for Python, which refuses it outside of texts.
 NO_END = dict.fromkeys(map(ord, "\v\x1c\x1d\x1e\x85\u2028\u2029"), "\u2424")

@@ -154,6 +154,8 @@ IN_SOURCES = {
     *(
         "# TODO 8a: x\n",
         "# END TODO 8a\n",
+        "#TODO",
+        "a1",
         "def step():\n    pass\n",
         "if 0:\n ",
         "pass\n",
@@ -277,6 +279,11 @@ def test_work_grows_little_faster_than_any_input(kind: str):
 @pytest.mark.parametrize("unit", ["x = 1\n", "\n", "x = 1\n\n"])
 def test_a_comment_is_found_in_time_among_lines_of_one_text(unit: str):
     check_growth(find_comment, Shape("x = 1\n", unit, ""), 80_000)
+
+
+@pytest.mark.parametrize("start", ["#TODO", "# END TODO ", "    # todo "])
+def test_a_long_word_for_a_marker_is_read_in_time(start: str):
+    check_growth(read_source, Shape(start, "a1", " "), 6000)
 
 
 def test_a_square_is_noticed():
