@@ -34,10 +34,10 @@ from grader.intake.packing import Shown, pack, show
 from grader.intake.pieces import name_type, rank_file
 from grader.intake.roster import ClassList, is_same_student
 from grader.player.page import clean_line, fill_template
-from grader.text import harmless
+from grader.text import harmless, plural
 
 TEMPLATES = Path(__file__).with_name("templates")
-MOST_FILES = 60  # on a page
+MOST_FILES, MOST_LINES = 60, 20_000  # on a page
 LONGEST_FILE = 200_000  # bytes shown of a file
 HEADERS = {
     "Content-Type": "text/html; charset=utf-8",
@@ -380,20 +380,27 @@ def place_decision(decision: Decision, files: Mapping[str, bytes]) -> Remark | N
 def list_files(shown: Shown, remarks: list[Remark]) -> list[File]:
     """Return the files to show, the lab's first."""
     ranked = sorted(shown.files, key=lambda each: rank_file(PurePosixPath(each[0])))
-    return [show_file(name, content, remarks) for name, content in ranked[:MOST_FILES]]
+    files, room = [], MOST_LINES
+    for name, content in ranked[:MOST_FILES]:
+        files.append(show_file(name, content, remarks, room))
+        room -= len(files[-1].lines)
+    return files
 
 
-def show_file(name: str, content: bytes, remarks: list[Remark]) -> File:
+def show_file(name: str, content: bytes, remarks: list[Remark], most: int) -> File:
+    """Return a file with at most so many lines."""
     words = name_type(content[:4096])
     if (words and words != "empty") or b"\0" in content[:4096]:
         return File(name, [], f"{words or 'no text'}, {len(content)} bytes")
     note = "not UTF-8: wrong letters are shown as \ufffd" * (not is_utf8(content))
     note = note or f"cut off after {LONGEST_FILE} bytes" * (len(content) > LONGEST_FILE)
+    lines = split_lines(content[:LONGEST_FILE])
+    note = note or f"cut off after {plural(most, 'line')}" * (len(lines) > most)
     beside: dict[int, list[str]] = {}
     for each in remarks:
         if each.file == name:
             beside.setdefault(each.line, []).append(each.comment)
-    return File(name, split_lines(content[:LONGEST_FILE]), note, beside)
+    return File(name, lines[:most], note, beside)
 
 
 def is_utf8(content: bytes) -> bool:

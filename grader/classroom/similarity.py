@@ -45,6 +45,7 @@ FEW, MANY = 8, 50  # or a quarter of the class: a run that more of them have doe
 MOST = 100  # pairs
 MAX_TEXT = 500_000  # bytes of one submission
 CONTEXT = 2  # lines around what two share
+MOST_SHOWN = 2000  # lines of a submission beside those of another
 COMPARING = Allowance("comparing the class", cpu=300)
 LAYOUT = {token.COMMENT, token.NL, token.NEWLINE, token.INDENT, token.DEDENT, token.ENDMARKER}
 
@@ -239,7 +240,7 @@ def compare(first: Package, second: Package) -> tuple[Side, Side]:
 
 def mark_lines(package: Package, common: frozenset[int]) -> Side:
     """Return the lines of a submission that hold common runs, with some around them."""
-    files: Side = {}
+    files, room = Side(), MOST_SHOWN
     for file, text in read_texts(package).items():
         marked = {
             line
@@ -252,9 +253,10 @@ def mark_lines(package: Package, common: frozenset[int]) -> Side:
             Line(number, line, number in marked)
             for number, line in enumerate(text.split("\n"), 1)
             if number in shown
-        ]
+        ][:room]
         if lines:
             files[file] = lines
+            room -= len(lines)
     return files
 
 

@@ -22,12 +22,12 @@ from grader.classroom import grading
 from grader.classroom.comments import LONGEST_LINE, Comment, place_comment, write_comment
 from grader.classroom.decisions import DecisionsFile
 from grader.classroom.folder import read_class_folder
-from grader.classroom.review import Request, Response, respond
+from grader.classroom.review import MOST_LINES, Request, Response, list_files, respond
 from grader.classroom.review_server import ReviewServer, open_review
 from grader.errors import Stop
 from grader.intake.found import Found, Intake
 from grader.intake.listing import apply_choices, open_class
-from grader.intake.packing import pack
+from grader.intake.packing import Shown, pack
 from grader.intake.roster import ClassList
 from grader.judge.course import FULL
 
@@ -123,6 +123,13 @@ def test_of_a_line_no_more_is_kept_and_shown_than_a_person_looks_at():
     remark = place_comment(comment, {"a.py": content})
     assert remark.line == 2 and all(len(text) <= LONGEST_LINE for _, text in remark.code)
     assert len(comment.code) == LONGEST_LINE
+
+
+def test_a_page_shows_no_more_lines_than_a_browser_takes():
+    shown = Shown([(f"{number}.py", b"\n" * 200_000) for number in range(60)])
+    files = list_files(shown, [])
+    assert sum(len(each.lines) for each in files) == MOST_LINES
+    assert len(files) == 60 and all("cut off" in each.note for each in files)
 
 
 # ---------------------------------------------------------------- which work is meant

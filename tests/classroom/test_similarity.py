@@ -19,7 +19,9 @@ from grader.classroom import grading
 from grader.classroom.grading import ClassOptions, run_class
 from grader.classroom.similarity import (
     EXPECTED,
+    MOST_SHOWN,
     Pair,
+    compare,
     find_pairs,
     make_prints,
     read_pairs,
@@ -114,6 +116,13 @@ def test_of_a_line_that_is_no_python_only_the_beginning_counts(end: str):
 def test_lines_that_are_no_python_are_each_read_once():
     few, many = (count_calls(lambda n=n: read_tokens("x = $\n" * n)) for n in (100, 200))
     assert many < 3 * few
+
+
+def test_no_more_is_shown_of_two_than_a_person_reads():
+    text = "".join(f"x{n} = {'+'.join('x' * (n % 97 + 2))}\n" for n in range(4000)).encode()
+    files = [(f"{letter}.py", text) for letter in "ab"]
+    sides = compare(Package("ann", files), Package("ben", files))
+    assert all(sum(map(len, side.values())) == MOST_SHOWN for side in sides)
 
 
 def test_who_handed_in_together_is_no_pair(right):
