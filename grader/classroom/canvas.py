@@ -236,9 +236,10 @@ def make_work(
         return Work(*who, summary, hash_text(summary), None)
     # What an earlier run found is no news to those who have it from Canvas.
     outcome = msgspec.structs.replace(entry.outcome, before="", changed=[])
-    result = withhold_reasons(entry.result, graded.course) if entry.result else None
-    comment = write_text(Entry(outcome), graded.course).strip()
-    digest = hash_text(write_text(Entry(outcome, result), graded.course))
+    result = entry.result
+    shown = withhold_reasons(result, graded.course) if result else None
+    comment = write_text(outcome, None, graded.course).strip()
+    digest = hash_text(write_text(outcome, shown, graded.course))
     return Work(*who, comment, digest, graded.find_page(outcome.name))
 
 

@@ -5,7 +5,8 @@ whatever they are.
 """
 
 import statistics
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -14,6 +15,7 @@ from urllib.parse import quote
 
 import msgspec
 from markupsafe import Markup
+from msgspec import structs
 
 from grader.classroom.adjustments import write_time
 from grader.classroom.book import Book, Outcome, make_outcome
@@ -25,7 +27,7 @@ from grader.intake.packing import pack
 from grader.judge.course import FULL, Course
 from grader.judge.grade import Options
 from grader.judge.outer import WHOLE, Allowance, Failed, Lost, call_each_within, call_within
-from grader.judge.result import Result, State, TodoResult
+from grader.judge.result import CheckResult, Result, State, TodoResult
 from grader.judge.submission import CannotGrade
 from grader.judge.wording import withhold_reasons
 from grader.judge.workplace import work_folder
@@ -37,6 +39,7 @@ from grader.report.html import Comment, Standing, write_report, write_standing
 TEMPLATES = Path(__file__).with_name("templates")
 BINS = 10  # of the distribution
 SLOWEST = 10
+NO_CHECKS: list[CheckResult] = []  # of all TODOs that show none
 WRITING = Allowance("writing its page", cpu=30)
 WRITING_CLASS = Allowance("writing the page of the class", cpu=120)
 MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
@@ -50,10 +53,19 @@ MARKS: dict[State, str] = {  # the class of a cell: passed, wrong, untouched
 
 @dataclass(frozen=True)
 class Entry:
-    """A submission: its line in the class book, and its result unless it is in trouble."""
+    """A submission: its line in the class book, and its result unless it is in trouble.
+
+    A result takes 50 kB, so it is read when it is asked for, and a large class holds only briefs.
+    """
 
     outcome: Outcome
-    result: Result | None = None
+    brief: Result | None = None  # with what the page of the class shows, and nothing else
+    read: Callable[[], Result] | None = None
+
+    @property
+    def result(self) -> Result | None:
+        """Read the whole result."""
+        return self.read() if self.read else None
 
     @property
     def share(self) -> float:
@@ -66,7 +78,7 @@ class Entry:
 
     @cached_property
     def todos(self) -> dict[str, TodoResult]:
-        return {todo.id: todo for todo in self.result.todos} if self.result else {}
+        return {todo.id: todo for todo in self.brief.todos} if self.brief else {}
 
     @property
     def mistakes(self) -> list[str]:
@@ -106,12 +118,22 @@ class Mistake:
 
 def read_class(results: Path) -> list[Entry]:
     """Return everybody in the class book, or without a book, everybody who has a result."""
+    return sorted(read_entries(results), key=lambda each: each.outcome.order)
+
+
+def read_outcomes(results: Path) -> list[Outcome]:
+    """Return the same people without their results: what marks and lists are made of."""
+    outcomes = (each.outcome for each in read_entries(results))
+    return sorted(outcomes, key=lambda each: each.order)
+
+
+def read_entries(results: Path) -> Iterator[Entry]:
     book = Book(results)
     outcomes = list(book.outcomes.values()) or list(read_results_alone(book))
     if not outcomes:
         raise Stop(f"there are no results in {results}: grade a class first, with --class")
-    entries = [read_entry(book, outcome) for outcome in outcomes]
-    return sorted(entries, key=lambda each: each.outcome.order)
+    for outcome in outcomes:
+        yield read_entry(book, outcome)
 
 
 def read_results_alone(book: Book) -> Iterator[Outcome]:
@@ -126,12 +148,42 @@ def read_entry(book: Book, outcome: Outcome) -> Entry:
     """Return the book and the result together; one that cannot be read is trouble as well."""
     if outcome.trouble:
         return Entry(outcome)
-    path = book.locate_result(outcome.name)
+    read = partial(decode_result, book.locate_result(outcome.name))
     try:
-        return Entry(outcome, msgspec.json.decode(path.read_bytes(), type=Result))
+        return make_entry(outcome, read)
     except (OSError, msgspec.MsgspecError) as error:
         words = f"its result cannot be read: {error}"
-        return Entry(msgspec.structs.replace(outcome, trouble=words))
+        return Entry(structs.replace(outcome, trouble=words))
+
+
+def make_entry(outcome: Outcome, read: Callable[[], Result]) -> Entry:
+    return Entry(outcome, shorten_result(read()), read)
+
+
+def decode_result(path: Path) -> Result:
+    return msgspec.json.decode(path.read_bytes(), type=Result)
+
+
+def shorten_result(result: Result) -> Result:
+    """Return a result without what the page of a class does not show; words are shared by all."""
+    return structs.replace(result, isolation=[], todos=list(map(shorten_todo, result.todos)))
+
+
+def shorten_todo(todo: TodoResult) -> TodoResult:
+    """Keep the checks of a known mistake that say what it means, or show it."""
+    checks = [check for check in todo.checks if check.meaning or check.replay]
+    return structs.replace(
+        todo,
+        id=sys.intern(todo.id),
+        title=sys.intern(todo.title),
+        state=sys.intern(todo.state),
+        checks=list(map(shorten_check, checks)) if todo.misconception else NO_CHECKS,
+    )
+
+
+def shorten_check(check: CheckResult) -> CheckResult:
+    meaning = sys.intern(check.meaning)
+    return structs.replace(check, title="", ran="", expected="", got="", meaning=meaning)
 
 
 def add_replays(
@@ -146,13 +198,15 @@ def add_replays(
             wanted.setdefault(name, set()).add(mistake.todo)
     for entry in entries:
         name = entry.outcome.name
-        if entry.result is not None and name in wanted:
+        result = entry.result if name in wanted else None
+        if result is not None:
             again = replace(options, only=frozenset(wanted[name]))
             with suppress(Stop, Failed, Lost), work_folder() as work:
                 tree = pack(found[name], options.course.modules).unpack(work)
                 replaying = partial(grade_with_replays, tree, again, folder / name)
-                result = call_within(WHOLE, Result, replaying, (CannotGrade,))
-                entry = Entry(entry.outcome, replace_todos(entry.result, result.todos))
+                graded = call_within(WHOLE, Result, replaying, (CannotGrade,))
+                shown = partial(replace_todos, result, graded.todos)
+                entry = make_entry(entry.outcome, shown)
         yield entry
 
 
@@ -163,12 +217,12 @@ def replace_todos(result: Result, todos: list[TodoResult]) -> Result:
         again[todo.id] if todo.id in again and again[todo.id].points == todo.points else todo
         for todo in result.todos
     ]
-    return msgspec.structs.replace(result, todos=shown)
+    return structs.replace(result, todos=shown)
 
 
 def count_rates(entries: list[Entry]) -> list[Rate]:
     """Return a rate for each TODO that any result shows, in the order of the results."""
-    shown = {todo.id for each in entries if each.result for todo in each.result.shown}
+    shown = {todo.id for each in entries if each.brief for todo in each.brief.shown}
     ids = [id for id in dict.fromkeys(id for each in entries for id in each.todos) if id in shown]
     rates = []
     for id in ids:
@@ -218,10 +272,11 @@ def write_entry(folder: Path, entry: Entry, course: Course) -> None:
     """Write the report of one student."""
     report = folder / f"{entry.outcome.name}.html"
     standing = make_standing(entry.outcome, course)
-    if entry.result is None:
+    result = entry.result
+    if result is None:
         write_standing(standing, report)
     else:
-        write_report(withhold_reasons(entry.result, course), report, standing=standing)
+        write_report(withhold_reasons(result, course), report, standing=standing)
 
 
 def make_standing(outcome: Outcome, course: Course = FULL) -> Standing:
@@ -267,7 +322,7 @@ def scale_mark(outcome: Outcome, course: Course) -> str:
 
 def render_class(folder: Path, entries: list[Entry], title: str = FULL.title) -> str:
     """Return the page; its links to reports and replays lead into `folder`, beside it."""
-    graded = [each for each in entries if each.result]
+    graded = [each for each in entries if each.brief]
     marked = [each for each in entries if each.outcome.mark is not None]
     points = [each.outcome.final for each in marked]
     timed = [each for each in graded if each.outcome.seconds]

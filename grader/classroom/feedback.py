@@ -6,10 +6,10 @@ left out, with a note.
 
 import io
 import zipfile
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.classroom.book import NOTHING
+from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.comments import describe_remark
 from grader.classroom.dashboard import Entry, make_standing
 from grader.classroom.owners import find_owners
@@ -19,6 +19,7 @@ from grader.intake.lms import PAGE, Lms, Page
 from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
 from grader.judge.course import FULL, Course
+from grader.judge.result import Result
 from grader.judge.wording import reasons, withhold_reasons
 from grader.report.files import put_in
 from grader.report.html import list_failed_first
@@ -69,9 +70,9 @@ def answer_export(
         if entry is None or path is None:
             made.notes.append(f"{found.name}: left out, there is no page: grade the class again")
             continue
-        if entry.result is not None:
-            entry = replace(entry, result=withhold_reasons(entry.result, graded.course))
-        text = write_text(entry, graded.course)
+        result = entry.result
+        shown = withhold_reasons(result, graded.course) if result else None
+        text = write_text(entry.outcome, shown, graded.course)
         page = make_page(found, path.read_bytes(), text, people)
         works.setdefault(found.sources, []).append(page)
     for sources, pages in works.items():
@@ -109,15 +110,15 @@ def make_page(found: Found, content: bytes, text: str, people: ClassList) -> Pag
     return Page(found.name, file, content, text, participant)
 
 
-def write_text(entry: Entry, course: Course) -> str:
+def write_text(outcome: Outcome, result: Result | None, course: Course) -> str:
     """Return the page in plain words, for where no page can be."""
-    standing = make_standing(entry.outcome, course)
+    standing = make_standing(outcome, course)
     mark = "no points yet" if standing.mark is None else f"{standing.mark} / {standing.max_points}"
     mark += f", which is {standing.scaled} in the gradebook" if standing.scaled else ""
     lines = [f"Mark: {mark}", *(f"{name}: {clean(text)}" for name, text in standing.lines)]
-    remarks = map(describe_remark, entry.outcome.remarks)
+    remarks = map(describe_remark, outcome.remarks)
     lines += [f"Comment: {clean(words)}" for words in remarks]
-    for todo in list_failed_first(entry.result) if entry.result else []:
+    for todo in list_failed_first(result) if result else []:
         points = f"{todo.points} / {todo.max_points}"
         lines += ["", f"TODO {todo.id} {todo.title}: {todo.state}, {points}"]
         for check in todo.failed:

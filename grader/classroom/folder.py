@@ -17,7 +17,6 @@ from grader.errors import Stop
 from grader.intake.roster import ClassList
 from grader.intake.systems import BY_NAME, find_system, read_roster
 from grader.judge.course import Course, read_course
-from grader.judge.result import Result
 from grader.report.files import write_whole
 
 FILE = "class.toml"
@@ -159,12 +158,25 @@ class ClassFolder:
             )
 
 
+class Asked(Struct, frozen=True):
+    """A TODO of a result, as far as two courses may differ in it."""
+
+    id: str
+    max_points: int
+
+
+class AskedOf(Struct, frozen=True):
+    """A result without what it found."""
+
+    todos: list[Asked]
+
+
 def find_difference(results: Path, course: Course) -> str:
     """Return where the results and a course differ; empty where they do not."""
     asked = {todo.id: todo.max_points for todo in course.rubric.todos}
     for path in sorted(results.glob("[!.]*.json")):
         try:
-            result = msgspec.json.decode(path.read_bytes(), type=Result)
+            result = msgspec.json.decode(path.read_bytes(), type=AskedOf)
         except (OSError, msgspec.MsgspecError):
             continue
         graded = {todo.id: todo.max_points for todo in result.todos}

@@ -24,7 +24,7 @@ from grader.classroom.comments import (
     split_lines,
     write_comment,
 )
-from grader.classroom.dashboard import read_class
+from grader.classroom.dashboard import read_outcomes
 from grader.classroom.decisions import Decision, DecisionsFile, Table
 from grader.classroom.folder import ClassFolder
 from grader.errors import Stop
@@ -93,7 +93,7 @@ class Review:
 
     @cached_property
     def outcomes(self) -> dict[str, Outcome]:
-        return {each.outcome.name: each.outcome for each in read_class(self.known.find_results())}
+        return {each.name: each for each in read_outcomes(self.known.find_results())}
 
     @cached_property
     def unlisted(self) -> list[str]:

@@ -168,15 +168,14 @@ def mail_command(folder: Folder = Path(".")) -> None:
     """Write a draft to each who must send work again, and mail.csv; nothing is sent."""
     known = open_folder(folder)
     results, path = known.find_results(), known.find_roster("a mail")
-    from grader.classroom.dashboard import read_class
+    from grader.classroom.dashboard import read_outcomes
     from grader.classroom.mail import DRAFTS, write_mail
     from grader.intake.systems import read_roster
     from grader.report.files import write_whole
 
     listed = read_roster(path)
-    outcomes = [each.outcome for each in read_class(results)]
     key = listed.choose_key(known.settings.key)
-    made = write_mail(listed, key, outcomes, known.course.title)
+    made = write_mail(listed, key, read_outcomes(results), known.course.title)
     for old in (folder / DRAFTS).glob("*.eml"):
         old.unlink()
     for name, content in made.files.items():

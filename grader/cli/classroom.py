@@ -445,7 +445,7 @@ def read_scores(assessed: Assessed, so_far: bool, others_known: bool) -> "tuple[
 
     Results hold the engine alone, so the shares of notebooks do not count there.
     """
-    from grader.classroom.dashboard import read_class
+    from grader.classroom.dashboard import read_outcomes
     from grader.classroom.marks import ENGINE, Scores, compare_totals, load_marking, make_parts
 
     marking = load_marking(assessed.settings, assessed.course)
@@ -455,7 +455,7 @@ def read_scores(assessed: Assessed, so_far: bool, others_known: bool) -> "tuple[
         parts = read_parts(assessed.folder, marking)
         return Scores(parts, marking, so_far, others_known), []
     marking = msgspec.structs.replace(marking, shares={ENGINE: 1})
-    outcomes = [each.outcome for each in read_class(assessed.results)]
+    outcomes = read_outcomes(assessed.results)
     notes = [f"{each.name}: {each.explain()}" for each in outcomes if each.explain()]
     notes += compare_totals(marking, assessed.course)
     return Scores(make_parts(outcomes), marking, so_far, others_known), notes
