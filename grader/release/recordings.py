@@ -1,4 +1,4 @@
-"""Keep what takes minutes to record, in build/recorded, until something changes that decides it.
+"""Keep what takes long to record or to prove, in build/recorded, until something else decides it.
 
 What is kept is found by a key, which hashes all that it was made from.
 """
@@ -27,16 +27,17 @@ def record_anew(what: str, make: Callable[[], bytes]) -> bytes:
 
 
 class Recordings:
-    """What was recorded for the release of a course."""
+    """What was recorded for the release of a course; all of it is recorded again if `fresh`."""
 
-    def __init__(self, course: Course, folder: Path = FOLDER) -> None:
-        self.folder, self.key = folder, make_record_key(course)
+    def __init__(self, course: Course, folder: Path = FOLDER, fresh: bool = False) -> None:
+        self.folder, self.key, self.fresh = folder, make_record_key(course), fresh
 
     def __call__(self, what: str, make: Callable[[], bytes]) -> bytes:
         """Return what was recorded under this name, or record it now."""
         path = self.folder / f"{what}-{self.key}"
-        with suppress(FileNotFoundError):
-            return path.read_bytes()
+        if not self.fresh:
+            with suppress(FileNotFoundError):
+                return path.read_bytes()
         content = make()
         write_whole(content, path)
         return content
