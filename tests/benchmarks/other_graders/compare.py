@@ -1,8 +1,8 @@
-"""The same six checks graded by this kit, by nbgrader and by otter-grader, in turns in one run.
+"""The same six checks graded by this kit and by four other graders, in turns in one run.
 
     .venv/bin/python tests/benchmarks/other_graders/compare.py VENV
 
-VENV holds the other two, from the requirements.txt beside this file. Every grader takes the class
+VENV holds the others, from the requirements.txt beside this file. Every grader takes the class
 as its documentation says for one machine, one submission after the other, on one core.
 """
 
@@ -69,15 +69,16 @@ class Cost(NamedTuple):
     alone: list[Run]
     whole: list[Run]
 
-    def one_more(self, kind: str) -> float:
-        """What one submission more takes, in `seconds` or processor time, `cpu`."""
+    def one_more(self, kind: str) -> list[float]:
+        """What one submission more took in each round, in `seconds` or processor time, `cpu`."""
         more = len(self.whole[0].points) - len(self.alone[0].points)
-        return (middle(self.whole, kind) - middle(self.alone, kind)) / more
+        pairs = zip(each_of(self.alone, kind), each_of(self.whole, kind), strict=True)
+        return [(whole - alone) / more for alone, whole in pairs]
 
 
-def middle(runs: list[Run], kind: str) -> float:
-    """The median of the runs, in `seconds`, `cpu` or `memory`."""
-    return statistics.median(getattr(each, kind) for each in runs)
+def each_of(runs: list[Run], kind: str) -> list[float]:
+    """The `seconds`, `cpu` or `memory` of each run."""
+    return [getattr(each, kind) for each in runs]
 
 
 # ---------------------------------------------------------------- this kit
@@ -209,6 +210,100 @@ def points_of_otter(folder: Path) -> Points:
     return dict(map(json.loads, path.read_text().splitlines())) if path.exists() else {}
 
 
+# ---------------------------------------------------------------- gradescope-utils, check50
+
+
+def lay_out_files(folder: Path, handed_in: Class) -> None:
+    """Write a folder for each student, with a file in it."""
+    for student, program in handed_in.items():
+        place = folder / "class" / student
+        place.mkdir(parents=True)
+        (place / "integrators.py").write_text(program, encoding="utf-8")
+
+
+# Both start a process for each submission, in its folder.
+ONE_AFTER_THE_OTHER = """
+import subprocess, sys
+from pathlib import Path
+for place in sorted(Path("class").iterdir()):
+    subprocess.run(sys.argv[1:], cwd=place)
+"""
+
+UNITTEST = """\
+import unittest
+from gradescope_utils.autograder_utils.decorators import weight
+from gradescope_utils.autograder_utils.json_test_runner import JSONTestRunner
+
+{checks}
+
+class TestIntegrators(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        import sys
+        sys.path.insert(0, ".")
+        import integrators
+        globals().update({{name: getattr(integrators, name) for name in {names}}})
+{tests}
+
+with open("results.json", "w") as file:
+    JSONTestRunner(visibility="visible", stream=file).run(
+        unittest.defaultTestLoader.loadTestsFromTestCase(TestIntegrators)
+    )
+"""
+TEST = """
+    @weight(1)
+    def test_{number}(self):
+        {asked}
+"""
+
+
+def prepare_gradescope(folder: Path, handed_in: Class) -> list[str]:
+    lay_out_files(folder, handed_in)
+    tests = "".join(TEST.format(number=n, asked=asked) for n, asked in enumerate(ASKED, 1))
+    program = UNITTEST.format(checks=CHECKS, names=NAMES, tests=tests)
+    (folder / "run_tests.py").write_text(program, encoding="utf-8")
+    return ["python", "-c", ONE_AFTER_THE_OTHER, "python", str(folder / "run_tests.py")]
+
+
+def points_of_gradescope(folder: Path) -> Points:
+    points = {}
+    for path in folder.glob("class/*/results.json"):
+        if text := path.read_text():  # empty, where the process ended early
+            points[path.parent.name] = sum(each["score"] for each in json.loads(text)["tests"])
+    return points
+
+
+CHECK = '''
+@check50.check()
+def check_{number}():
+    """Check {number}"""
+    module = check50.py.import_("integrators.py")
+    globals().update({{name: getattr(module, name) for name in {names}}})
+    {asked}
+'''
+
+
+def prepare_check50(folder: Path, handed_in: Class) -> list[str]:
+    lay_out_files(folder, handed_in)
+    checks = "".join(
+        CHECK.format(number=n, names=NAMES, asked=asked) for n, asked in enumerate(ASKED, 1)
+    )
+    (folder / "checks").mkdir()
+    text = f"import check50\nimport check50.py\n\n{CHECKS}\n{checks}"
+    (folder / "checks" / "__init__.py").write_text(text, encoding="utf-8")
+    (folder / "checks" / ".cs50.yml").write_text("check50:\n  files: []\n", encoding="utf-8")
+    check = ["check50", "--dev", "--output", "json", "--output-file", "results.json"]
+    return ["python", "-c", ONE_AFTER_THE_OTHER, *check, str(folder / "checks")]
+
+
+def points_of_check50(folder: Path) -> Points:
+    points = {}
+    for path in folder.glob("class/*/results.json"):
+        results = json.loads(path.read_bytes()).get("results", [])
+        points[path.parent.name] = float(sum(each["passed"] is True for each in results))
+    return points
+
+
 # ---------------------------------------------------------------- measuring
 
 
@@ -325,23 +420,28 @@ def attacked(grader: Grader, instructor: Path) -> dict[str, Run]:
 
 
 def table_of(costs: dict[str, Cost], size: int) -> Table:
-    """The medians of the rounds, and how many times this kit's they are."""
+    """The median of the rounds, and how many times this kit's in the same round each was."""
     title = f"{POINTS} checks on one core, one submission after the other"
     table = Table("", *costs, title=title)
-    ours = next(iter(costs))
-    rows: dict[str, Callable[[Cost], float]] = {
+    ours = next(iter(costs.values()))
+    rows: dict[str, Callable[[Cost], list[float]]] = {
         "one submission more, s of processor time": lambda cost: cost.one_more("cpu"),
-        "for each of its checks": lambda cost: cost.one_more("cpu") / POINTS,
+        "for each of its checks": lambda cost: [each / POINTS for each in cost.one_more("cpu")],
         "one submission more, s on the clock": lambda cost: cost.one_more("seconds"),
-        "a class of one, s of processor time": lambda cost: middle(cost.alone, "cpu"),
-        f"a class of {size}, s of processor time": lambda cost: middle(cost.whole, "cpu"),
-        "memory at most, MB": lambda cost: middle(cost.whole, "memory"),
+        "a class of one, s of processor time": lambda cost: each_of(cost.alone, "cpu"),
+        f"a class of {size}, s of processor time": lambda cost: each_of(cost.whole, "cpu"),
+        "memory at most, MB": lambda cost: each_of(cost.whole, "memory"),
     }
     for words, figure in rows.items():
-        figures = {name: figure(cost) for name, cost in costs.items()}
-        told = [f"{each:.3g} ({each / figures[ours]:.1f} times)" for each in figures.values()]
-        table.add_row(words, *told)
+        table.add_row(words, *(compared(figure(cost), figure(ours)) for cost in costs.values()))
     return table
+
+
+def compared(values: list[float], ours: list[float]) -> str:
+    """A median, and the median and the range of the ratios of the rounds."""
+    times = [one / other for one, other in zip(values, ours, strict=True)]
+    spread = f"{statistics.median(times):.1f} times, {min(times):.1f} to {max(times):.1f}"
+    return f"{statistics.median(values):.3g} ({spread})"
 
 
 def outcomes(runs: dict[str, dict[str, Run]]) -> Table:
@@ -362,16 +462,18 @@ def told(one: Run) -> str:
 
 
 def main(
-    venv: Annotated[Path, typer.Argument(help="Where nbgrader and otter-grader are installed.")],
+    venv: Annotated[Path, typer.Argument(help="Where the others are installed.")],
     size: Annotated[int, typer.Option(help="Submissions in the class.")] = 10,
     rounds: Annotated[int, typer.Option(help="How often each grader takes it.")] = 3,
 ) -> None:
-    """Compare cost and safety of three graders on the same six checks."""
+    """Compare cost and safety of five graders on the same six checks."""
     os.environ["PATH"] = f"{venv.absolute() / 'bin'}{os.pathsep}{os.environ['PATH']}"
     graders = [
         Grader("this kit", prepare_kit, points_of_kit),
         Grader("nbgrader", prepare_nbgrader, points_of_nbgrader),
         Grader("otter-grader", prepare_otter, points_of_otter),
+        Grader("check50", prepare_check50, points_of_check50),
+        Grader("gradescope-utils", prepare_gradescope, points_of_gradescope),
     ]
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # for all that is started, too
