@@ -129,7 +129,7 @@ wheels: $(DEV) ## Make a wheel of it for this system, and try it; the workflow o
 
 ##@ Handing out
 
-release: $(CORE) ## Make what students get, in build/release, once verify has no complaint
+release: $(CORE) ## Make what students get, in build/release
 	@$(PY) -m grader release $(if $(FRESH),--fresh)
 
 tab: $(CORE) ## Make the lab as a page for a browser tab, in build/tab (CFFI=wheel for pymunk)

@@ -109,21 +109,16 @@ def verify(
     console: Console,
     fresh: bool = False,
     course: Course = FULL,
-    by: Course | None = None,
 ) -> Report:
     """Grade the bank of a course, as far as its names contain `only`; print a table.
 
     Sound results of an earlier run are reused unless `fresh`, and no program runs twice. Points are
     those of the rubric: a course may give a check none, and it must still tell right from wrong.
-    `by`: the course to grade by, where that is another one, whose results may be there already.
     """
     course = course.as_rated
     report = Report(complaints=list(check_kit()))
-    chosen = [
-        replace(each, course=by or each.course)
-        for each in [*list_trees(course), *members(KIT, course)]
-        if only in f"{each.kind}/{each.name}"
-    ]
+    everything = [*list_trees(course), *members(KIT, course)]
+    chosen = [each for each in everything if only in f"{each.kind}/{each.name}"]
     states = list_halfway(only, course, report.complaints)
     if not chosen and not states:
         example = "wrong/4-against-the-slip"
@@ -136,6 +131,16 @@ def verify(
     report.verdicts.sort(key=lambda v: order[v.member.kind, v.member.name, v.member.form])
     show(report, console)
     return report
+
+
+def count_unproven(course: Course) -> int:
+    """Count the members of a course's bank that no `verify` of this version found sound.
+
+    It grades by the whole rubric, so one `verify` serves every course.
+    """
+    results = StoredResults(RESULTS)
+    all_of_them = [*list_trees(course.as_rated), *members(KIT, course.as_rated)]
+    return sum(results.read(replace(each, course=FULL)) is None for each in all_of_them)
 
 
 def collect(what: str, judged: Iterable[Judged], total: int, console: Console) -> list[Judged]:

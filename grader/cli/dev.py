@@ -69,8 +69,9 @@ def release_command(
     out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/release")] = KIT
     / "build"
     / "release",
-    jobs: MembersAtATime = 0,
-    fresh: Annotated[bool, typer.Option("--fresh", help=FRESH)] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Record and prove all again, also what is kept.")
+    ] = False,
     course: CourseFile = None,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.
@@ -81,7 +82,7 @@ def release_command(
     from grader.release.build import release
 
     require_folder_target(out, "--out")
-    for path in release(out, jobs, console, fresh, read_course(course)):
+    for path in release(out, console, fresh, read_course(course)):
         print_note(f"made {path}")
 
 

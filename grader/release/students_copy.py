@@ -10,7 +10,7 @@ import shutil
 import tomllib
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import closing, contextmanager
-from functools import cache, wraps
+from functools import cache, partial, wraps
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from typing import Any
 import msgspec
 
 from grader.bank.sync import is_laid_in, read_given_sources
+from grader.bank.verify import run_in_processes, shared_worker
 from grader.checks import exact
 from grader.judge import misconceptions
 from grader.judge.children import Worker, start_worker
@@ -195,11 +196,10 @@ def replace_oracles(sources: dict[str, str]) -> dict[str, str]:
 
 def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
     """Record what the visible checks ask, and what the oracles and all models answer."""
-    with closing(start_worker()) as worker:
-        with note_oracles() as notes:
-            seen = observe(KIT / "solution", frozenset(), rubric, worker)
-        for path, todos in wrong:
-            seen += observe(path, todos, drop_properties(rubric), worker)
+    with closing(start_worker()) as worker, note_oracles() as notes:
+        seen = observe((KIT / "solution", frozenset()), rubric, worker)
+    for found in run_in_processes(partial(observe, rubric=drop_properties(rubric)), wrong, jobs=0):
+        seen += found
     asked = [todo.id for todo in rubric.todos]
     for todo in asked:
         misconceptions.load_known(todo)
@@ -234,9 +234,11 @@ def drop_properties(rubric: Rubric) -> Rubric:
     return Rubric(todos)
 
 
-def observe(path: Path, todos: frozenset[str], rubric: Rubric, worker: Worker) -> list[Observation]:
+def observe(tree: Tree, rubric: Rubric, worker: Worker | None = None) -> list[Observation]:
     """Return all observations of these checks, run to the end even after a failure."""
-    with grading(path, Options(reference=None, only=todos, trusted=True), worker, rubric) as run:
+    path, todos = tree
+    options = Options(reference=None, only=todos, trusted=True)
+    with grading(path, options, worker or shared_worker(), rubric) as run:
         run.surveys_all = True
         run.run()
     return [each for observations in run.observations.values() for each in observations]

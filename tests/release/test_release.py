@@ -22,7 +22,7 @@ from whole_bank import bank
 from grader.bank import verify
 from grader.bank.members import Member
 from grader.bank.sync import is_laid_in, list_students_files
-from grader.bank.verify import Report, shared_worker
+from grader.bank.verify import shared_worker
 from grader.checks import exact
 from grader.judge import misconceptions, recorded
 from grader.judge.course import FULL, Course
@@ -435,25 +435,23 @@ def test_planted_leaks_stop_the_release(
     assert re.search(r"more.toml, line 1, gives away a hidden check: rk4_weighs_four", told)
 
 
-def test_one_verify_serves_every_course(monkeypatch):
+def test_one_verify_serves_every_course(tmp_path: Path, monkeypatch):
     """What a course's members are made of and graded by is what `make verify` has kept."""
-    found: dict[str, list[Member]] = {}
-    for name, course in (("full", FULL), ("few", Course(todos=("8c",)))):
+    few = Course(todos=("8c",), points={"8c": 7})
+    asked: dict[str, list[Member]] = {"full": [], "few": []}
+    for name, course in (("full", FULL), ("few", few)):
         monkeypatch.setattr(
-            verify, "judge_members", lambda each, *_, n=name: found.update({n: each}) or ()
+            verify.StoredResults, "read", lambda _, member, n=name: asked[n].append(member)
         )
-        monkeypatch.setattr(verify, "judge_states", lambda *_: ())
-        monkeypatch.setattr(verify, "show", lambda *_: None)
-        verify.verify(1, "", Console(file=io.StringIO()), course=course, by=FULL)
-    assert 20 < len(found["few"]) < len(found["full"]) / 2
-    assert set(found["few"]) <= set(found["full"])
-    assert all(each.course == FULL for each in found["few"])
+        assert verify.count_unproven(course) == len(asked[name])
+    assert 20 < len(asked["few"]) < len(asked["full"]) / 2
+    assert {*asked["few"]} <= {*asked["full"]}
 
 
 def test_nothing_is_made_of_a_kit_with_complaints(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(releases, "verify", lambda *_: Report(complaints=["drift"]))
-    with pytest.raises(Refused, match="verify"):
-        releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    monkeypatch.setattr(releases, "check_kit", lambda: ["drift"])
+    with pytest.raises(Refused, match="drift"):
+        releases.release(tmp_path / "out", Console(file=io.StringIO()))
     assert not (tmp_path / "out").exists()
 
 
@@ -464,12 +462,14 @@ def test_a_sound_kit_is_released_and_an_older_one_replaced(tmp_path: Path, monke
         (work / "built" / "a.zip").write_text("new", encoding="utf-8")
         return work / "built"
 
-    monkeypatch.setattr(releases, "verify", lambda *_: Report())
+    monkeypatch.setattr(releases, "count_unproven", lambda course: 3)
     monkeypatch.setattr(releases, "build", made)
     (tmp_path / "out" / "bundle").mkdir(parents=True)
     (tmp_path / "out" / "bundle" / "old").touch()
     (tmp_path / "out" / "a.zip").write_text("old", encoding="utf-8")
-    written = releases.release(tmp_path / "out", 1, Console(file=io.StringIO()))
+    told = io.StringIO()
+    written = releases.release(tmp_path / "out", Console(file=told, width=300))
+    assert "3 submissions of the bank have not been graded" in told.getvalue()
     assert [path.name for path in written] == ["a.zip", "bundle"]
     assert written[0].read_text(encoding="utf-8") == "new"
     assert [path.name for path in written[1].iterdir()] == ["new"]
