@@ -197,3 +197,16 @@ def test_a_course_without_checks_is_only_made_where_it_is_asked_for(tmp_path, mo
     assert not (tmp_path / "course").exists()
     done = run_grader("nbgrader", *words, "--without-checks")
     assert done.exit_code == 0, done.output
+
+
+def test_one_that_cannot_be_laid_out_leaves_the_others(classroom, course):
+    for student in ("anna", "ben", "zoe"):
+        untouched(classroom / student)
+    (classroom / "ben" / "notebooks").mkdir(exist_ok=True)
+    (classroom / "ben" / f"{NAMES[0]}.ipynb").unlink(missing_ok=True)
+    (classroom / "ben" / f"{NAMES[0]}.ipynb").mkdir()
+    (classroom / "ben" / f"{NAMES[0]}.ipynb" / "a.txt").write_text("x")
+    (classroom / "ben" / "notebooks" / f"{NAMES[0]}.ipynb").write_text("{}")
+    found = taken(classroom, course)
+    assert found["anna"].taken and found["zoe"].taken
+    assert not found["ben"].taken and "/" not in found["ben"].words

@@ -5,6 +5,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
@@ -18,6 +19,7 @@ from grader.intake.found import Found, Intake
 from grader.intake.listing import open_class
 from grader.intake.packing import lay_out
 from grader.judge.grade import KIT, Options
+from grader.judge.outer import READING, call_alone
 from grader.judge.plain import copy_plain, open_plain, size_of
 from grader.judge.submission import plain_files, unreadable
 
@@ -46,13 +48,19 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
         raise Stop(f"{course} is no course yet: make it with {make}")
     with open_class(folder) as intake:
         for found in intake.found:
-            try:
-                with lay_out(found) as (path, _):
-                    yield take_submission(found.name, path, course)
-            except Stop as error:
-                yield Taken(found.name, str(error), False)
+            answer = call_alone(READING, Taken, partial(take_found, found, course))
+            yield answer if isinstance(answer, Taken) else Taken(found.name, str(answer), False)
         for name, words in intake.troubles.items():
             yield Taken(name, words, False)
+
+
+def take_found(found: Found, course: Path) -> Taken:
+    """Take one submission, or say why it cannot be taken."""
+    try:
+        with lay_out(found) as (path, _):
+            return take_submission(found.name, path, course)
+    except Stop as error:
+        return Taken(found.name, str(error), False)
 
 
 def take_submission(student: str, path: Path, course: Path) -> Taken:
