@@ -13,6 +13,7 @@ import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
 from grader.errors import say_error
@@ -32,6 +33,7 @@ MAX_ZIP = 200 * 1024**2  # bytes: somebody's virtual environment fits
 MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,000 of them
 MAX_SECONDS = repack.SECONDS  # of the processor, for what is no zip
 MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
+LONGEST_PATH, SHORT = 2000, 30  # bytes of a path in the zip of a class, and of a folder that is cut
 SPARED = 100  # files of a submission's allowance that only the lab's own are given
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
 CLOCK_PER_CPU = (
@@ -109,10 +111,27 @@ def unzip_class(path: Path, folder: Path) -> None:
     with open_archive(path, Bounds(listed=MAX_CLASS)) as (archive, too_large):
         if too_large:
             raise CannotTake(f"{too_large[0]} is too large: unpack it, and name the folder instead")
-        for member in list_members(archive):
+        for number, member in enumerate(list_members(archive)):
             parts = [part for part in decode_name(member).split("/") if part]
             if not any(is_system_file(part) for part in parts):
-                write_member(archive, member, folder.joinpath(*map(make_portable, parts)))
+                write_member(archive, member, find_place(folder, parts, number))
+
+
+def find_place(folder: Path, parts: list[str], number: int) -> Path:
+    """Return where a file of a class goes; what is in its way as a file or folder stays.
+
+    One student's names may become the same: `a*`, a file, and `a_`, a folder. Of a path that is too
+    long for a system, all but the student's own folders are cut.
+    """
+    path, names = folder, [*map(make_portable, parts)]
+    if len("/".join(names).encode()) > LONGEST_PATH:
+        cut = (each.encode()[:SHORT].decode("utf-8", "ignore") for each in names[2:])
+        names[2:] = islice(cut, MAX_DEPTH)  # so deep that it is refused all the same
+    for left, part in enumerate(names, 1 - len(names)):
+        path /= part
+        if path.is_file() if left else path.is_dir():
+            path = path.with_name(f"{part} ({number})")
+    return path
 
 
 @contextmanager

@@ -206,6 +206,20 @@ def test_one_strange_name_in_a_download_does_not_stop_the_class(classroom):
 # ---------------------------------------------------------------- what people keep
 
 
+@pytest.mark.parametrize("odd", [("x*", "x_/y"), ("con/a", "_con"), ("x.", " x/y")])
+def test_names_that_become_the_same_in_a_download_do_not_stop_the_class(classroom, odd):
+    students = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
+    files = {f"{student}/integrators.py": "x = 1" for student in students}
+    files |= {f"{students[0]}/{name}": name for name in odd}
+    (classroom / "class.zip").write_bytes(zipped(files))
+    with open_class(classroom / "class.zip") as intake:
+        assert intake.names == ["Ann_1", "Ben_1"] and not intake.troubles
+        held = [
+            path.read_text() for path in intake.found[0].sources[0].rglob("*") if path.is_file()
+        ]
+    assert sorted(held) == sorted(["x = 1", *odd])
+
+
 def test_folders_checkouts_and_system_files(classroom):
     write(classroom, under("ann") | under("ben/x/y") | {"cem.zip": zipped(under("cem's work"))})
     write(
