@@ -121,12 +121,12 @@ def find_place(folder: Path, parts: list[str], number: int) -> Path:
     """Return where a file of a class goes; what is in its way as a file or folder stays.
 
     One student's names may become the same: `a*`, a file, and `a_`, a folder. Of a path that is too
-    long for a system, all but the student's own folders are cut.
+    long for a system, all names but the student's are cut.
     """
     path, names = folder, [*map(make_portable, parts)]
     if len("/".join(names).encode()) > LONGEST_PATH:
-        cut = (each.encode()[:SHORT].decode("utf-8", "ignore") for each in names[2:])
-        names[2:] = islice(cut, MAX_DEPTH)  # so deep that it is refused all the same
+        cut = (each.encode()[:SHORT].decode("utf-8", "ignore") for each in names[1:])
+        names[1:] = islice(cut, MAX_DEPTH + 2)  # one that is too deep stays so, and is refused
     for left, part in enumerate(names, 1 - len(names)):
         path /= part
         if path.is_file() if left else path.is_dir():

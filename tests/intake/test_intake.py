@@ -20,7 +20,7 @@ from grader.intake import archives
 from grader.intake.found import CannotTake, Found
 from grader.intake.listing import open_class
 from grader.intake.names import make_portable
-from grader.intake.packing import open_submission, read_package
+from grader.intake.packing import open_submission, pack, read_package
 from grader.intake.roster import ClassList
 from grader.intake.systems import read_roster
 from grader.judge import submission
@@ -218,6 +218,18 @@ def test_names_that_become_the_same_in_a_download_do_not_stop_the_class(classroo
             path.read_text() for path in intake.found[0].sources[0].rglob("*") if path.is_file()
         ]
     assert sorted(held) == sorted(["x = 1", *odd])
+
+
+def test_a_path_that_no_system_takes_does_not_stop_the_class(classroom):
+    students = [f"{name}_1_assignsubmission_file_" for name in ("Ann", "Ben")]
+    files = {f"{student}/integrators.py": "x = 1" for student in students}
+    files[f"{students[0]}/{f'{chr(0x3B1) * 80}/' * 50}a.py"] = "y"
+    (classroom / "class.zip").write_bytes(zipped(files))
+    with open_class(classroom / "class.zip") as intake:
+        assert intake.names == ["Ann_1", "Ben_1"]
+        with pytest.raises(CannotTake, match="folders in each other"):
+            pack(intake.found[0])
+        assert pack(intake.found[1]).files
 
 
 def test_folders_checkouts_and_system_files(classroom):
