@@ -15,8 +15,9 @@ from grader.intake.names import make_portable
 from grader.intake.roster import ClassList, Roster
 from grader.judge.plain import open_plain
 
+# The first attempt in a name is Blackboard's own: a student may write another into a file's name.
 NAME = re.compile(
-    r"(?P<attempt>(?P<assignment>.+)_(?P<user>[^_]+)_attempt_"
+    r"(?P<attempt>(?P<assignment>.+?)_(?P<user>[^_]+)_attempt_"
     r"(?P<when>\d{4}-\d\d-\d\d-\d\d-\d\d-\d\d))(?:_(?P<file>.+)|\.txt)"
 )
 WHO = re.compile(r"Name:\s*+(?P<name>.*)\((?P<user>[^()\n]+)\)\s*$", re.M)

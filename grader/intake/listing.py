@@ -136,8 +136,9 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     """Return submissions by the names of files and folders; say what becomes of the rest."""
     groups: dict[tuple[str, str], list[Upload]] = {}
     empty: dict[str, Path] = {}
+    systems = sort_systems(paths)
     for path in paths:
-        upload = None if path.is_symlink() else read_upload(path, people)
+        upload = None if path.is_symlink() else read_upload(path, people, systems)
         if upload is None:
             mention_file(path, intake, people)
         elif upload.empty:
@@ -172,9 +173,17 @@ def choose_attempt(name: str, uploads: list[Upload], intake: Intake) -> Iterator
         yield Found(name, sources, late, uploads[0].handed_in)
 
 
-def read_upload(path: Path, people: ClassList) -> Upload | None:
+def sort_systems(paths: list[Path]) -> list[Lms]:
+    """Return the systems, first the one that may have named most of these files and folders.
+
+    A student may give a file the name that another system gives to the work of somebody else.
+    """
+    return sorted(SYSTEMS, key=lambda each: -sum(each.match(path) is not None for path in paths))
+
+
+def read_upload(path: Path, people: ClassList, systems: Iterable[Lms] = SYSTEMS) -> Upload | None:
     """Return whose a file or folder is; of no system's name, a folder or archive has its own."""
-    uploads = (each.read_upload(path, people) for each in SYSTEMS)
+    uploads = (each.read_upload(path, people) for each in systems)
     upload = next(filter(None, uploads), None)
     if upload is None and (path.is_dir() or is_archive(path)):
         name = path.name if path.is_dir() else cut_suffix(path)

@@ -12,7 +12,8 @@ from grader.intake.lms import PAGE, Lms, MarkColumn, Page
 from grader.intake.names import fold, make_portable
 from grader.intake.roster import ClassList, Roster
 
-NAME = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(_(?P<file>.*))?")
+# The first number in a name is Moodle's own: a student may write another into a file's name.
+NAME = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>[a-z]+)(_(?P<file>.*))?")
 TOTAL = "Maximum Grade"  # a column of the worksheet; the one before it is the grade's
 
 

@@ -574,3 +574,24 @@ def test_a_packed_rar_is_read(tmp_path: Path):
     classes.put(tmp_path / "work.rar", base64.b64decode(RAR))
     package = read_package(Found("ann", (tmp_path / "work.rar",)))
     assert dict(package.files)["integrators.py"] == SOURCE.encode() + 20 * LINE
+
+
+OWN_NAMES = {  # what each system puts before the name that a student gave to a file
+    "blackboard": "Lab_{name}_attempt_2026-05-04-10-00-00_",
+    "brightspace": "{number}-1 - {name} - May 4, 2026 1159 PM - ",
+    "canvas": "{name}_{number}_9_",
+    "moodle": "{name}_{number}_assignsubmission_file_",
+}
+
+
+@pytest.mark.parametrize("other", OWN_NAMES)
+@pytest.mark.parametrize("system", OWN_NAMES)
+def test_nobody_hands_in_for_another_by_the_name_of_a_file(tmp_path, system, other):
+    names = [OWN_NAMES[system].format(name=name, number=n) for n, name in enumerate(("ann", "ben"))]
+    claim = OWN_NAMES[other].format(name="ann", number=0).replace("2026", "2027")
+    put(tmp_path, {f"{name}integrators.py": SOURCE for name in names})
+    honest = taken(tmp_path)
+    put(tmp_path, {f"{names[1]}x_{claim}a.py": SOURCE, f"{names[1]}{claim}b.py": SOURCE})
+    attacked = taken(tmp_path)
+    assert attacked.names == honest.names and not attacked.troubles
+    assert [len(each.sources) for each in attacked.found] == [1, 3]
