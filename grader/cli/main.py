@@ -281,7 +281,7 @@ def make_app() -> typer.Typer:
     whole = typer.Typer(
         cls=Commands,
         help="Grades submissions of the physics-engine assignment.",
-        no_args_is_help=True,
+        no_args_is_help=find_spec("grader.classroom") is not None,  # students get the guide
         add_completion=False,
         pretty_exceptions_enable=False,
     )
@@ -296,8 +296,9 @@ def make_app() -> typer.Typer:
             whole.add_typer(hide_commands(each, FOR_INSTRUCTORS))
         whole.info.epilog = EPILOG
     else:
-        from grader.cli import practice
+        from grader.cli import guide, practice
 
+        whole.callback(invoke_without_command=True)(guide.guide_command)
         for each in [app, student.app, export.app, practice.app]:
             whole.add_typer(each)
     return whole

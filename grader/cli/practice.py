@@ -20,7 +20,7 @@ from grader.cli.shared import (
 )
 from grader.cli.student import find_tree, make_options
 from grader.errors import Stop
-from grader.judge.course import read_course
+from grader.judge.course import Course, read_course
 from grader.questions.page import make_page
 from grader.questions.practice import load_practice
 from grader.questions.program import list_askable, open_program
@@ -49,25 +49,32 @@ def questions_command(
     there are questions, 1: nothing to ask about yet, 2: no page could be made.
     """
     require_file_target(out, "--out")
+    taken = read_course(course)
+    sheet, _ = make_questions(find_tree(path, taken), taken, out, seed)
+    raise typer.Exit(0 if sheet.questions else 1)
+
+
+def make_questions(
+    folder: Path, course: Course, out: Path | None = None, seed: int | None = None
+) -> tuple[Sheet, Path]:
+    """Make the page of a tree, and print what is on it; return the sheet and the page's path."""
     practice = load_practice()
     if practice is None:
         raise Stop("this copy has no cases for practice")
-    taken = read_course(course)
-    folder = find_tree(path, taken)
     drawn = str(secrets.randbelow(10**6) if seed is None else seed)
     try:
         with (
             console.status("looking at your program: ten seconds or so"),
-            open_program(folder, make_options(list_askable(taken), taken)) as program,
+            open_program(folder, make_options(list_askable(course), course)) as program,
         ):
             program = replace(program, given=practice.given)
             sheet = make_sheet(program, "practice", drawn, practice.asked, practice.cases)
         target = out or folder / "build" / "questions.html"
-        write_whole(make_page(sheet, taken.title, "practice").encode(), target)
+        write_whole(make_page(sheet, course.title, "practice").encode(), target)
     except KeyboardInterrupt:
         raise Stop("stopped before there was a page") from None
     print_sheet(sheet, target)
-    raise typer.Exit(0 if sheet.questions else 1)
+    return sheet, target
 
 
 def print_sheet(sheet: Sheet, target: Path) -> None:

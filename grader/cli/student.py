@@ -180,7 +180,7 @@ def hint_command(
     todo, *others = find_parts(name or todo, read_course(course))
     if others:
         raise Stop(f"there are {', '.join([todo, *others])}: name one")
-    hints = msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])
+    hints = load_hints()
     if todo not in hints:
         say(f"There is no hint for {todo}. What its checks say leads to the TODO.", console)
         return
@@ -188,3 +188,8 @@ def hint_command(
         say(f"{number}  {words}", console, indent=3)
     if level < len(hints[todo]):
         say(f"More: {command('hint', todo, level + 1)}", console)
+
+
+def load_hints() -> dict[str, list[str]]:
+    """Load the three hints of each TODO."""
+    return msgspec.toml.decode((CHECKS / "hints.toml").read_bytes(), type=dict[str, list[str]])

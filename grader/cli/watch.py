@@ -144,8 +144,11 @@ class Watch:
             self.tell(head, clear=True)
         else:
             self.tell(news)
-        screen = Screen(self.console, self.replays, LINES - len(head) - 1)
-        screen.show(self.result, touched)
+        self.show(LINES - len(head) - 1, touched)
+
+    def show(self, lines: int, touched: Collection[str]) -> None:
+        """Print the result on at most so many lines."""
+        Screen(self.console, self.replays, lines).show(self.result, touched)
 
     def tell(self, lines: Sequence[str], clear: bool = False) -> None:
         """Print what is new, after clearing a terminal if asked to."""
@@ -226,8 +229,8 @@ def list_folders(folder: Path) -> list[Path]:
     return sorted({folder, *(each.parent for each in plain_files(folder))})
 
 
-def wait_for_saves(folder: Path) -> Iterator[None]:
-    """Wait for each event in the tree; come back from time to time without one."""
+def wait_for_saves(folder: Path, most: int = 0) -> Iterator[None]:
+    """Wait for each event in the tree; come back after `most` ms without one."""
     while folder.is_dir():
         folders = list_folders(folder)
         try:
@@ -235,7 +238,7 @@ def wait_for_saves(folder: Path) -> Iterator[None]:
                 *folders,
                 watch_filter=watchfiles.PythonFilter(),
                 step=SETTLED,
-                rust_timeout=WITHOUT_EVENTS,
+                rust_timeout=most or WITHOUT_EVENTS,
                 yield_on_timeout=True,
                 recursive=False,
             ):

@@ -237,7 +237,11 @@ def film_unchanged(tree: Tree, seed: int) -> Film:
 
 
 def make_film(
-    tree: Tree, texts: Mapping[str, str], seed: int, restitution: float | None = None
+    tree: Tree,
+    texts: Mapping[str, str],
+    seed: int,
+    restitution: float | None = None,
+    seconds: float = SECONDS,
 ) -> Film:
     """Record the lab scene of a tree, some files changed; `restitution` is for all bodies."""
     with tree.lab("mini_engine", texts) as lab:
@@ -260,5 +264,5 @@ def make_film(
         for joint in joints:
             ends = [lab.thing(lab.get(lab.thing(joint), end)) for end in ("a", "b")]
             rods.append(tuple(bodies.index(Thing(each.ref)) for each in ends))
-        run = lab.simulate(scene.world, bodies, round(SECONDS / STEP), every=EVERY)
-    return Film(looks, run.frames, SECONDS, [(a, b) for a, b in rods])
+        run = lab.simulate(scene.world, bodies, round(seconds / STEP), every=EVERY)
+    return Film(looks, run.frames, seconds, [(a, b) for a, b in rods])

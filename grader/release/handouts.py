@@ -6,7 +6,8 @@ file itself reads well: `<!--% if asked("5") %-->`, `<!--= hand_in =-->`.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from jinja2 import Environment, StrictUndefined
 
 from grader.judge.course import Course
 from grader.judge.rubric import Todo, load_rubric
+from grader.report.tasks import Tasks
 from grader.source.regions import TODO_ID
 from grader.text import listed, moment, number
 
@@ -21,6 +23,8 @@ EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
 SECTION = re.compile(rf"^(##+) (?:TODO )?({TODO_ID}): ")
 ROW = re.compile(rf"^\| \[?({TODO_ID})(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
+WHAT = ("**What.** ", "**How.** ")  # paragraphs of a section that say what to do
+NOT_YET = "**Watch out.**"  # what follows is for later
 PARTS = re.compile(r"(?m)^(?=- |\||python |```|\n)|(?<=\n\n)")  # of a page: items, rows, paragraphs
 
 pages = Environment(
@@ -72,6 +76,30 @@ def make_handouts(folder: Path, course: Course) -> dict[str, str]:
         text = pages.from_string(path.read_text(encoding="utf-8")).render(words)
         texts[path.name] = cut_page(text, course)
     return {name: drop_dead_links(text, texts.keys()) for name, text in texts.items()}
+
+
+def make_tasks(texts: Mapping[str, str]) -> Tasks:
+    """Return what the pages say is to be done in each TODO, as paragraphs in plain words."""
+    found = {}
+    for name in ("lab-sheet.md", "bonus.md"):
+        _, *sections = re.split(r"^(?=## )", texts.get(name, ""), flags=re.M)
+        for section in sections:
+            heading, _, body = section.partition("\n")
+            if todo := SECTION.match(heading):
+                found[todo[2]] = list(find_paragraphs(body))
+    return found
+
+
+def find_paragraphs(body: str) -> Iterable[str]:
+    """Yield the paragraphs that say what to do; without any so marked, those that come first."""
+    parts = [" ".join(part.split()) for part in re.split(r"\n\n|\n(?=- )", body.strip())]
+    marked = [part for part in parts if part.startswith(WHAT)]
+    for part in marked or takewhile(lambda part: not part.startswith(NOT_YET), parts):
+        yield re.sub(
+            r"\*\*(?:What\.\*\* |How\.\*\* )?|(?<!\w)\*(?=\w)|(?<=\w)\*|`",
+            "",
+            LINK.sub(r"\1", part),
+        )
 
 
 def drop_dead_links(text: str, names: Iterable[str]) -> str:

@@ -29,8 +29,10 @@ from grader.judge.recorded import Answers, Recorded, RecordedMistake, key, oracl
 from grader.judge.rubric import CHECKS, Check, Rubric, load_rubric, visible
 from grader.questions.practice import FILE as PRACTICE
 from grader.release.handed_out import make_students_tree
+from grader.release.handouts import make_handouts, make_tasks
 from grader.release.practice import make_practice
 from grader.release.recordings import Record, record_anew
+from grader.report.tasks import FILE as TASKS
 from grader.source.cut import prune_modules, with_bodies
 from grader.source.regions import read_source
 
@@ -155,6 +157,7 @@ def cut_course_files(course: Course) -> dict[str, str]:
         "stubs.json": json.dumps(stubs, indent=1) + "\n",
         "given.json": json.dumps(read_given_sources(programs), indent=1) + "\n",
         "hints.toml": "".join(kept),
+        TASKS: json.dumps(make_tasks(make_handouts(KIT / "handouts", course)), indent=1) + "\n",
         "course.toml": f"title = {json.dumps(course.title)}\n{due}",
     }
 

@@ -10,7 +10,9 @@ from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
 from grader.judge.wording import NAMES, command, named_reasons, task_of, total
+from grader.report.tasks import Tasks
 from grader.report.terminal import (
+    FIRST,
     MARGIN,
     MAX_COLUMNS,
     STATES,
@@ -51,6 +53,7 @@ class Screen:
     console: Console
     replays: Path | None = None  # where they are, if there are any
     lines: int = LINES
+    tasks: Tasks | None = None  # what to do in each TODO, shown in place of commands to type
 
     def show(
         self, result: Result, touched: Collection[str] = (), notes: Sequence[str] = ()
@@ -67,8 +70,7 @@ class Screen:
         notes = [*list_remarks(result), *notes]
         end = [Line(each) for note in notes for each in wrap(note, self.console, 2)]
         if todo is None or not todo.failed:  # nothing that was begun fails
-            headline, *commands = suggest_todo(todo, result) if todo else [""]
-            next_one = [*self.set_bold(headline), *map(Line, commands)]
+            next_one = self.suggest(todo, result) if todo else []
             return [*self.list_states(result, None), *end, *next_one]
         head = self.shorten(write_todo(todo))
         states = [*self.list_states(result, todo), Line(head, STYLES[todo.state])]
@@ -105,11 +107,23 @@ class Screen:
             return [Line(f"Points: {points}", "bold"), *rows]
         return [Line(rows[0].text + points.rjust(free), rows[0].style), *rows[1:]]
 
+    def suggest(self, todo: TodoResult, result: Result) -> list[Line]:
+        """Return the TODO to go on with, and what to type for it or its text of the lab sheet."""
+        headline, *below = suggest_todo(todo, result)
+        if self.tasks is not None:
+            below = [each for words in self.tasks.get(todo.id, []) for each in self.indent(words)]
+        return [*self.set_bold(headline), *map(Line, below)]
+
+    def indent(self, words: str) -> list[str]:
+        return wrap(f"  {words}", self.console, 4 if words.startswith("- ") else 2)
+
     def suggest_commands(self, todo: TodoResult) -> list[Line]:
         """Return what to type, or what must be corrected before anything else."""
         all_of_it = f"All: {command('check', all_of_it=True)}"
         if words := describe_obstacle(todo):
             return self.set_bold(words)
+        if self.tasks is not None:
+            return []
         if todo.id == "whole":
             return [Line(all_of_it)]
         both = f"A hint: {command('hint', todo.id)}   {all_of_it}"
@@ -120,9 +134,8 @@ class Screen:
 
     def list_failures(self, todo: TodoResult, room: int) -> list[Line]:
         """Return the first failure in full, and the others a line each, as far as they fit."""
-        groups = group_checks(todo.failed)
-        first = min(groups, key=rank_failure)
-        titles = [self.title(each, count_points(each)) for each in groups if each is not first]
+        groups, first = group_checks(todo.failed), choose_failure(todo)
+        titles = [self.title(each, count_points(each)) for each in groups if each != first]
         waiting = group_checks(check for check in todo.checks if check.state == "waiting")
         titles += [self.title(each, clean(each[0].got)) for each in waiting]
         below = self.explain(todo, first[0], room - 1 - bool(titles))
@@ -177,8 +190,9 @@ def choose_todo(result: Result, touched: Collection[str] = ()) -> TodoResult | N
     left = [todo for todo in result.counted or result.todos if todo.state in states]
     left = left or [todo for todo in result.shown if todo.state in FAILED]
 
-    def rank(todo: TodoResult) -> tuple[bool, bool, bool, bool]:
-        return not todo.failed, todo.id not in touched, not todo.remark, todo.id == "whole"
+    def rank(todo: TodoResult) -> tuple[bool, ...]:
+        is_last, is_later = todo.id == "whole", todo.id != FIRST
+        return not todo.failed, todo.id not in touched, not todo.remark, is_last, is_later
 
     begun = [todo for todo in result.shown if todo.id in touched and todo.failed]
     return min([*begun, *left], key=rank, default=None)
@@ -195,6 +209,11 @@ def list_ids(result: Result, state: State, apart: TodoResult | None) -> str:
     if apart is not None and state in FAILED:
         ids = [id for id in ids if id != "whole"]  # it cannot be right where another one fails
     return f"{state.upper():<{STATES}}{' '.join(ids)}" if ids else ""
+
+
+def choose_failure(todo: TodoResult) -> list[CheckResult]:
+    """Return the checks to be explained: of those that fail for one reason, the first to mend."""
+    return min(group_checks(todo.failed), key=rank_failure)
 
 
 def rank_failure(group: list[CheckResult]) -> tuple[bool, bool, bool]:

@@ -36,6 +36,7 @@ STYLES: dict[State, str] = {
 SPENT = (ENDLESS, "not run: the checks before it used up")  # processor time
 STATES = 12  # columns of the states
 MARGIN = 4  # columns left of why a check failed
+FIRST = "8a"  # the TODO that the lab sheet begins with
 MAX_COLUMNS = 80
 
 
@@ -167,7 +168,9 @@ def show_next(result: Result, console: Console) -> None:
     left = [todo for todo in todos if todo.state in (*FAILED, "not started")]
     if not left:
         return
-    todo = min(left, key=lambda each: (each.id == "whole", each.state == "not started"))
+    todo = min(
+        left, key=lambda each: (each.id == "whole", each.state == "not started", each.id != FIRST)
+    )
     if words := describe_obstacle(todo):
         say(words, console, 6, "bold")
         return
