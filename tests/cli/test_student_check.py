@@ -70,12 +70,11 @@ def test_a_fresh_tree_shows_every_todo_and_where_to_begin(hand_in):
     todos = " ".join(todo.id for todo in load_rubric().counted)
     assert done.stdout.startswith(f"NOT STARTED {todos} ") and len(done.stdout.splitlines()) == 4
     assert "B1" not in done.stdout  # a bonus task is shown once it is begun
-    file = tree / "mini_engine" / "contacts.py"
-    lines = file.read_text(encoding="utf-8").splitlines()
-    (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 1:" in line)
-    place = f"mini_engine/contacts.py:{marker + 2}"  # the stub's return, below its comment
-    assert f"Next: TODO 1, Circle against box ({place})" in done.stdout
-    assert "python -m grader hint --todo 1" in done.stdout
+    lines = (tree / INTEGRATORS).read_text(encoding="utf-8").splitlines()
+    (marker,) = (number for number, line in enumerate(lines, 1) if "# TODO 8a:" in line)
+    place = f"{INTEGRATORS}:{marker + 2}"  # the stub's return, below its comment
+    assert f"Next: TODO 8a, Semi-implicit Euler ({place})" in done.stdout
+    assert "python -m grader hint --todo 8a" in done.stdout
 
 
 def test_all_of_it_is_a_line_for_each_todo_and_what_its_state_means(hand_in):

@@ -102,7 +102,7 @@ def test_a_finished_todo_is_told_with_its_points_and_what_is_next(open_session):
     out = session.save(WORLD, solved(WORLD, "5"))
     assert "saved: mini_engine/world.py" in out
     assert "PASSED      5" in out and "TODO 5: 0 → 8 of 8, in all 0 → 8 of 100" in out
-    assert "Next: TODO 1" in out
+    assert "Next: TODO 8a" in out
     assert session.is_up_to_date()
 
 
