@@ -67,7 +67,8 @@ def lead(path: Path, course: Course) -> None:
         guide = Guide(folder, options, console, worker, replays)
         with suppress(KeyboardInterrupt, Quit):
             guide.start()
-            say("Change that file and save it: it is checked at once.", console)
+            if guide.todo is not None:
+                say("Change that file and save it: it is checked at once.", console)
             for _ in wait_for_saves(folder, TICK):
                 guide.look()
                 guide.press(read_key())

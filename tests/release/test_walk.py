@@ -135,6 +135,8 @@ def test_the_lab_is_walked_from_the_zip_to_full_marks(
     for line in programs:
         student.types(line)
     assert f" 0 / {most}" in student.types(check)
+    guide = student.types("python -m grader")  # without a terminal it ends after its first screen
+    assert "Next: TODO 8a" in guide and "Change the velocity first" in guide
     for todo, file, says in tasks(page):
         assert student.types(student.command(says)).startswith(f"NOT STARTED {todo} ")
         assert student.types(student.command(says.replace("check", "hint")))
