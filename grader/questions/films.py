@@ -176,7 +176,8 @@ def make_question(program: Program, rng: random.Random, scene: int, points: int)
         f"Four films of your lab scene, made by `make_world(random.Random({scene}))`, for "
         f"{SECONDS:g} s. Each picture shows the bodies at four moments, the last one darkest; the "
         "thick pale line is the way of a centre, the thin one that of the tip of the white spoke. "
-        "On a screen a click plays it. In three of the films one thing was changed, in one nothing."
+        "On a screen a click plays it, or Tab and Enter. In three of the films one thing was "
+        "changed, in one nothing."
         "\nWhich film belongs to which? Write a letter for film 1, 2, 3 and 4.",
         points,
         answer,

@@ -1,4 +1,4 @@
-"""Draw films of a scene: the bodies at some moments, and a click plays all of it.
+"""Draw films of a scene: the bodies at some moments; a click or a key plays all of it.
 
 A picture is one SVG that runs no script. Everything in it is a number: no word of a submission.
 """

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 
 import pytest
+from page_readers import barriers, chromium
 from rich.console import Console
 from test_watch import FEW, INTEGRATORS, put, solved
 
@@ -176,6 +177,14 @@ def test_the_film_is_of_the_students_own_engine(open_guide, opened: list[str]):
     world = guide.folder / "mini_engine" / "world.py"
     world.write_text("raise SystemExit\n", encoding="utf-8")
     assert "There is no film" in press(guide, "f")
+
+
+@pytest.mark.soak
+def test_everybody_can_use_the_page_of_the_film(open_guide, opened: list[str]):
+    guide = open_guide("solution")
+    press(guide, "f")
+    with chromium() as browser:
+        assert barriers(browser, guide.folder / "build" / "film.html") == []
 
 
 # ---------------------------------------------------------------- texts and keys

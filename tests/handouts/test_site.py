@@ -176,9 +176,10 @@ def test_a_browsers_complaint_is_noticed(sites: Path, tmp_path: Path, broken: st
 
 
 @SEEN
-def test_the_site_is_for_all(sites: Path) -> None:
+@pytest.mark.parametrize("name", ["students", "instructors"])
+def test_the_site_is_for_all(sites: Path, name: str) -> None:
     with chromium() as browser:
-        assert barriers(browser, *pages(sites / "students")) == []
+        assert barriers(browser, *pages(sites / name)) == []
 
 
 @SEEN

@@ -4,11 +4,13 @@ import html.parser
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+WIDTHS = (1280, 390)  # px, of a desk and of a phone
 PATIENCE = 600_000  # ms, however busy the machine is
 
 # What a submission may put into its names and messages: HTML, Markdown, controls, directions.
@@ -63,13 +65,14 @@ def chromium() -> Iterator[Any]:
 def barriers(browser: Any, *paths: Path) -> list[str]:
     """What axe calls serious or critical for those who cannot see, point or tell colours apart.
 
-    All that is folded is opened, in light and in dark.
+    All that is folded is opened, in light and in dark, on a desk and on a phone.
     """
     axe = pytest.importorskip("axe_playwright_python", reason="needs axe, of the extra `dev`")
     rules = Path(axe.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
     found = []
-    for scheme in ("light", "dark"):
-        page = browser.new_page(bypass_csp=True, color_scheme=scheme)
+    for scheme, width in product(("light", "dark"), WIDTHS):
+        size = {"width": width, "height": 900}
+        page = browser.new_page(bypass_csp=True, color_scheme=scheme, viewport=size)
         for path in paths:
             page.goto(path.resolve().as_uri())
             page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
@@ -77,7 +80,7 @@ def barriers(browser: Any, *paths: Path) -> list[str]:
             for each in page.evaluate("axe.run()")["violations"]:
                 if each["impact"] in ("serious", "critical"):
                     place = each["nodes"][0]["html"]
-                    found.append(f"{path.name}, {scheme}: {each['help']}: {place}")
+                    found.append(f"{path.name}, {scheme}, {width} px: {each['help']}: {place}")
         page.close()
     return found
 

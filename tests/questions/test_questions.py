@@ -701,7 +701,9 @@ def test_every_right_member_of_the_bank_gets_a_whole_sheet(
 
 
 @pytest.mark.soak
-def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, whole_sheet: Sheet):
+def test_clicks_and_keys_play_films_and_everybody_can_use_the_pages(
+    tmp_path: Path, whole_sheet: Sheet
+):
     pages = []
     for kind in ("sheet", "key", "practice"):
         pages.append(tmp_path / f"{kind}.html")
@@ -712,8 +714,10 @@ def test_a_click_plays_a_film_and_everybody_can_use_the_pages(tmp_path: Path, wh
         tab.goto(pages[0].as_uri())
         film = tab.locator("#q4 svg").first
         assert film.evaluate(shown) == "0"
-        film.click()
-        tab.wait_for_function(f"svg => ({shown})(svg) === '1'", arg=film.element_handle())
+        other = tab.locator("#q4 svg").nth(1)
+        for each, play in ((film, film.click), (other, lambda: other.press("Enter"))):
+            play()
+            tab.wait_for_function(f"svg => ({shown})(svg) === '1'", arg=each.element_handle())
         assert barriers(browser, *pages) == []
 
 
