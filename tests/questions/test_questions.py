@@ -708,7 +708,7 @@ def test_clicks_and_keys_play_films_and_everybody_can_use_the_pages(
     for kind in ("sheet", "key", "practice"):
         pages.append(tmp_path / f"{kind}.html")
         pages[-1].write_text(make_page(whole_sheet, "Us", kind), encoding="utf-8")
-    shown = "svg => getComputedStyle([...svg.querySelectorAll('g')].pop()).opacity"
+    shown = "svg => getComputedStyle(svg.querySelector(':scope > g:last-of-type')).opacity"
     with chromium() as browser:
         tab = browser.new_page()
         tab.goto(pages[0].as_uri())
