@@ -73,7 +73,7 @@ def lead(path: Path, course: Course) -> None:
                 guide.look()
                 guide.press(read_key())
                 guide.tell_of_program()
-            raise Stop(f"there is no {folder} any more")
+            raise Stop(f"{folder} no longer exists")
 
 
 @dataclass

@@ -90,7 +90,7 @@ class Watch:
         if module_of(Path(file)) not in modules:
             return ""
         flaw = find_flaw(self.seen.get(file, ""))
-        return f"{file}:{flaw.line} is no Python yet: {clean(flaw.message)}" if flaw else ""
+        return f"{file}:{flaw.line} is not valid Python yet: {clean(flaw.message)}" if flaw else ""
 
     def plan(self) -> None:
         """Note what to check, first what the saves since the last check touched."""
@@ -259,5 +259,5 @@ def watch_tree(folder: Path, options: Options, console: Console, replays: Path |
         with suppress(KeyboardInterrupt):
             for _ in wait_for_saves(folder):
                 watched.look()
-            raise Stop(f"there is no {folder} any more")
+            raise Stop(f"{folder} no longer exists")
     return watched.result

@@ -185,7 +185,7 @@ def describe_obstacle(todo: TodoResult) -> str:
     cannot, _, module = todo.checks[0].ran.partition("import ")
     if todo.state != "error" or not module or cannot:
         return ""
-    return f"Next: mend {find_place(todo)}: nothing in {module} can be checked before"
+    return f"Next: correct {find_place(todo)}. Until then nothing in {module} can be checked"
 
 
 def suggest_todo(todo: TodoResult, result: Result) -> list[str]:

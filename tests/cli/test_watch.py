@@ -184,7 +184,7 @@ def test_a_file_that_is_no_python_yet_costs_nothing(open_session, graded):
     session.save(WORLD, solved(WORLD, "5"))
     graded.clear()
     out = session.save(SOLVER, put("def friction_limit(c):", "def friction_limit(c:"))
-    assert "mini_engine/solver.py:71 is no Python yet: '(' was never closed" in out
+    assert "mini_engine/solver.py:71 is not valid Python yet: '(' was never closed" in out
     session.save(WORLD, lambda text: text + "\n")  # while another file is broken
     assert session.watch.result.points == 8 and not graded
     out = session.save(SOLVER, put("def friction_limit(c:", "def friction_limit(c):"))
