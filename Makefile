@@ -111,8 +111,8 @@ accuracy: $(DEV) ## What accuracy costs in time: tables and figures (some minute
 effects: $(DEV) ## What each effect costs, and what B1 and B3 save (QUICK=1 for less)
 	@cd solution && ../$(PY) -m experiments.effects --out ../build/effects $(if $(QUICK),--quick)
 
-cases: $(CORE) ## The hard cases in every engine (QUICK=1 for less)
-	@cd solution && ../$(PY) -m experiments.hard_cases $(if $(QUICK),--quick)
+cases: $(CORE) ## The leaderboard: every engine on every row (QUICK=1 for less)
+	@cd solution && ../$(PY) -m experiments.leaderboard $(if $(QUICK),--quick)
 
 compiled: $(DEV) ## Compile the stable engine: the same bits, several times faster
 	@cd solution && ../$(PY) -m experiments.compiled --out ../build/compiled

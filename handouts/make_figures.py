@@ -1,4 +1,4 @@
-"""Draw the figures of the lesson and of the hard cases, as SVG files in handouts/figures.
+"""Draw the figures of the lesson and of the leaderboard, as SVG files in handouts/figures.
 
     python handouts/make_figures.py
 
@@ -8,7 +8,6 @@ gives the same files.
 
 import json
 import math
-import re
 import sys
 from pathlib import Path
 
@@ -370,53 +369,59 @@ def rolling():
     svg.save("rolling.svg")
 
 
-# ---------------------------------------------------------------- hard cases
+# ---------------------------------------------------------------- leaderboard
 
 
-ENGINES = {"lesson": RED, "stable": BLUE, "pymunk": ORANGE, "box2d": GREEN}
+ENGINES = {  # an engine has the same color in every figure
+    "lesson": RED,
+    "stable": BLUE,
+    "compiled": INK,
+    "pymunk": ORANGE,
+    "pymunk4": ORANGE,
+    "box2d": GREEN,
+    "box2d3": "#1d6f74",
+    "rapier": "#7b4ea3",
+    "planck": GREY,
+}
+BARS = {"at equal substeps": (0, 1.0), "at equal time": (17, 0.4)}  # px down, and how opaque
 
 
-def limits():
-    """Draw how far each engine holds, in shares of what must hold, on one axis."""
+def leaderboard():
+    """Draw how many of its rows each engine holds: two bars for each, the best one on top."""
     lines = json.loads((HERE / "results.json").read_text(encoding="utf-8"))["hard-cases.md"]
-    rows = [line.removesuffix(": must hold") for line in lines if re.match("limit.*hold$", line)]
-    svg = Svg(760, 90 + 58 * len(rows), "How far each engine holds, by what is made harder")
-    plot = Plot(svg, 30, 60, 700, 58 * len(rows) - 25, (-2, 2), (len(rows) - 0.5, -0.55))
-    name = "times what the stable engine must hold"
-    plot.axes([], [], name, "")
-    for power in range(-2, 3):
-        svg.line(plot.at(power, -0.55), plot.at(power, len(rows) - 0.5), color=PALE, width=1)
-        svg.text(plot.at(power, 0)[0], svg.size[1] - 36, f"{10.0**power:g}", GREY, 13, "middle")
-    svg.line(plot.at(0, -0.55), plot.at(0, len(rows) - 0.5), color=INK, width=2)
-    for i, (engine, color) in enumerate(ENGINES.items()):
-        mark(svg, engine, (40 + 130 * i, 22), color)
-        svg.text(54 + 130 * i, 27, engine, color)
-    for i, row in enumerate(rows):
-        svg.text(36, plot.at(0, i)[1] - 12, row.removeprefix("limit: "), INK, 13)
-        for engine, color in ENGINES.items():
-            share = lines[f"{row}: {engine}"] / lines[f"{row}: must hold"]
-            x, y = plot.at(math.log10(share), i)
-            mark(svg, engine, (x, y + 8), color)
-    svg.save("hard-cases-limits.svg")
 
+    def share(name, words):
+        asked = lines[f"{name}: rows {words}"]
+        return lines[f"{name}: rows held {words}"] / asked if asked else 0.0
 
-def mark(svg, engine, place, color):
-    """A mark that tells an engine without its colour."""
-    x, y = place
-    shapes = {
-        "stable": [(-6, -6), (6, -6), (6, 6), (-6, 6)],
-        "pymunk": [(0, -8), (8, 6), (-8, 6)],
-        "box2d": [(0, -8), (8, 0), (0, 8), (-8, 0)],
-    }
-    if engine not in shapes:
-        return svg.circle(x, y, 6, color)
-    path = " ".join(f"{say(x + dx)},{say(y + dy)}" for dx, dy in shapes[engine])
-    svg.add("polygon", points=path, fill=color)
+    names = [name for name in ENGINES if f"{name}: name" in lines]
+    names.sort(key=lambda name: -share(name, "at equal substeps"))
+    svg = Svg(760, 74 + 48 * len(names), "How many rows of physics each engine holds")
+    for i, (words, (_, opacity)) in enumerate(BARS.items()):
+        svg.add("rect", x=250 + 170 * i, y=14, width=26, height=14, fill=INK, opacity=opacity)
+        svg.text(284 + 170 * i, 26, words)
+    bottom = svg.size[1] - 26
+    svg.line((250, 38), (250, bottom), color=GREY, width=1)
+    svg.line((650, 38), (650, bottom), color=GREY, width=1, dash="3 4")
+    svg.text(650, bottom + 18, "all rows", GREY, 13, "middle")
+    for i, name in enumerate(names):
+        top = 44 + 48 * i
+        svg.text(238, top + 22, lines[f"{name}: name"], INK, 14, "end")
+        for words, (down, opacity) in BARS.items():
+            asked = lines[f"{name}: rows {words}"]
+            if not asked:
+                continue
+            size = {"width": 400 * share(name, words), "height": 15}
+            svg.add("rect", x=250, y=top + down, **size, fill=ENGINES[name], opacity=opacity)
+            told = f"{lines[f'{name}: rows held {words}']} of {asked}"
+            svg.rect(254 + size["width"], top + down, 72, 15, "white")
+            svg.text(258 + size["width"], top + down + 12, told, INK, 13)
+    svg.save("hard-cases-leaderboard.svg")
 
 
 ALL = [
     *(step_order, accumulator, damping, spirals, contact),
-    *(effective_mass, totals, rolling, rod, limits),
+    *(effective_mass, totals, rolling, rod, leaderboard),
 ]
 
 

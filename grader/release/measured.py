@@ -22,19 +22,8 @@ def make_script(results: Mapping[str, Mapping[str, Any]]) -> str:
     data = {
         "prices": read_prices(results["effects.md"]),
         "charts": results["charts"],
-        "limits": read_limits(results["hard-cases.md"]),
     }
     return f'"use strict";\n\nconst measured = {json.dumps(data, indent=1)};\n'
-
-
-def read_limits(lines: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Return how far each engine holds, by what is made harder, and how far the stable one must."""
-    found: dict[str, dict[str, Any]] = {}
-    for line, far in lines.items():
-        if line.startswith("limit: "):
-            _, title, words, who = line.split(": ", 3)
-            found.setdefault(f"{title}: {words}", {})[who] = far
-    return [{"title": title, "far": far} for title, far in found.items()]
 
 
 def read_prices(lines: Mapping[str, float]) -> dict[str, dict[str, float]]:

@@ -7,6 +7,7 @@ where bodies touch.
 """
 
 import math
+import time
 from collections import namedtuple
 
 import pymunk
@@ -54,6 +55,10 @@ class Builder:
     def lag(self, dt):
         """Return how long (s) velocities lag behind positions: half a step of Euler's."""
         return dt / self.substeps / 2
+
+    def spent(self):
+        """Return the processor time (s) that counts as this engine's."""
+        return time.thread_time()
 
     def contacts(self):
         """Count the contacts."""
@@ -127,7 +132,7 @@ class Stable(Builder):
     def __init__(self, scene, substeps=SUBSTEPS):
         self.scene, self.substeps = scene, substeps
         effects = [self.effect(name) for name in scene.effects]
-        self.world = self.package.World(scene.gravity, substeps, effects)
+        self.world = self.package.World(scene.gravity, substeps, effects, unit=scene.unit)
         self.fill()
         self.said = self.world.check()  # called here, so that no step warns
 
@@ -280,6 +285,15 @@ POSITION_SHARE = 3 / 8  # of Box2D's passes: it advises 8 for velocities and 3 f
 NO_COLLISIONS = -1  # a group of Box2D's in which nothing collides
 
 
+def spring_as_oscillator(scene, s):
+    """Return the frequency (Hz) and the damping ratio of the two bodies on a spring."""
+    bodies = (scene.bodies[i] for i in (s.a, s.b))
+    inverse = sum(1 / body.mass for body in bodies if isinstance(body, Ball) and body.mass)
+    omega = math.sqrt(s.stiffness * inverse)
+    ratio = s.damping * omega / (2 * s.stiffness) if s.stiffness else 0.0
+    return omega / (2 * math.pi), ratio
+
+
 class Box2d(Builder):
     """The same scene in Box2D, in metres.
 
@@ -291,24 +305,25 @@ class Box2d(Builder):
 
     def __init__(self, scene, passes=BOX2D_PASSES, substeps=1):
         self.scene, self.passes, self.substeps = scene, passes, substeps
-        gravity = (scene.gravity[0] / PX_PER_M, scene.gravity[1] / PX_PER_M)
+        self.metre = PX_PER_M * scene.unit
+        gravity = (scene.gravity[0] / self.metre, scene.gravity[1] / self.metre)
         self.world = Box2D.b2World(gravity)
         self.fill()
 
     def add(self, data):
         effects = self.scene.effects
-        metres = {"position": (data.pos[0] / PX_PER_M, data.pos[1] / PX_PER_M)}
+        metres = {"position": (data.pos[0] / self.metre, data.pos[1] / self.metre)}
         surface = {
             "friction": data.friction if "Friction" in effects else 0.0,
             "restitution": data.restitution if "Bounce" in effects else 0.0,
             "groupIndex": 0 if "Contacts" in effects else NO_COLLISIONS,
         }
         if not isinstance(data, Ball):
-            half = (data.half[0] / PX_PER_M, data.half[1] / PX_PER_M)
+            half = (data.half[0] / self.metre, data.half[1] / self.metre)
             body = self.world.CreateStaticBody(**metres)
             body.CreateFixture(shape=Box2D.b2PolygonShape(box=half), **surface)
             return body
-        shape = Box2D.b2CircleShape(radius=data.radius / PX_PER_M)
+        shape = Box2D.b2CircleShape(radius=data.radius / self.metre)
         if data.mass == 0:
             body = self.world.CreateStaticBody(**metres)
             body.CreateFixture(shape=shape, **surface)
@@ -316,14 +331,14 @@ class Box2d(Builder):
         damping = self.scene.damping if "Damping" in effects else (0.0, 0.0)
         body = self.world.CreateDynamicBody(
             **metres,
-            linearVelocity=(data.vel[0] / PX_PER_M, data.vel[1] / PX_PER_M),
+            linearVelocity=(data.vel[0] / self.metre, data.vel[1] / self.metre),
             angularVelocity=data.omega,
             linearDamping=damping[0],
             angularDamping=damping[1],
             bullet=data.bullet and "Bullets" in effects,
             allowSleep="Sleep" in effects,
         )
-        area = math.pi * (data.radius / PX_PER_M) ** 2
+        area = math.pi * (data.radius / self.metre) ** 2
         body.CreateFixture(shape=shape, density=data.mass / area, **surface)
         return body
 
@@ -332,16 +347,14 @@ class Box2d(Builder):
 
     def spring(self, s):
         """Add a spring by its frequency and its damping ratio, as Box2D has them."""
-        masses = [self.scene.bodies[i].mass for i in (s.a, s.b) if self.scene.bodies[i].mass]
-        omega = math.sqrt(s.stiffness * sum(1 / m for m in masses))
-        ratio = s.damping * omega / (2 * s.stiffness) if s.stiffness else 0.0
-        self.tie(s.a, s.b, s.length, frequencyHz=omega / (2 * math.pi), dampingRatio=ratio)
+        hertz, ratio = spring_as_oscillator(self.scene, s)
+        self.tie(s.a, s.b, s.length, frequencyHz=hertz, dampingRatio=ratio)
 
     def tie(self, a, b, length, **soft):
         """Join two centres. The two bodies do not collide."""
         ends = {"bodyA": self.bodies[a], "bodyB": self.bodies[b], "collideConnected": False}
         anchors = {"localAnchorA": (0, 0), "localAnchorB": (0, 0)}
-        self.world.CreateDistanceJoint(**ends, **anchors, length=length / PX_PER_M, **soft)
+        self.world.CreateDistanceJoint(**ends, **anchors, length=length / self.metre, **soft)
 
     def step(self, dt):
         positions = math.ceil(POSITION_SHARE * self.passes)
@@ -351,11 +364,11 @@ class Box2d(Builder):
     def read(self, i):
         body = self.bodies[i]
         (x, y), (vx, vy) = body.position, body.linearVelocity
-        metres = [PX_PER_M * number for number in (x, y, vx, vy)]
+        metres = [self.metre * number for number in (x, y, vx, vy)]
         return State(*metres, body.angle, body.angularVelocity)
 
     def throw(self, i, velocity):
-        self.bodies[i].linearVelocity = [number / PX_PER_M for number in velocity]
+        self.bodies[i].linearVelocity = [number / self.metre for number in velocity]
         self.bodies[i].awake = True
 
     def touches(self):
@@ -365,7 +378,7 @@ class Box2d(Builder):
             if contact.touching:
                 manifold = contact.worldManifold  # a copy: its parts end with it
                 (x, y), (nx, ny) = manifold.points[0], manifold.normal
-                found.append(Touch(PX_PER_M * x, PX_PER_M * y, nx, ny, None))
+                found.append(Touch(self.metre * x, self.metre * y, nx, ny, None))
         return found
 
     def asleep(self):

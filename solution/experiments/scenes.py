@@ -73,6 +73,7 @@ class Scene:
     gravity: tuple = (0.0, G)
     damping: tuple = (0.0, 0.0)  # rates per second: of velocity, of spin
     exact: dict = field(default_factory=dict)  # what is asked: the exact answer
+    unit: float = 1.0  # what a pixel is in the scene's unit of length: 0.01 in metres
 
     def moving(self):
         """Return the indices of the bodies that can move."""

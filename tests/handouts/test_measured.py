@@ -27,7 +27,7 @@ def screen(handout_pages: Path) -> Iterator[Screen]:
 
 def opened(screen: Screen, name: str) -> Any:
     """A figure as it is when its page has just been loaded."""
-    page = "hard-cases" if name.startswith("hard-cases") else name.partition("-")[0]
+    page = name.partition("-")[0]
     screen.page.goto(re.sub(r"[\w-]+\.html.*", f"{page}.html", screen.page.url))
     figure = screen.page.locator(f'figure[data-figure="{name}"]')
     figure.scroll_into_view_if_needed()
@@ -140,37 +140,10 @@ def test_a_figure_with_two_axes_along_has_a_choice(screen: Screen) -> None:
 
 
 @pytest.mark.soak
-def test_what_holds_how_far_is_read_by_keys_and_pointer(screen: Screen) -> None:
-    lines = RESULTS["hard-cases.md"]
-    figure = opened(screen, "hard-cases-limits")
-    words = figure.locator("output")
-    title = "tower of equal balls: balls that stand"
-    figure.locator("svg[role]").focus()
-    while title not in words.inner_text():
-        screen.page.keyboard.press("ArrowDown")
-    needed = lines[f"limit: {title}: must hold"]
-    assert words.inner_text() == f"{title}: lesson 2, must hold: more than {needed}."
-    for _ in ENGINES_BY_TOWER[1:]:
-        screen.page.keyboard.press("ArrowRight")
-    best = ENGINES_BY_TOWER[-1]
-    assert words.inner_text().startswith(f"{title}: {best} {lines[f'limit: {title}: {best}']}")
-    figure.get_by_label(best).uncheck()
-    assert best not in words.inner_text()
-
-
-ENGINES_BY_TOWER = sorted(
-    ("lesson", "stable", "pymunk", "box2d"),
-    key=lambda engine: RESULTS["hard-cases.md"][
-        f"limit: tower of equal balls: balls that stand: {engine}"
-    ],
-)
-
-
-@pytest.mark.soak
 @pytest.mark.parametrize(
     "name",
     [
-        *("effects-stacked", "hard-cases-limits", next(iter(CHARTS))),
+        *("effects-stacked", next(iter(CHARTS))),
         *(pytest.param(name, marks=pytest.mark.soak) for name in list(CHARTS)[1:]),
     ],
 )

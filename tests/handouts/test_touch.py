@@ -27,7 +27,7 @@ NAMES = sorted(path.stem for path in TOUCH.glob("*.js") if path.stem not in SHAR
 PLAYED = ("predict", "tower")  # by films: see test_films.py
 MEASURED = (  # see test_measured.py
     "accuracy",
-    *("effects-stacked", "hard-cases-limits"),
+    "effects-stacked",
 )
 MOVED = [name for name in NAMES if name not in PLAYED + MEASURED]
 POINTS = 1000

@@ -1,10 +1,9 @@
 """The hard cases: what must hold for the stable engine.
 
-The rows of experiments.hard_cases come first: they hold the thresholds. The tests below go further
-than a row does. h = 1/480 s unless a test says else.
+The quick rows of experiments.leaderboard come first: they hold the thresholds. The tests below go
+further than a row does. h = 1/480 s unless a test says else.
 """
 
-import re
 from itertools import product
 
 import pytest
@@ -13,11 +12,12 @@ from hypothesis import strategies as st
 from samples import sample
 from worlds_for_tests import build, dumbbell
 
-from experiments import trials
-from experiments.battery import Bench, Case, holds, run_case
+from experiments.contestants import Contestant
 from experiments.engines import Stable
-from experiments.hard_cases import BULLET_SPEEDS, CASES
+from experiments.leaderboard import ask, holds
 from experiments.measures import energy, run, speed, watch
+from experiments.reasons import find_reason
+from experiments.rows import list_rows
 from experiments.scenes import (
     BULLETS,
     DT,
@@ -30,45 +30,33 @@ from experiments.scenes import (
     drop,
     rammer,
     shot,
+    wild_box,
 )
-from experiments.steps import hiccups, in_turns, lasting
+from experiments.steps import at_random, hiccups, in_turns, lasting
 from stable_engine.soft import Pace
 
 H = DT / 4  # s
+BULLET_SPEEDS = (1000, 2448, 10_000, 50_000, 200_000)  # px/s
 
-# ---------------------------------------------------------------- the table's rows
-
-
-def must_hold(case):
-    cells = run_case(case, "stable")
-    for figure, cell in zip(case.figures, cells, strict=True):
-        assert holds(figure, cell), f"{figure.words}: {cell}, not {figure.rule} {figure.limit}"
+# ---------------------------------------------------------------- rows of the leaderboard
 
 
-LONG = ("wild boxes", "closed boxes", "pile of 200", "tower of 20")  # in the titles
-TWIN = re.compile(  # as another row, with another number or another pattern of steps
-    r"1:100$|1:1000$|bullets at (2448|10000|50000) px/s|gaps of 0\.5 px|of 1/(60|120|240) s$"
-    r"|m = (10000|1e6)/s|then 8 of 1/240 s|stack of 10, steps at random|chain of 20, steps 1/60"
-)
-QUICK = [
-    pytest.param(case, marks=() if case.quick and not is_long else pytest.mark.soak)
-    for case in (case.at("quick") for case in CASES)
-    for is_long in [any(map(case.title.__contains__, LONG)) or TWIN.search(case.title)]
+def build_stable(scene, substeps):
+    return Stable(scene, substeps=substeps)
+
+
+STABLE = Contestant("stable", "stable engine", build_stable)
+MUST_HOLD = [row for row in list_rows() if not find_reason(row.title)]
+ROWS = [
+    pytest.param(row, marks=() if row.quick else pytest.mark.soak, id=row.title)
+    for row in MUST_HOLD
 ]
 
 
-@pytest.mark.parametrize("case", QUICK, ids=lambda case: case.title)
-def test_a_hard_case_holds(case):
-    must_hold(case)
-
-
-LONGER = [case.at("soak") for case in CASES if case.longer]
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("case", LONGER, ids=lambda case: case.title)
-def test_a_hard_case_holds_for_long(case):
-    must_hold(case)
+@pytest.mark.parametrize("row", ROWS)
+def test_the_engine_holds(row):
+    error, _ = ask(row, STABLE, 4)
+    assert holds(row, error), f"{error}, not at most {row.bound.limit}: {row.physics}"
 
 
 # ---------------------------------------------------------------- stacks and bad starts
@@ -122,10 +110,18 @@ QUIETLY = {
 }
 
 
-def leaks(scene, seconds):
-    """Whether a ball gets out after any step. Never NaN: the step raises at that."""
-    case = Case("a closed box", [lambda: scene], trials.escape, [], seconds)
-    return trials.escape(Bench(case, "stable"), scene)["escapes"] > 0
+def leaks(scene, steps):
+    """Whether a ball is ever all inside a wall, or its centre in the end. At NaN the step raises.
+
+    Walls are the first four bodies of a closed box.
+    """
+    engine, half = Stable(scene), scene.bodies[3].pos[0] - scene.bodies[3].half[0]
+    depths = []
+    for dt in steps:
+        engine.step(dt)
+        ends = [(engine.read(i), scene.bodies[i].radius) for i in scene.moving()]
+        depths.append(max((max(abs(s.x), abs(s.y)) - half) / radius for s, radius in ends))
+    return max(depths) >= 1 or depths[-1] >= 0
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(20, marks=pytest.mark.soak)])
@@ -133,9 +129,16 @@ def test_nobody_escapes_from_a_closed_box(examples):
     @settings(max_examples=examples, **QUIETLY)
     @given(scene=BOXES)
     def nobody_escapes(scene):
-        assert not leaks(scene, 2)
+        assert not leaks(scene, [DT] * 240)
 
     nobody_escapes()
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("steps", [None, at_random], ids=["equal", "at random"])
+def test_nobody_escapes_from_a_box_with_all_effects(steps):
+    for seed in range(50):
+        assert not leaks(wild_box(seed), lasting(2, steps()) if steps else [DT] * 240), seed
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])

@@ -1,0 +1,58 @@
+"""The engines of the leaderboard: how each one is made, and what it is called there."""
+
+from collections import namedtuple
+from functools import partial
+
+import pymunk
+
+from . import compiled
+from .engines import SUBSTEPS, Box2D, Box2d, Lesson, Pymunk, Stable
+from .more_engines import NODE, Box2d3, Planck, Rapier, pyb2d3
+
+# make(scene, substeps) builds the scene. lacks: what it does not have. its_own: the substeps that
+# it takes where all others take the same number of them; None for that number.
+Contestant = namedtuple("Contestant", "name words make lacks its_own", defaults=((), None))
+
+SLOP = 0.01  # px, the overlap that pymunk is told to leave alone
+RODS_PUSH = "rods that push"
+
+
+def tuned_pymunk(scene, substeps):
+    return Pymunk(scene, substeps=substeps, slop=SLOP * scene.unit)
+
+
+def as_it_is(engine, scene, substeps):
+    return engine(scene, substeps=substeps)
+
+
+def list_contestants():
+    """Return those that are installed, and a sentence for each that is not."""
+    found = [
+        Contestant("lesson", "lesson's engine", partial(as_it_is, Lesson), ("Springs",)),
+        Contestant("stable", "stable engine", partial(as_it_is, Stable)),
+    ]
+    missing = []
+    if compiled.find(compiled.FOLDERS):
+        made = partial(as_it_is, compiled.Compiled)
+        found.append(Contestant("compiled", "stable engine, compiled", made))
+    else:
+        missing.append("The compiled stable engine: python -m experiments.compiled")
+    words = f"pymunk {pymunk.version}"
+    found += [
+        Contestant("pymunk", f"{words} as it comes", partial(as_it_is, Pymunk), its_own=1),
+        Contestant("pymunk4", f"{words}, {SUBSTEPS} substeps, slop {SLOP}", tuned_pymunk),
+    ]
+    versions = NODE.versions if NODE else {}
+    for there, name, words, engine, lacks, how in (
+        (Box2D, "box2d", f"Box2D {Box2D and Box2D.__version__}", Box2d, (), "pip install Box2D"),
+        (pyb2d3, "box2d3", "Box2D v3.1", Box2d3, (), "pip install pyb2d3"),
+        (versions.get("rapier"), "rapier", f"Rapier {versions.get('rapier')}", Rapier, (RODS_PUSH,),
+         "npm install @dimforge/rapier2d-compat"),
+        (versions.get("planck"), "planck", f"planck {versions.get('planck')}", Planck, (),
+         "npm install planck"),
+    ):  # fmt: skip
+        if there:
+            found.append(Contestant(name, words, partial(as_it_is, engine), lacks))
+        else:
+            missing.append(f"{engine.__name__}: {how}")
+    return found, missing

@@ -1,0 +1,256 @@
+"""The leaderboard: every engine on every row, at equal substeps and at equal time.
+
+    python -m experiments.leaderboard [--quick] [--only WORDS] [--markdown FILE]
+
+At equal substeps each engine makes four substeps of 1/480 s in each step of 1/120 s. At equal time
+each makes as many as fit into a millisecond of processor time per frame of 1/60 s: at least one,
+at most 64. All engines run a row before the next one begins, so a slow minute hits them alike.
+The exit status is 1 when the stable engine loses a row, at equal substeps, for no known reason.
+"""
+
+import argparse
+import math
+from pathlib import Path
+
+from .contestants import list_contestants
+from .engines import SUBSTEPS
+from .measures import GaveUp
+from .reasons import find_reason
+from .rows import make_rows
+from .table import Progress, Table, number, write_markdown
+
+BUDGET = 1.0  # ms of each frame
+MOST_SUBSTEPS = 64
+PATIENCE = 60.0  # s of processor time for a row
+TRIES = 2  # to find how many substeps fit
+FRAMES = 60  # per second
+MODES = {"substeps": "at equal substeps", "time": "at equal time"}
+
+
+class Trial:
+    """Build engines for a row, and add up what their steps cost."""
+
+    def __init__(self, contestant, substeps):
+        self.make, self.substeps = contestant.make, substeps
+        self.seconds, self.frames = 0.0, 0.0
+
+    def build(self, scene):
+        engine = self.make(scene, self.substeps)
+        step, spent = engine.step, engine.spent
+
+        def timed(dt):
+            start = spent()
+            step(dt)
+            self.seconds += spent() - start
+            self.frames += FRAMES * dt
+            if self.seconds > PATIENCE:
+                raise GaveUp("too slow")
+
+        engine.step = timed
+        return engine
+
+    def ms(self):
+        """Return the processor time per frame (ms)."""
+        return 1000 * self.seconds / self.frames if self.frames else math.inf
+
+
+def ask(row, contestant, substeps):
+    """Return how far off an engine is in a row, or a word if it gives up, and ms per frame."""
+    trial = Trial(contestant, substeps)
+    try:
+        error = float(row.measure(trial, row.make()))
+    except GaveUp as reason:
+        error = str(reason)
+    except Exception:  # a student's engine, or one that asserts what a scene does not keep to
+        error = "stopped"
+    else:
+        error = error if math.isfinite(error) else "NaN"
+    return error, trial.ms()
+
+
+def holds(row, error):
+    return not isinstance(error, str) and error <= row.bound.limit
+
+
+def ask_at_equal_time(row, contestant, substeps, first):
+    """Return the error with as many substeps as fit into the budget, and their number."""
+    (error, ms), tried = first, {substeps}
+    for _ in range(TRIES):
+        fitting = min(max(int(substeps * BUDGET / ms), 1), MOST_SUBSTEPS)
+        if fitting in tried or BUDGET / 1.2 < ms <= BUDGET:
+            break
+        substeps = fitting
+        tried.add(substeps)
+        error, ms = ask(row, contestant, substeps)
+    return error, substeps
+
+
+def ask_all(row, contestants):
+    """Return what each engine that has what the row needs comes to, in both modes."""
+    cells = {}
+    for one in contestants:
+        if not set(one.lacks) & set(row.needs):
+            substeps = one.its_own or SUBSTEPS
+            first = ask(row, one, substeps)
+            error, fitting = ask_at_equal_time(row, one, substeps, first)
+            cells[one.name] = {"substeps": first[0], "time": error, "fitting": fitting}
+    return cells
+
+
+def run(rows, contestants):
+    """Return the cells of all rows by their titles."""
+    found, progress = {}, Progress(len(rows))
+    for row in rows:
+        progress.step(1, row.title)
+        found[row.title] = ask_all(row, contestants)
+    progress.end()
+    return found
+
+
+# ---------------------------------------------------------------- what comes of it
+
+
+def count_held(rows, found, name, mode):
+    """Return in how many of its rows an engine holds, and how many it has."""
+    mine = [(row, found[row.title][name]) for row in rows if name in found[row.title]]
+    mine = [(row, cell[mode]) for row, cell in mine if mode in cell]
+    return sum(holds(row, error) for row, error in mine), len(mine)
+
+
+def tell_count(rows, found, name, mode):
+    held, asked = count_held(rows, found, name, mode)
+    return f"{held} of {asked}" if asked else "-"
+
+
+def find_lost(rows, found, name="stable", mode="substeps"):
+    """Return the rows that an engine loses."""
+    return [
+        row
+        for row in rows
+        if name in found[row.title] and not holds(row, found[row.title][name][mode])
+    ]
+
+
+def make_tables(subjects, found, contestants):
+    """Return three tables: rows held by each engine, what the stable one loses, and by subject."""
+    rows = [row for some in subjects.values() for row in some]
+    words = {one.name: one.words for one in contestants}
+    ranked = sorted(words, key=lambda name: -share_held(rows, found, name))
+    held = [[words[name], *(tell_count(rows, found, name, mode) for mode in MODES)]
+            for name in ranked]  # fmt: skip
+    by_subject = [
+        [
+            f"{subject} ({len(some)})",
+            *(tell_count(some, found, name, "substeps") for name in ranked),
+        ]
+        for subject, some in subjects.items()
+        if some
+    ]
+    return [
+        Table("Rows held", ["engine", *MODES.values()], held),
+        Table(
+            "Rows that the stable engine loses at equal substeps",
+            ["why, and the row", "off by", "may be", "best other"],
+            list_losses(rows, found),
+        ),
+        Table("Rows held at equal substeps, by subject", ["subject", *ranked], by_subject),
+    ]
+
+
+def share_held(rows, found, name):
+    held, asked = count_held(rows, found, name, "substeps")
+    return held / asked if asked else 0.0
+
+
+def list_losses(rows, found):
+    """Return a line for each row that the stable engine loses, below the reason for it."""
+    lost, lines = find_lost(rows, found), []
+    for why in dict.fromkeys(find_reason(row.title) for row in lost):
+        lines.append([f"**{why or 'Not known yet.'}**", "", "", ""])
+        lines += [tell_loss(row, found[row.title]) for row in lost if find_reason(row.title) == why]
+    return lines
+
+
+def tell_loss(row, cells):
+    """Return the cells of a row that the stable engine loses."""
+    others = {
+        name: cell["substeps"]
+        for name, cell in cells.items()
+        if name not in ("stable", "compiled") and not isinstance(cell["substeps"], str)
+    }
+    best = min(others, key=others.get, default="")
+    told = f"{best} {number(others[best])}" if best else "-"
+    return [row.title, number(cells["stable"]["substeps"]), number(row.bound.limit), told]
+
+
+def list_lines(rows, found, contestants):
+    """Return the counts by name, for results.json and the claims of the page."""
+    everyone = sum(
+        all(holds(row, cell["substeps"]) for cell in found[row.title].values()) for row in rows
+    )
+    lines = {"rows": len(rows), "rows that every engine holds at equal substeps": everyone}
+    for one in contestants:
+        lines[f"{one.name}: name"] = one.words
+        for mode, words in MODES.items():
+            held, asked = count_held(rows, found, one.name, mode)
+            lines |= {f"{one.name}: rows held {words}": held, f"{one.name}: rows {words}": asked}
+    return lines
+
+
+def list_cells(rows, found):
+    """Return each row with its physics, its bound, and what each engine came to."""
+    return {
+        row.title: {
+            "physics": row.physics,
+            "may be off by": f"{number(row.bound.limit)}: {row.bound.why}",
+            **{name: " / ".join(number(cell[key]) for key in (*MODES, "fitting") if key in cell)
+               for name, cell in found[row.title].items()},
+        }
+        for row in rows
+    }  # fmt: skip
+
+
+def print_rows(rows, found):
+    """Print every row that some engine loses: its physics, its bound, and who loses it."""
+    for row in rows:
+        errors = {name: cell["substeps"] for name, cell in found[row.title].items()}
+        losers = [f"{name} {number(off)}" for name, off in errors.items() if not holds(row, off)]
+        if losers:
+            print(f"{row.title}\n    {row.physics}")
+            print(f"    more than {number(row.bound.limit)} off: {', '.join(losers)}")
+
+
+def main(arguments=None):
+    """Run the rows, and print or write who holds how many. Return the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--quick", action="store_true", help="only some rows of each subject")
+    parser.add_argument("--only", default="", metavar="WORDS", help="rows with this in the title")
+    parser.add_argument("--markdown", type=Path, metavar="FILE", help="put the tables into FILE")
+    options = parser.parse_args(arguments)
+    subjects = {
+        subject: [r for r in some if options.only in r.title and (r.quick or not options.quick)]
+        for subject, some in make_rows().items()
+    }
+    rows = [row for some in subjects.values() for row in some]
+    contestants, missing = list_contestants()
+    return report(subjects, run(rows, contestants), contestants, missing, options.markdown)
+
+
+def report(subjects, found, contestants, missing, markdown=None):
+    rows = [row for some in subjects.values() for row in some]
+    tables = make_tables(subjects, found, contestants)
+    print_rows(rows, found)
+    for table in tables:
+        print(table.text())
+    for one in missing:
+        print(f"Not installed: {one}.")
+    if markdown:
+        lines = list_lines(rows, found, contestants)
+        if missing:
+            tables[0].note = "Not installed for this run: " + "; ".join(missing) + "."
+        write_markdown(markdown, tables[:2], lines, rows=list_cells(rows, found))
+    return 1 if any(not find_reason(row.title) for row in find_lost(rows, found)) else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,175 @@
+"""Rows about bouncing: what Newton's law of restitution says of one ball and still surfaces."""
+
+import math
+from functools import partial
+
+from ..measures import energy_height, run, speed, watch
+from ..scenes import BOUNCE, DT, Ball, Block, G, Scene, drop, floor
+from .row import (
+    Bound,
+    H,
+    Row,
+    energy,
+    fall_speed,
+    law,
+    still,
+    velocity_off,
+)
+
+LEAVES = "A ball that lands at speed v leaves at e v, and its flight keeps its energy."
+
+
+def rise_after_bounce(trial, scene):
+    """Run until the ball rises after its first bounce. Return its state and the height of its apex.
+
+    Heights are those of the lowest point of the ball above the floor.
+    """
+    engine, radius, hit = trial.build(scene), scene.bodies[1].radius, False
+    state, apex = None, 0.0
+    for _ in range(round(10 / DT)):
+        before = engine.read(1).vy
+        engine.step(DT)
+        now = engine.read(1)
+        if hit and now.vy >= 0:
+            break
+        if before > 0 > now.vy or hit:
+            hit, state, apex = True, now, energy_height(engine, 1, DT)
+    if state is None:
+        return engine.read(1), 0.0
+    return state, apex - state.vx**2 / (2 * G) - radius
+
+
+def first_rebound(trial, scene, height, e):
+    """Return how far (px/s) the speed after the first bounce is off."""
+    _, apex = rise_after_bounce(trial, scene)
+    return abs(fall_speed(max(apex, 0)) - e * fall_speed(height))
+
+
+def last_apex(trial, scene, seconds, height):
+    """Return how far the apex of the last two seconds is off, as a share of the first."""
+    engine, radius = trial.build(scene), scene.bodies[1].radius
+    run(engine, seconds - 2)
+    tops = watch(engine, 2, lambda: energy_height(engine, 1) - radius)
+    return abs(sorted(tops)[len(tops) // 2] / height - 1)
+
+
+def rests_at(trial, scene, seconds):
+    """Return the speed of the ball after so long."""
+    engine = trial.build(scene)
+    run(engine, seconds)
+    return max(watch(engine, 1, lambda: speed(engine.read(1))))
+
+
+def keeps_sideways(trial, scene):
+    """Return how much of its speed along the floor a bounce without friction takes."""
+    state, _ = rise_after_bounce(trial, scene)
+    return abs(state.vx - scene.bodies[1].vel[0])
+
+
+def rough(trial, scene, vx, omega):
+    """Return how far (px/s) speed along the floor and at the rim are off."""
+    state, _ = rise_after_bounce(trial, scene)
+    return max(abs(state.vx - vx), 10 * abs(state.omega - omega))
+
+
+def rough_drop(vx, omega, mu, e, height=290.0):
+    ball = Ball((0, -10 - height), 10, 1.0, (vx, 0.0), omega, e, mu)
+    return Scene([floor(restitution=e, friction=mu), ball], BOUNCE)
+
+
+def rough_exact(vx, omega, mu, e, height=290.0):
+    """Return speed and spin after a rough bounce: Coulomb's impulse stops the rim, or slips."""
+    slip = vx - 10 * omega
+    grip = min(mu * (1 + e) * fall_speed(height), abs(slip) / 3)
+    impulse = math.copysign(grip, slip)
+    return vx - impulse, omega + 2 * impulse / 10
+
+
+def corner(degrees, e, gap):
+    """Make a ball that flies into the corner of a floor and a wall; no gravity, no friction."""
+    way = math.radians(degrees)
+    walls = [Block((0, 50), (500, 50), e, 0), Block((50, -200), (50, 300), e, 0)]
+    go = math.cos(way), math.sin(way)
+    pos = (-10 - 200 * go[0] - gap, -10 - 200 * go[1])
+    ball = Ball(pos, 10, 1.0, (400 * go[0], 400 * go[1]), restitution=e, friction=0)
+    return Scene([*walls, ball], ("Contacts", "Bounce"), gravity=(0, 0))
+
+
+def leaves_corner(trial, scene, e):
+    """Return how far (px/s) the velocity is off from the reversed one."""
+    engine = trial.build(scene)
+    run(engine, 1)
+    vx, vy = scene.bodies[2].vel
+    return velocity_off(engine.read(2), (-e * vx, -e * vy))
+
+
+def between_walls(fast):
+    """Make a ball that flies to and fro between two walls 200 px apart."""
+    walls = [Block((x, 0), (50, 50), 1.0, 0) for x in (-150, 150)]
+    ball = Ball((0, 0), 10, 1.0, (fast, 0), restitution=1.0, friction=0)
+    return Scene([*walls, ball], ("Contacts", "Bounce"), gravity=(0, 0))
+
+
+def keeps_flying(trial, scene, seconds=5):
+    """Return how far (px/s) the speed is off."""
+    engine, fast = trial.build(scene), scene.bodies[2].vel[0]
+    run(engine, seconds)
+    return abs(abs(engine.read(2).vx) - fast)
+
+
+def unfolded(trial, scene, seconds=2):
+    """Return how far (px) the ball is from where the flight to and fro has it."""
+    engine, fast = trial.build(scene), scene.bodies[2].vel[0]
+    run(engine, seconds)
+    along = (fast * seconds + 90) % 360
+    return abs(engine.read(2).x - (along - 90 if along < 180 else 270 - along))
+
+
+# fmt: off
+def make_rows():
+    gentle = "the speed at the floor is known to the gravity of one substep"
+    for e in (0.1, 0.3, 0.5, 0.7, 0.9, 1.0):
+        yield Row(f"bounce: first rebound, e = {e}", LEAVES, partial(drop, 290.0, e),
+                  partial(first_rebound, height=290.0, e=e), Bound((1 + e) * G * H, gentle),
+                  quick=e == 0.5)
+    for height in (5.0, 50.0, 2000.0):
+        for e in (0.5, 1.0):
+            yield Row(f"bounce: from {height:g} px, e = {e}", LEAVES, partial(drop, height, e),
+                      partial(first_rebound, height=height, e=e), Bound((1 + e) * G * H, gentle))
+    for height in (20.0, 290.0):
+        yield Row(f"bounce: e = 1 for 30 s, from {height:g} px",
+                  "With e = 1 nothing takes energy: each apex is as high as the first.",
+                  partial(drop, height, 1.0), partial(last_apex, seconds=30, height=height),
+                  energy(), quick=height == 290)
+    for e in (0.5, 0.8):
+        total = fall_speed(290) / G * (1 + e) / (1 - e)
+        yield Row(f"bounce: e = {e} comes to rest", "The times of all bounces add up to "
+                  "√(2h/g) (1 + e) / (1 - e): half a second later the ball rests.",
+                  partial(drop, 290.0, e), partial(rests_at, seconds=total + 0.5), still())
+    for e in (0.5, 1.0):
+        yield Row(f"bounce: without friction at 300 px/s, e = {e}",
+                  "Without friction nothing acts along the floor.",
+                  partial(rough_drop, 300.0, 0.0, 0.0, e), keeps_sideways, law(300))
+    for vx, omega, mu, e in ((300.0, 0.0, 0.1, 0.5), (300.0, 0.0, 0.6, 0.5), (300.0, 0.0, 1.0, 1.0),
+                             (0.0, 50.0, 0.6, 0.5), (0.0, 200.0, 0.2, 0.8),
+                             (-200.0, 60.0, 0.6, 1.0), (900.0, 0.0, 0.3, 0.3)):
+        after = rough_exact(vx, omega, mu, e)
+        yield Row(f"bounce: rough, {vx:g} px/s, spin {omega:g}/s, μ {mu}, e {e}",
+                  "Coulomb: the impulse along the floor stops the rim, or is μ times the other.",
+                  partial(rough_drop, vx, omega, mu, e),
+                  partial(rough, vx=after[0], omega=after[1]), Bound(3 * (1 + e) * G * H, gentle),
+                  quick=mu == 0.1)
+    for degrees in (30, 45, 60):
+        for gap in (0.0, 7.0):
+            yield Row(f"bounce: into a corner at {degrees}°, {gap:g} px off the middle",
+                      "Wall and floor each reverse one part of the velocity: it comes back.",
+                      partial(corner, degrees, 1.0, gap), partial(leaves_corner, e=1.0), law(400),
+                      quick=degrees == 45)
+    for fast in (300.0, 3000.0):
+        walls = partial(between_walls, fast)
+        yield Row(f"bounce: between two walls at {fast:g} px/s, speed",
+                  "With e = 1 the speed stays.", walls, keeps_flying, law(fast))
+        count = math.ceil(2 * fast / 180)
+        yield Row(f"bounce: between two walls at {fast:g} px/s, place",
+                  "Its path is a straight one, folded.", walls, unfolded,
+                  Bound(count * fast * H, "one substep of motion at each wall"))

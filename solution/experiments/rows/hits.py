@@ -1,0 +1,355 @@
+"""Rows about collisions: momentum, energy, angular momentum and symmetry. There is no gravity."""
+
+import math
+import random
+from dataclasses import replace
+from functools import partial
+
+from ..measures import run, speed, states
+from ..scenes import BOUNCE, Ball, Block, Scene, cradle, shuffled
+from .row import Bound, H, Row, aim, energy, law, seen, velocity_off
+
+SMOOTH = {"restitution": 1.0, "friction": 0.0}
+FREE = ("Contacts", "Bounce")
+
+
+def free(*balls, effects=FREE):
+    return Scene(list(balls), effects, gravity=(0, 0))
+
+
+def head_on(mass, e, fast=300.0):
+    ideal = {"restitution": e, "friction": 0.0}
+    return free(Ball((-100, 0), vel=(fast, 0), **ideal), Ball((0, 0), mass=mass, **ideal))
+
+
+def after_head_on(trial, scene):
+    """Return how far (px/s) either velocity is off."""
+    engine = trial.build(scene)
+    run(engine, 1)
+    (a, b), e = scene.bodies, scene.bodies[0].restitution
+    common, relative = a.vel[0] / (1 + b.mass), e * a.vel[0]
+    exact = common - relative * b.mass / (1 + b.mass), common + relative / (1 + b.mass)
+    return max(velocity_off(engine.read(i), (exact[i], 0)) for i in (0, 1))
+
+
+def oblique(offset, fast, mass=1.0, frame=(0.0, 0.0), turn=0.0, shift=0.0, **surface):
+    """Make a ball that meets another one off its middle, by offset widths, in a moving frame."""
+    c, s = math.cos(turn), math.sin(turn)
+
+    def put(x, y):
+        return c * x - s * y + shift, s * x + c * y + shift
+
+    surface = {**SMOOTH, **surface}
+    vel = c * fast + frame[0], s * fast + frame[1]
+    a = Ball(put(-100, 20 * offset), vel=vel, **surface)
+    b = Ball(put(0, 0), mass=mass, vel=frame, **surface)
+    return free(a, b, effects=BOUNCE if surface["friction"] else FREE)
+
+
+def travel(scene):
+    """Return the time (s) in which the first ball goes 200 px relative to the second."""
+    a, b = scene.bodies[:2]
+    return 200 / math.dist(a.vel, b.vel)
+
+
+def direction_off(trial, scene, offset):
+    """Return the angle (rad) between the struck ball's way and the line of centres at the touch."""
+    engine = trial.build(scene)
+    run(engine, travel(scene))
+    state = engine.read(1)
+    return abs(math.atan2(state.vy, state.vx) + math.asin(offset))
+
+
+def oblique_exact(offset, fast, mass):
+    """Return both velocities after an elastic hit."""
+    nx, ny = math.sqrt(1 - offset**2), -offset
+    along = 2 * fast * nx / (1 + mass)
+    return (fast - mass * along * nx, -mass * along * ny), (along * nx, along * ny)
+
+
+def oblique_off(trial, scene, offset, fast, frame=(0.0, 0.0), turn=0.0):
+    """Return how far the worse velocity is off, as a share of the speed."""
+    engine = trial.build(scene)
+    run(engine, travel(scene))
+    exact = oblique_exact(offset, fast, scene.bodies[1].mass)
+    c, s = math.cos(turn), math.sin(turn)
+    turned = [(c * x - s * y + frame[0], s * x + c * y + frame[1]) for x, y in exact]
+    return max(velocity_off(engine.read(i), turned[i]) for i in (0, 1)) / fast
+
+
+def moments(scene, now):
+    """Return momentum along x and y, and angular momentum about the origin, spins included."""
+    px = sum(b.mass * s.vx for b, s in zip(scene.bodies, now, strict=True))
+    py = sum(b.mass * s.vy for b, s in zip(scene.bodies, now, strict=True))
+    spin = sum(
+        b.mass * (s.x * s.vy - s.y * s.vx + b.radius**2 / 2 * s.omega)
+        for b, s in zip(scene.bodies, now, strict=True)
+    )
+    return px, py, spin
+
+
+def moment_lost(trial, scene, which, scale, seconds=None):
+    """Return by how much a sum of moments changes, as a share of scale."""
+    engine = trial.build(scene)
+    start = moments(scene, states(engine))
+    run(engine, seconds or travel(scene))
+    end = moments(scene, states(engine))
+    return max(abs(end[i] - start[i]) for i in which) / scale
+
+
+def kinetic(scene, now):
+    return sum(
+        b.mass * (s.vx**2 + s.vy**2 + (b.radius * s.omega) ** 2 / 2) / 2
+        for b, s in zip(scene.bodies, now, strict=True)
+        if isinstance(b, Ball) and b.mass
+    )
+
+
+def energy_off(trial, scene, seconds):
+    """Return by how much the energy of motion has changed in the end, as a share."""
+    engine = trial.build(scene)
+    start = kinetic(scene, states(engine))
+    run(engine, seconds)
+    return abs(kinetic(scene, states(engine)) / start - 1)
+
+
+def energy_gained(trial, scene, seconds):
+    """Return by how much the energy of motion grows, as a share."""
+    engine = trial.build(scene)
+    start = kinetic(scene, states(engine))
+    run(engine, seconds)
+    return max(0.0, kinetic(scene, states(engine)) / start - 1)
+
+
+def back_again(trial, scene, seconds):
+    """Return how far (px) any ball is from its start after as long with all velocities reversed."""
+    engine = trial.build(scene)
+    run(engine, seconds)
+    for i, state in enumerate(states(engine)):
+        engine.throw(i, (-state.vx, -state.vy))
+    run(engine, seconds)
+    places = [body.pos for body in scene.bodies]
+    return max(math.dist(s[:2], p) for s, p in zip(states(engine), places, strict=True))
+
+
+# ---------------------------------------------------------------- several at once
+
+
+def cradle_of(count, thrown, gap=0.0):
+    """Make Newton's cradle without strings, of which some balls are thrown."""
+    scene = cradle(gap, count)
+    for i in range(1, thrown):
+        first = scene.bodies[0]
+        scene.bodies[i] = replace(first, pos=(first.pos[0] - (20 + gap) * i, 0))
+    return free(*scene.bodies[:thrown][::-1], *scene.bodies[thrown:])
+
+
+def cradle_off(trial, scene, thrown):
+    """Return how far (px/s) any ball is off: as many leave as came."""
+    engine = trial.build(scene)
+    run(engine, 1.5)
+    count, fast = len(scene.bodies), scene.bodies[0].vel[0]
+    exact = [fast if i >= count - thrown else 0.0 for i in range(count)]
+    return max(abs(engine.read(i).vx - exact[i]) for i in range(count))
+
+
+def into_valley(degrees, e=1.0, free_balls=False, fast=300.0):
+    """Make a ball that flies down between two others, whose normals are so far off upright."""
+    a = math.radians(degrees)
+    surface = {"restitution": e, "friction": 0.0}
+    sides = [
+        Ball((sign * 20 * math.sin(a), 20 * math.cos(a)), mass=float(free_balls), **surface)
+        for sign in (-1, 1)
+    ]
+    return free(*sides, Ball((0, -100), vel=(0, fast), **surface))
+
+
+def sideways(trial, scene):
+    """Return the speed (px/s) along x of the ball that flies in."""
+    engine = trial.build(scene)
+    run(engine, 0.8)
+    return abs(engine.read(2).vx)
+
+
+def speed_back(trial, scene, exact):
+    """Return how far (px/s) its velocity along y is off."""
+    engine = trial.build(scene)
+    run(engine, 0.8)
+    return abs(engine.read(2).vy - exact)
+
+
+def around(count, fast=300.0, centre=True):
+    """Make balls that fly at the middle from all sides."""
+    balls = []
+    for i in range(count):
+        a = 2 * math.pi * i / count
+        x, y = math.cos(a), math.sin(a)
+        balls.append(Ball((150 * x, 150 * y), vel=(-fast * x, -fast * y), **SMOOTH))
+    return free(*[Ball((0, 0), **SMOOTH)] * centre, *balls)
+
+
+def centre_moves(trial, scene):
+    engine = trial.build(scene)
+    run(engine, 0.8)
+    return speed(engine.read(0))
+
+
+def comes_back(trial, scene):
+    """Return how far (px/s) any ball is from its reversed velocity."""
+    engine = trial.build(scene)
+    run(engine, 0.8)
+    first = len(scene.bodies) % 2  # with a ball in the middle
+    return max(
+        velocity_off(engine.read(i), [-v for v in body.vel])
+        for i, body in enumerate(scene.bodies)
+        if i >= first
+    )
+
+
+def rack(rows, fast):
+    """Make the break of a rack of balls that touch; it is its own mirror image."""
+    balls = [Ball((-100, 0), vel=(fast, 0), **SMOOTH)]
+    step = 20 * math.sqrt(3) / 2
+    for i in range(rows):
+        balls += [Ball((i * step, 20 * (j - i / 2)), **SMOOTH) for j in range(i + 1)]
+    return free(*balls)
+
+
+def mirror_off(trial, scene, rows, fast):
+    """Return how far (px) any ball is from its twin's mirror image, 300 px of flight later."""
+    engine = trial.build(scene)
+    run(engine, 300 / fast)
+    worst, first = abs(engine.read(0).y), 1
+    for i in range(rows):
+        for j in range(i + 1):
+            a, b = engine.read(first + j), engine.read(first + i - j)
+            worst = max(worst, math.hypot(a.x - b.x, a.y + b.y))
+        first += i + 1
+    return worst
+
+
+def order_matters(trial, scene, seconds):
+    """Return how far (px) any body ends from where it does when added in another order."""
+    other, order = shuffled(scene)
+    first, second = trial.build(scene), trial.build(other)
+    for engine in (first, second):
+        run(engine, seconds)
+    return max(math.dist(first.read(i)[:2], second.read(j)[:2]) for j, i in enumerate(order))
+
+
+def gas(count=20, masses=(1.0,), seed=3, e=1.0):
+    """Make balls that fly in a closed box, with no overlap at the start."""
+    rng = random.Random(seed)
+    walls = [
+        Block((x, y), (250 if y else 50, 50 if y else 250), e, 0.0)
+        for x, y in ((0, -200), (0, 200), (-200, 0), (200, 0))
+    ]
+    cells = [(x, y) for x in range(-120, 121, 48) for y in range(-120, 121, 48)]
+    balls = [
+        Ball(
+            cell,
+            10,
+            rng.choice(masses),
+            (rng.uniform(-300, 300), rng.uniform(-300, 300)),
+            restitution=e,
+            friction=0.0,
+        )
+        for cell in rng.sample(cells, count)
+    ]
+    return Scene([*walls, *balls], FREE, gravity=(0, 0))
+
+
+# fmt: off
+def make_hit_rows():
+    hit = "Newton's law and momentum give both velocities."
+    for mass in (1.0, 10.0, 1000.0, 0.001):
+        for e in (0.0, 0.5, 1.0):
+            yield Row(f"hit: head on, 1:{mass:g}, e = {e}", hit, partial(head_on, mass, e),
+                      after_head_on, law(300), quick=mass == 1000)
+    for offset in (0.25, 0.5, 0.75):
+        for fast in (100.0, 500.0, 1500.0):
+            yield Row(f"hit: {offset} widths off the middle at {fast:g} px/s",
+                      "Without friction it leaves along the line of centres at the touch.",
+                      partial(oblique, offset, fast), partial(direction_off, offset=offset), aim(),
+                      quick=fast == 500)
+    for mass in (0.1, 100.0):
+        yield Row(f"hit: 0.5 widths off the middle at 500 px/s, 1:{mass:g}",
+                  "Momentum and energy along the line of centres give both velocities.",
+                  partial(oblique, 0.5, 500.0, mass), partial(oblique_off, offset=0.5, fast=500.0),
+                  aim())
+    for words, change in (("in a frame that moves at 2000 px/s", {"frame": (2000.0, 700.0)}),
+                          ("turned by 37°", {"turn": math.radians(37)})):
+        yield Row(f"hit: 0.5 widths off the middle at 300 px/s, {words}",
+                  "The laws are the same in every direction and in every frame that moves evenly.",
+                  partial(oblique, 0.5, 300.0, **change),
+                  partial(oblique_off, offset=0.5, fast=300.0, **change), aim())
+    yield Row("hit: 0.5 widths off the middle, 100,000 px away",
+              "The laws are the same everywhere.",
+              partial(oblique, 0.5, 300.0, shift=1e5),
+              partial(oblique_off, offset=0.5, fast=300.0), aim())
+    for fast in (100.0, 500.0, 1500.0):
+        rough = partial(oblique, 0.5, fast, friction=0.6, restitution=0.5)
+        yield Row(f"hit: rough, off the middle at {fast:g} px/s, momentum", "Momentum is kept.",
+                  rough, partial(moment_lost, which=(0, 1), scale=fast), law(1))
+        yield Row(f"hit: rough, off the middle at {fast:g} px/s, angular momentum",
+                  "Two bodies that push each other at one point keep their angular momentum.",
+                  rough, partial(moment_lost, which=(2,), scale=20 * fast), law(1),
+                  quick=fast == 500)
+    yield Row("hit: three balls, then all reversed",
+              "Elastic hits run backwards as well: the balls return to their start.",
+              lambda: free(Ball((-100, 3), vel=(200, 0), **SMOOTH), Ball((0, 0), **SMOOTH),
+                           Ball((60, 9), vel=(-50, 0), **SMOOTH)),
+              partial(back_again, seconds=1), Bound(4 * 2 * 200 * H, "a substep of motion at each "
+              "of four hits, and twice that in direction"))
+
+
+def make_many_rows():
+    mirror = "A scene that is its own mirror image stays so."
+    cradle_words = "As many balls leave as came, at the same speed: momentum and energy are kept."
+    for count, thrown, gap in ((5, 1, 0.0), (5, 2, 0.0), (5, 3, 0.0), (10, 1, 0.0), (20, 1, 0.0),
+                               (5, 2, 0.5), (10, 4, 0.01)):
+        yield Row(f"cradle: {thrown} of {count} balls, gaps of {gap:g} px", cradle_words,
+                  partial(cradle_of, count, thrown, gap), partial(cradle_off, thrown=thrown),
+                  law(300), quick=count == 5)
+    for degrees in (30, 45, 60):
+        valley = partial(into_valley, degrees)
+        yield Row(f"two at once: valley of {degrees}°, sideways",
+                  mirror, valley, sideways, law(300),
+                  quick=degrees == 30)
+        yield Row(f"two at once: valley of {degrees}°, speed back",
+                  "By symmetry and energy it leaves as it came.", valley,
+                  partial(speed_back, exact=-300.0), law(300))
+    yield Row("two at once: valley of 30°, e = 0.5, sideways",
+              mirror,
+              partial(into_valley, 30, 0.5), sideways, law(300))
+    pair = partial(into_valley, 30, free_balls=True)
+    yield Row("two at once: on two balls that touch, sideways",
+              mirror, pair, sideways, law(300),
+              quick=True)
+    yield Row("two at once: on two balls that touch, speed back",
+              "Symmetry, momentum and energy leave one answer: it bounces back at v/5.", pair,
+              partial(speed_back, exact=-60.0), law(300))
+    for count in (2, 3, 5, 6):
+        yield Row(f"all at once: {count} balls from all sides, the one in the middle",
+                  "Impulses from all sides cancel.", partial(around, count), centre_moves, law(300))
+        yield Row(f"all at once: {count} balls from all sides, the others",
+                  "By symmetry and energy each goes back as it came.", partial(around, count),
+                  comes_back, law(300), quick=count == 3)
+    for rows, fast in ((2, 300.0), (3, 300.0), (5, 300.0), (5, 1500.0)):
+        yield Row(f"rack: {rows} rows at {fast:g} px/s, mirror image",
+                  mirror, partial(rack, rows, fast),
+                  partial(mirror_off, rows=rows, fast=fast), seen(), quick=rows == 3)
+        yield Row(f"rack: {rows} rows at {fast:g} px/s, energy", "With e = 1 energy is kept.",
+                  partial(rack, rows, fast), partial(energy_off, seconds=300 / fast), energy())
+    yield Row("rack: 5 rows, added in another order",
+              "The order of a list is no physics.", partial(rack, 5, 300.0),
+              partial(order_matters, seconds=1), seen())
+    yield Row("rack: 5 rows, momentum", "Momentum is kept.", partial(rack, 5, 1000.0),
+              partial(moment_lost, which=(0, 1), scale=1000.0, seconds=0.5), law(1))
+    for words, masses in (("equal", (1.0,)), ("1:100", (1.0, 100.0))):
+        yield Row(f"gas: 20 balls of {words} masses for 20 s, energy", "With e = 1 energy is kept.",
+                  partial(gas, 20, masses), partial(energy_off, seconds=20), energy(),
+                  quick=words == "equal")
+    yield Row("gas: 20 balls, e = 0.9, gain", "A hit with e < 1 never adds energy.",
+              partial(gas, 20, (1.0, 10.0), 5, 0.9), partial(energy_gained, seconds=5),
+              Bound(1e-4, "none; 1 in 10,000 for rounding"))

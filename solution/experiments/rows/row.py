@@ -1,0 +1,89 @@
+"""What a row of the leaderboard is: a scene, what physics says of it, and how far off is too far.
+
+Every bound comes from physics or from what a person can see, never from what an engine reached.
+Lengths in px, times in s, masses in kg, y down.
+"""
+
+import math
+from collections import namedtuple
+from dataclasses import dataclass
+
+from ..scenes import DT, G
+
+H = DT / 4  # s, a substep
+
+# How far off a figure may be, and why.
+Bound = namedtuple("Bound", "limit why")
+
+
+@dataclass
+class Row:
+    """A question of physics. measure(trial, scene) returns how far off (>= 0) an engine is."""
+
+    title: str
+    physics: str  # one sentence
+    make: object  # () -> Scene
+    measure: object
+    bound: Bound
+    needs: tuple = ()  # what an engine may lack
+    quick: bool = False  # whether the quick run has it
+
+
+def law(scale):
+    """Return the bound of an exact law: single precision may round a thousand steps."""
+    return Bound(1e-4 * scale, "an exact law; 1 in 10,000 for rounding in single precision")
+
+
+def late(speed):
+    """Return the bound of a place (px): the motion of one substep. Of a speed, give px/s²."""
+    return Bound(speed * H, "the change in one substep of 1/480 s")
+
+
+def seen(px=0.5):
+    """Return the bound of what should not move: half a pixel cannot be seen."""
+    return Bound(px, "half a pixel cannot be seen")
+
+
+def still():
+    """Return the bound of the speed (px/s) of what rests: half a pixel in five seconds."""
+    return Bound(0.1, "half a pixel in five seconds cannot be seen")
+
+
+def energy():
+    """Return the bound of a share of energy."""
+    return Bound(0.01, "energy is kept; one hundredth is half that in speed")
+
+
+def clock():
+    """Return the bound of a share of a period: a frame in a minute."""
+    return Bound(1 / 3600, "the clock is off by a frame in a minute")
+
+
+def aim():
+    """Return the bound of a direction (rad): after 1000 px it misses by a ball's radius."""
+    return Bound(0.01, "over 1000 px it misses by the radius of a ball")
+
+
+def never():
+    """Return the bound of a count that must be 0."""
+    return Bound(0.5, "bodies are solid: none")
+
+
+# ---------------------------------------------------------------- what measures have in common
+
+
+def distance(state, place):
+    return math.hypot(state.x - place[0], state.y - place[1])
+
+
+def velocity_off(state, velocity):
+    return math.hypot(state.vx - velocity[0], state.vy - velocity[1])
+
+
+def share_off(value, exact):
+    return abs(value / exact - 1)
+
+
+def fall_speed(height):
+    """Return the speed (px/s) of what fell from so high."""
+    return math.sqrt(2 * G * height)
