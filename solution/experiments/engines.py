@@ -27,6 +27,7 @@ from .scenes import Ball
 SUBSTEPS = 4  # of the stable engine
 PASSES = 10  # of pymunk, its own choice
 BOX2D_PASSES = 8  # what it advises
+SLEEPY = 0.5  # s of rest until pymunk has a body sleep; without it, none does
 
 STATIC = pymunk.Body.STATIC
 State = namedtuple("State", "x y vx vy angle omega")
@@ -207,6 +208,8 @@ class Pymunk(Builder):
         self.space.iterations = passes
         if slop is not None:
             self.space.collision_slop = slop  # px, the overlap that it leaves alone
+        if "Sleep" in scene.effects:
+            self.space.sleep_time_threshold = SLEEPY
         if "Damping" in scene.effects:
             self.space.damping = math.exp(-scene.damping[0])  # the share kept per second
         self.fill()
