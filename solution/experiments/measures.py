@@ -92,14 +92,6 @@ def worst_stretch(engine):
     return max(stretches(engine), default=0.0)
 
 
-def sinking(engine, seconds, dt=DT):
-    """Return how far the last ball sinks, how far it ever rises, and the top speed at the end."""
-    top = engine.scene.moving()[-1]
-    start = engine.read(top).y
-    rises = watch(engine, seconds, lambda: start - engine.read(top).y, dt)
-    return -rises[-1], max(0.0, *rises), top_speed(engine)
-
-
 def energy_height(engine, i, dt=DT):
     """Return height above y = 0 that a ball could reach with the energy of its flight.
 
@@ -148,13 +140,3 @@ def lag_velocities(engine, dt):
         pulls = np.linalg.lstsq(lines @ shares.T, lines @ kicks.ravel(), rcond=None)[0]
         kicks -= (shares.T @ pulls).reshape(-1, 2)
     return dict(zip(place, kicks.tolist(), strict=True))
-
-
-def swing_energy(engine, dt=DT):
-    """Return the energy of a hanging chain above the one that it has at rest. See energy."""
-    scene = engine.scene
-    depth, rest = 0.0, 0.0
-    for a, b in scene.rods:
-        depth += math.dist(scene.bodies[a].pos, scene.bodies[b].pos)
-        rest -= scene.bodies[b].mass * G * depth
-    return energy(engine, dt) - rest
