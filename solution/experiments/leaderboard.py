@@ -185,10 +185,12 @@ def tell_loss(row, cells):
 
 def list_lines(rows, found, contestants):
     """Return the counts by name, for results.json and the claims of the page."""
-    everyone = sum(
-        all(holds(row, cell["substeps"]) for cell in found[row.title].values()) for row in rows
-    )
-    lines = {"rows": len(rows), "rows that every engine holds at equal substeps": everyone}
+    held = [[holds(row, cell["substeps"]) for cell in found[row.title].values()] for row in rows]
+    lines = {
+        "rows": len(rows),
+        "rows that every engine holds at equal substeps": sum(map(all, held)),
+        "rows that no engine holds at equal substeps": sum(not any(each) for each in held),
+    }
     for one in contestants:
         lines[f"{one.name}: name"] = one.words
         for mode, words in MODES.items():
