@@ -1,7 +1,8 @@
 """Measure what accuracy costs: your engine and integrators, the stable engine, pymunk, Box2D.
 
-Every scene has an exact answer. The program turns each dial of each engine, and measures how far
-the answer is off and what the run costs. It prints tables and writes them with figures to a folder:
+Every scene has an exact answer. The program gives each engine more and more time, turns each dial
+of yours, and measures how far the answer is off and what the run costs. It prints tables and writes
+them with figures to a folder:
 
     python accuracy.py            takes some minutes
     python accuracy.py --quick    takes half a minute: the same runs, with fewer values of each dial
@@ -22,13 +23,13 @@ from experiments.charts import make_charts, round_numbers
 from experiments.compiled import time_compiled
 from experiments.figures import draw_figures
 from experiments.piles import choose_settings, study_pile
-from experiments.questions import DIALS, LADDERS, dials, families
+from experiments.questions import QUESTIONS, dials, families
 from experiments.runs import Effort, study_budgets, study_dials
-from experiments.smooth import SYSTEMS, study_energy, study_system
+from experiments.smooth import study_energy, study_spring
 from experiments.table import Progress, write_markdown
 
-BALLS, QUICK_BALLS = (40, 200, 1000), (40,)  # in piles
-STEPS = 1e6  # at most, of an integrator in a system
+BALLS, QUICK_BALLS = (40, 200), (40,)  # in piles
+STEPS = 1e6  # at most, of an integrator
 
 
 def measure(effort, balls, progress):
@@ -37,26 +38,22 @@ def measure(effort, balls, progress):
     def tick(title):
         return lambda engine: progress.step(1, f"{title}, {engine}")
 
-    systems = []
-    for make in SYSTEMS:
-        system = make()
-        tick("integrators")(system.title)
-        systems.append(study_system(system, most=effort.scale * STEPS))
+    tick("integrators")("spring")
+    smooth = {"spring": study_spring(most=effort.scale * STEPS), "energy": study_energy()}
     return {
         "about": {"python": platform.python_version(), "machine": platform.machine()},
-        "budgets": {name: study_budgets(name, effort, tick(name)) for name in LADDERS},
-        "smooth": {"systems": systems, "energy": study_energy()},
-        "dials": {name: study_dials(name, effort, tick(name)) for name in DIALS},
+        "budgets": {name: study_budgets(name, effort, tick(name)) for name in QUESTIONS},
+        "smooth": smooth,
+        "dials": {name: study_dials(name, effort, tick(name)) for name in QUESTIONS},
         "piles": [study_pile(count, effort, tick(f"pile of {count}")) for count in balls],
     }
 
 
 def count_runs(effort, balls):
     """Return how often measuring ticks."""
-    settings = {setting for *_, row in dials(effort.quick) for setting in row.values()}
-    turned = len(DIALS) * len(settings)
-    piled = sum(len(choose_settings(count)) for count in balls)
-    return len(SYSTEMS) + len(LADDERS) * len(families()) + turned + piled
+    turned = len({setting for row in dials(effort.quick).values() for setting in row.values()})
+    each = len(families()) + turned
+    return 1 + len(QUESTIONS) * each + len(balls) * len(choose_settings())
 
 
 def main(arguments=None):

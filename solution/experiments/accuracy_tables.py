@@ -9,6 +9,7 @@ from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
 from .table import Table, as_range, number, span
 
 SHOWN_AS = {"compiled": "stable compiled"}
+SUBSTEPPED = ("stable", "compiled")
 
 
 def name_engine(engine):
@@ -18,9 +19,8 @@ def name_engine(engine):
 def make_tables(results):
     return [
         tabulate_budgets(results["budgets"]),
-        tabulate_orders(results["smooth"]["systems"]),
-        tabulate_energy(results["smooth"]["energy"]),
-        *map(tabulate_dials, results["dials"].values()),
+        tabulate_orders(results["smooth"]),
+        tabulate_dials(results["dials"].values()),
         tabulate_piles(results["piles"]),
     ]
 
@@ -37,6 +37,11 @@ def make_lines(results):
     return lines
 
 
+def list_errors(title, error, runs):
+    """Return the lines of single runs: those that Question.name gives to their settings."""
+    return {f"{title}, {run['setting']}: {error}": run["error"] for run in runs if run["setting"]}
+
+
 # ---------------------------------------------------------------- all engines
 
 
@@ -51,8 +56,7 @@ def tabulate_budgets(budgets):
     heads = ["scene: error", "a frame", *map(name_engine, engines)]
     note = (
         f"The smallest error within so many ms of each frame of 1/{FRAMES} s, with steps of "
-        "1/120 s in 1, 2, 4, 8 ... substeps. In brackets: from the fastest repeat to the slowest, "
-        "where they differ. Too slow: one step alone takes longer."
+        "1/120 s in 1, 2, 4, 8 ... substeps. In brackets: the range of the repeats."
     )
     return Table("What error each engine reaches in a frame", heads, rows, note)
 
@@ -73,6 +77,7 @@ def say_error(error):
 def list_budgets(scene):
     lines = {}
     for engine, cells in scene["within"].items():
+        lines |= list_errors(scene["title"], scene["error"], cells)
         for cell in cells:
             name = f"{scene['title']}, {engine}: {scene['error']} within {cell['budget']:g} ms"
             lines |= as_range(name, [*filter(is_number, [*cell["range"], cell["error"]])])
@@ -82,36 +87,26 @@ def list_budgets(scene):
 # ---------------------------------------------------------------- integrators
 
 
-def tabulate_orders(systems):
-    """Show the measured order of convergence beside the expected one."""
+def tabulate_orders(smooth):
+    """Show each method's order and price on a spring, and its energy error on an orbit."""
     rows = []
-    for system in systems:
-        for row in system["methods"]:
-            finest, order = row["points"][-1], row["order"]
-            measured = "not reached" if order is None else f"{order:.2f}"
-            step, error = f"1/{1 / finest['dt']:.0f} s", number(finest["error"])
-            cells = [measured, step, finest["calls"], f"{error} {system['unit']}"]
-            rows.append([system["title"], row["method"], row["expected"], *cells])
-    heads = ["system", "method", "order", "measured", "finest step", "calls", "error there"]
-    note = "At order 2, half the step means a quarter of the error."
-    return Table("Integrators: order of convergence", heads, rows, note)
-
-
-def tabulate_energy(study):
-    rows = [
-        [row["method"], *(number(row["peaks"][i]) for i in (0, -1)), "yes" * row["bounded"] or "no"]
-        for row in study
-    ]
-    heads = ["method", "first round", "last round", "bounded"]
-    words = f"{ENERGY_ROUNDS} rounds of {ENERGY_CALLS} evaluations"
-    return Table(f"Orbit: largest energy error (share), {words}", heads, rows)
+    for row, orbit in zip(smooth["spring"], smooth["energy"], strict=True):
+        order = "not reached" if row["order"] is None else f"{row['order']:.2f}"
+        calls = "" if row["order"] is None else f"{10 ** (1 / row['order']):.2g}x"
+        peaks = [number(orbit["peaks"][i]) for i in (0, -1)]
+        rows.append([row["method"], row["expected"], order, calls, *peaks])
+    heads = ["method", "order", "measured", "calls for a digit"]
+    heads += ["orbit: first round", f"round {ENERGY_ROUNDS}"]
+    note = (
+        "Orders on a spring, by the worst place in its last swing. On the right the largest energy "
+        f"error (share) in a round of an orbit, with {ENERGY_CALLS} calls of the force each."
+    )
+    return Table("Integrators", heads, rows, note)
 
 
 def list_smooth(smooth):
     lines = {
-        f"{system['title']}, {row['method']}: order": row["order"] or "not reached"
-        for system in smooth["systems"]
-        for row in system["methods"]
+        f"spring, {row['method']}: order": row["order"] or "not reached" for row in smooth["spring"]
     }
     for row in smooth["energy"]:
         name = f"orbit, {row['method']}: energy error"
@@ -123,54 +118,43 @@ def list_smooth(smooth):
 # ---------------------------------------------------------------- dials
 
 
-def tabulate_dials(study):
-    """Show each dial's values, errors, time and verdict, a row per engine and dial."""
-    rows = []
+def tabulate_dials(studies):
+    """Show what each dial does from its first value to its last, a row per scene."""
+    heads, rows = ["scene: error"], []
+    for study in studies:
+        row = [f"{study['title']}: {study['error']} ({study['unit']})"]
+        row += [say_dial(dial) for dial in study["dials"]]
+        rows.append(row)
     for dial in study["dials"]:
-        runs = [study["runs"][i] for i in dial["runs"]]
-        columns = [
-            [number(run["error"]) for run in runs],
-            [span(run["ratio"] and run["ratio"][1:2]) for run in runs],
-            [number(run["opcodes"] and run["opcodes"] / 1e6) for run in runs],
-        ]
-        joined = map(" · ".join, [dial["values"], *columns])
-        rows.append([dial["engine"], dial["dial"], *joined, say_verdict(dial["verdict"])])
-    heads = ["engine", "dial", "values", "errors", "time", "M opcodes/s", "work for a digit"]
-    title = f"{study['title']}: {study['error']} ({study['unit']})"
+        heads.append(f"{dial['dial']} {dial['runs'][0]['value']} to {dial['runs'][-1]['value']}")
     note = (
-        f"{number(study['seconds'])} s simulated. Time: shares of the lesson's engine at its "
-        "defaults (8 passes, 1/120 s). Shared substeps share the 8 passes of one step."
+        "From the first value to the last; in brackets, how many times the work (in opcodes) a "
+        "tenth of the error takes. Shared substeps share the 8 passes of a step."
     )
-    return Table(title, heads, rows, note)
+    return Table("Every dial of the lesson's engine", heads, rows, note)
+
+
+def say_dial(dial):
+    """Say the errors at a dial's ends, and what a digit costs."""
+    first, last = (say_error(dial["runs"][i]["error"]) for i in (0, -1))
+    return f"{first} to {last} ({say_verdict(dial['verdict'])})"
 
 
 def say_verdict(verdict):
-    return say_digit(verdict["digit"]) if verdict["digit"] else verdict["says"]
-
-
-def say_digit(factors):
-    """Say the factors of work for a digit, the least and the most that it may be."""
-    if factors[0] > 1000:
-        return "over 1000x"
-    return span([min(factor, 1000.0) for factor in factors], "x")
+    """Say the factor of work for a digit, or why there is none."""
+    factor = verdict["digit"]
+    if not factor:
+        return verdict["says"]
+    return "over 1000x" if factor > 1000 else f"{number(float(f'{factor:.2g}'))}x"
 
 
 def list_dials(study):
-    """List the errors at each dial's first and last value, its verdict, and the work it takes."""
-    title, error, default = study["title"], study["error"], study["default"]
-    lines = {f"{title}: {error}, lesson as it is": default["error"]}
-    for row in study["dials"]:
-        which, values = f"{row['engine']}, {row['dial']}", row["values"]
-        first, last = (study["runs"][row["runs"][i]] for i in (0, -1))
-        lines[f"{title}: {error}, {which} {values[0]}"] = first["error"]
-        lines[f"{title}: {error}, {which} {values[-1]}"] = last["error"]
-        lines[f"{title}: {error}, {which}: what it does"] = row["verdict"]["says"]
-        if last["opcodes"] and default["opcodes"]:
-            work = last["opcodes"] / default["opcodes"]
-            lines[f"{title}, {which}: work of the last value in that of lesson as it is"] = work
-    known = [run["error"] for run in study["runs"] if run["engine"] == "lesson"]
-    if known := [*filter(is_number, known)]:
-        lines[f"{title}: {error}, lesson: least with any dial"] = max(min(known), EXACT)
+    """List the error and the work of each run, and what each dial does."""
+    lines, title, error = {}, study["title"], study["error"]
+    for dial in study["dials"]:
+        lines |= list_errors(title, error, dial["runs"])
+        lines |= list_errors(title, "work", [{**run, "error": run["work"]} for run in dial["runs"]])
+        lines[f"{title}, {dial['dial']}: what it does"] = dial["verdict"]["says"]
     return lines
 
 
@@ -178,25 +162,19 @@ def list_dials(study):
 
 
 def tabulate_piles(piles):
-    rows = []
+    """Show each engine's overlap and time, a row per setting and two columns per pile."""
+    heads, rows = ["engine"], []
+    for runs in zip(*[study["runs"] for study in piles], strict=True):
+        substeps = f", {runs[0]['substeps']} substeps" if runs[0]["engine"] in SUBSTEPPED else ""
+        cells = [[say_error(run["error"]), span(run["ratio"], "x")] for run in runs]
+        rows.append([name_engine(runs[0]["engine"]) + substeps, *sum(cells, [])])
     for study in piles:
-        for run in study["runs"]:
-            substeps = run["substeps"] if run["engine"] in ("stable", "compiled") else "-"
-            cells = [number(run["error"]), span(run["ratio"], "x")]
-            rows.append([study["balls"], name_engine(run["engine"]), substeps, *cells])
-    heads = ["balls", "engine", "substeps", "overlap, px", "time"]
-    note = (
-        "Steps of 1/120 s; pymunk with its 10 iterations has the time 1. The fewest substeps that "
-        "are accurate enough tell what plain Python costs beside compiled code."
-    )
-    return Table("Settled piles: the same step as pymunk's", heads, rows, note)
+        heads += [f"{study['balls']} balls: overlap, px", "time"]
+    return Table("Settled piles, in steps of 1/120 s", heads, rows, "Time: pymunk takes 1.")
 
 
 def list_pile(study):
-    lines = {}
+    lines = list_errors(study["title"], "overlap", study["runs"])
     for run in study["runs"]:
-        name = f"pile of {study['balls']} in the same step, {run['engine']} with "
-        name += f"{run['substeps']} substeps"
-        lines[f"{name}: overlap"] = run["error"]
-        lines |= as_range(f"{name}: time in pymunk's", run["ratio"])
+        lines |= as_range(f"{study['title']}, {run['setting']}: time in pymunk's", run["ratio"])
     return lines

@@ -10,22 +10,23 @@ import math
 from statistics import median
 
 from .accuracy_tables import name_engine
+from .questions import LESSON
 from .runs import EXACT, is_number
 from .smooth import ENERGY_CALLS
 
 FRAME_TIME = "time per frame of 1/60 s (ms)"
+WORK = "work (the engine as it is: 1)"
 SHOWN_ROUNDS = {round(1.25**i) for i in range(30)}  # evenly on a logarithmic axis
 
 
 def make_charts(results):
     """Yield (name, chart) of each chart that the results can fill."""
     for name, scene in results["budgets"].items():
-        yield f"engines-{name}".replace(" ", "-"), chart_budgets(scene)
-    for system in results["smooth"]["systems"]:
-        yield f"smooth-{system['title']}", chart_system(system)
+        yield f"engines-{name}", chart_budgets(scene)
+    yield "smooth-spring", chart_spring(results["smooth"]["spring"])
     yield "smooth-energy", chart_energy(results["smooth"]["energy"])
     for name, study in results["dials"].items():
-        yield f"dials-{name}-{study['error']}".replace(" ", "-"), chart_dials(study)
+        yield f"dials-{name}", chart_dials(study)
 
 
 def make_chart(says, y, ends, panels, frame=""):
@@ -59,10 +60,10 @@ def round_numbers(data):
     return float(f"{data:.4g}") if isinstance(data, float) else data
 
 
-def chart_against_time(study, which, curves, ends):
+def chart_study(study, which, x, curves, ends, frame=""):
     says = f"{study['title'][0].upper()}{study['title'][1:]}: {study['error']} in {which}"
-    panels = [{"x": FRAME_TIME, "curves": curves}]
-    return make_chart(says, f"{study['error']} ({study['unit']})", ends, panels, "x")
+    panels = [{"x": x, "curves": curves}]
+    return make_chart(says, f"{study['error']} ({study['unit']})", ends, panels, frame)
 
 
 def chart_budgets(scene):
@@ -70,7 +71,7 @@ def chart_budgets(scene):
     fronts = {engine: find_front(scene["runs"], engine) for engine in scene["within"]}
     ends = find_ends([error for points in fronts.values() for _, error in points])
     curves = [make_curve(one, name_engine(one), points, ends) for one, points in fronts.items()]
-    return chart_against_time(scene, "every engine", curves, ends)
+    return chart_study(scene, "every engine", FRAME_TIME, curves, ends, "x")
 
 
 def find_front(runs, engine):
@@ -87,19 +88,19 @@ def find_front(runs, engine):
     return points
 
 
-def chart_system(system):
+def chart_spring(methods):
     """Chart the error against step size and against calls of the force, a curve per method."""
-    errors = [point["error"] for row in system["methods"] for point in row["points"]]
-    ends = min(filter(is_number, errors), default=1.0) / 10, 10 * system["size"]
+    errors = [point["error"] for row in methods for point in row["points"]]
+    ends = min(filter(is_number, errors), default=1.0) / 10, 1000.0
     panels = []
     for cost, x in (("dt", "step size (s)"), ("calls", "how often the force was asked for")):
         curves = []
-        for row in system["methods"]:
+        for row in methods:
             points = [(point[cost], point["error"]) for point in row["points"]]
             curves.append(make_curve(row["method"], row["method"], points, ends))
         panels.append({"x": x, "curves": curves})
-    says = f"{system['title'].capitalize()}: half the step divides the error by 2, 4 or 16"
-    return make_chart(says, f"error at the end ({system['unit']})", ends, panels)
+    says = "Spring: half the step divides the error by 2, 4 or 16"
+    return make_chart(says, "worst error of the last swing (px)", ends, panels)
 
 
 def chart_energy(study):
@@ -118,13 +119,13 @@ def chart_energy(study):
 
 
 def chart_dials(study):
-    """Chart the error of the lesson's engine against time, a curve per dial."""
-    rows = [row for row in study["dials"] if row["engine"] == "lesson"]
-    runs = {row["dial"]: [study["runs"][i] for i in row["runs"]] for row in rows}
-    runs["as it is"] = [study["default"]]
+    """Chart the error of the lesson's engine against work, a curve per dial."""
+    runs = {dial["dial"]: dial["runs"] for dial in study["dials"]}
+    passes = next(iter(runs.values()))
+    runs["as it is"] = [run for run in passes if run["setting"] == str(LESSON)]
     ends = find_ends([run["error"] for dial in runs.values() for run in dial])
     curves = []
     for dial, ran in runs.items():
-        points = [(median(run["ms"]), run["error"]) for run in ran if run["ms"]]
+        points = [(run["work"], run["error"]) for run in ran if run["work"]]
         curves.append(make_curve(dial, dial, points, ends))
-    return chart_against_time(study, "every dial of the lesson's engine", curves, ends)
+    return chart_study(study, "the lesson's engine, dial by dial", WORK, curves, ends)

@@ -22,21 +22,21 @@ def make_look(colour, marker, line):
 
 
 LOOKS = {
-    "lesson": make_look("#D55E00", "o", "-"),
-    "stable": make_look("#0072B2", "s", "--"),
-    "compiled": make_look("#56B4E9", "P", (0, (3, 1, 1, 1))),
-    "pymunk": make_look("#009E73", "^", "-."),
-    "box2d": make_look("#CC79A7", "D", ":"),
-    "explicit_euler": make_look("#D55E00", "o", "-"),
-    "semi_implicit_euler": make_look("#0072B2", "s", "--"),
-    "velocity_verlet": make_look("#009E73", "^", "-."),
-    "rk4": make_look("#CC79A7", "D", ":"),
-    "passes": make_look("#D55E00", "o", "-"),
-    "step": make_look("#0072B2", "s", "--"),
-    SHARED: make_look("#009E73", "v", ":"),
+    "lesson": make_look("#c2384a", "o", "-"),
+    "stable": make_look("#2f6db5", "s", "--"),
+    "compiled": make_look("#23272f", "P", (0, (3, 1, 1, 1))),
+    "pymunk": make_look("#d07a1a", "^", "-."),
+    "box2d": make_look("#2f8f57", "D", ":"),
+    "explicit_euler": make_look("#c2384a", "o", "-"),
+    "semi_implicit_euler": make_look("#2f6db5", "s", "--"),
+    "velocity_verlet": make_look("#2f8f57", "^", "-."),
+    "rk4": make_look("#d07a1a", "D", ":"),
+    "passes": make_look("#c2384a", "o", "-"),
+    "step": make_look("#2f6db5", "s", "--"),
+    SHARED: make_look("#2f8f57", "v", ":"),
     "as it is": {
-        **make_look("#F0E442", "*", "none"),
-        **{"markersize": 15, "markeredgecolor": "black", "zorder": 5},
+        **make_look("#23272f", "*", "none"),
+        **{"markersize": 13, "zorder": 5},
     },
 }
 STYLE = {

@@ -8,13 +8,12 @@ from .costs import shares
 from .engines import Stable
 from .measures import run
 from .questions import COMPILED, LESSON, PYMUNK, STABLE, Question, measure_overlap
-from .runs import add_costs, run_setting
+from .runs import add_times, run_setting
 from .scenes import pile
 
 SETTLE = 6.0  # s
 SETTLE_RATE, SETTLE_SUBSTEPS = 60, 8
-LARGE = 200  # balls: larger piles run as machine code only, where there is ours
-SUBSTEPS = (1, 2, 3, 4)  # of the stable engine
+SUBSTEPS = (1, 4)  # of the stable engine
 
 
 def settle_pile(count):
@@ -35,26 +34,22 @@ def settle_pile(count):
 def study_pile(count, effort, tick=lambda engine: None):
     """Return the overlap of a settled pile in each engine, and its time in shares of pymunk's.
 
-    Each engine first runs on until the pile lies as that engine leaves it. The fewest substeps of
-    the stable engine that are accurate enough tell what a step of the same quality costs.
+    Each engine first runs on until the pile lies as that engine leaves it.
     """
-    scene, seconds = settle_pile(count), 0.5 if count > LARGE else 2.0
+    scene = settle_pile(count)
     effort = replace(effort, scale=1.0)  # less time would leave the pile in motion
-    question = Question("pile", lambda: scene, measure_overlap, "overlap", "px", seconds)
+    question = Question(f"pile of {count}", lambda: scene, measure_overlap, "overlap", "px", 2.0)
     runs = []
-    for setting in choose_settings(count):
+    for setting in choose_settings():
         tick(setting.engine)
         runs.append(run_setting(question, setting, effort))
-    add_costs(runs, effort)
+    add_times(runs, effort)
     for row in runs:
         row["ratio"] = shares(row["ms"], runs[0]["ms"])
-    return {"balls": count, "runs": runs}
+    return {"title": question.title, "balls": count, "runs": runs}
 
 
-def choose_settings(count):
-    """Return pymunk first, then all other settings that run a pile of this size."""
-    small = count <= LARGE
-    stable = [STABLE] if small or not Compiled.package else []
-    stable += [COMPILED] if Compiled.package else []
-    lesson = [LESSON] if small else []
-    return [PYMUNK, *lesson, *(replace(one, substeps=n) for one in stable for n in SUBSTEPS)]
+def choose_settings():
+    """Return the settings that run a pile, pymunk first."""
+    stable = [STABLE, COMPILED] if Compiled.package else [STABLE]
+    return [PYMUNK, LESSON, *(replace(one, substeps=n) for one in stable for n in SUBSTEPS)]

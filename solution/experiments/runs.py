@@ -6,7 +6,7 @@ from itertools import count
 
 from .costs import opcodes_per_second, repeated_times, shares, spread, time_slice
 from .measures import finite
-from .questions import DIALS, LADDERS, LESSON, dials, families
+from .questions import LESSON, QUESTIONS, dials, families
 
 EXACT = 1e-9  # errors below this are all the same
 HELPS = 0.05  # a dial that changes the error by a smaller share cannot help
@@ -48,19 +48,13 @@ def run_setting(question, setting, effort):
         error = "NaN"
     except Exception as problem:  # a student's code
         error = type(problem).__name__
-    return {**asdict(setting), "error": error, "in motion": engine}
+    about = {"setting": str(setting), **asdict(setting)}
+    return {**about, "error": error, "in motion": engine}
 
 
-def add_costs(runs, effort, count_opcodes=False):
-    """Add to each run what it costs from its last state on: ms of a frame in every repeat.
-
-    Opcodes are counted first, as the clock moves the engines on.
-    """
+def add_times(runs, effort):
+    """Add to each run its time from its last state on: ms of a frame in every repeat."""
     going = [(run.pop("in motion"), 1 / run["rate"]) for run in runs]
-    if count_opcodes:
-        for run, (engine, dt) in zip(runs, going, strict=True):
-            in_python = run["engine"] in ("lesson", "stable")
-            run["opcodes"] = opcodes_per_second(engine, dt) if in_python else None
     for run, times in zip(runs, repeated_times(going, effort.repeats, effort.rounds), strict=True):
         run["ms"] = as_milliseconds(times)
 
@@ -75,24 +69,24 @@ def is_number(value):
 
 
 def study_dials(name, effort, tick=lambda engine: None):
-    """Ask one question of every value of every dial."""
-    question, rows = DIALS[name], dials(effort.quick)
-    settings = list(dict.fromkeys(setting for *_, row in rows for setting in row.values()))
-    runs = []
-    for setting in settings:
-        tick(setting.engine)
-        runs.append(run_setting(question, setting, effort))
-    add_costs(runs, effort, count_opcodes=True)
-    default = runs[settings.index(LESSON)]
-    for run in runs:
-        run["ratio"] = shares(run["ms"], default["ms"])
+    """Ask one question of every value of every dial of the lesson's engine.
+
+    Work is counted in opcodes, and given in that of the engine as it is.
+    """
+    question, rows, runs = QUESTIONS[name], dials(effort.quick), {}
+    for setting in dict.fromkeys(setting for row in rows.values() for setting in row.values()):
+        tick("dials")
+        runs[setting] = run_setting(question, setting, effort)
+        engine = runs[setting].pop("in motion")
+        runs[setting]["opcodes"] = opcodes_per_second(engine, setting.dt)
+    whole = runs[LESSON]["opcodes"]
+    for run in runs.values():
+        run["work"] = run["opcodes"] / whole if whole and run["opcodes"] else None
     found = []
-    for engine, dial, row in rows:
-        places = [settings.index(setting) for setting in row.values()]
-        verdict = judge([runs[i] for i in places])
-        found.append({"engine": engine, "dial": dial, "runs": places, "verdict": verdict})
-        found[-1]["values"] = [str(value) for value in row]
-    return {**describe(question, effort), "runs": runs, "dials": found, "default": default}
+    for dial, row in rows.items():
+        tried = [{"value": str(value), **runs[setting]} for value, setting in row.items()]
+        found.append({"dial": dial, "runs": tried, "verdict": judge(tried)})
+    return {**describe(question, effort), "dials": found}
 
 
 def describe(question, effort):
@@ -101,16 +95,16 @@ def describe(question, effort):
 
 
 def judge(runs):
-    """Say what a dial does to the error, and what one more digit costs: factors of work, or None.
+    """Say what a dial does to the error, and by what factor of work an error is a tenth, or None.
 
-    They are the least and the most that may lie between the first and the last value of the dial,
-    carried on (or back) to an error ten times smaller.
+    The first and the last value of the dial decide, carried on (or back) to an error ten times
+    smaller.
     """
-    known = [(run["error"], get_work(run)) for run in runs]
+    known = [(run["error"], run["work"]) for run in runs]
     known = [pair for pair in known if is_number(pair[0]) and pair[1]]
     if len(known) < 2:
         return {"says": "gives up", "digit": None}
-    (first, (least, most)), *_, (last, (cheapest, dearest)) = known
+    (first, cheap), *_, (last, dear) = known
     first, last = max(first, 1e-16), max(last, 1e-16)
     if max(first, last) < EXACT:
         return {"says": "exact already", "digit": None}
@@ -118,27 +112,18 @@ def judge(runs):
         return {"says": "cannot help", "digit": None}
     if last > first:
         return {"says": "no steady gain", "digit": None}
-    factors = [cheapest / most, dearest / least]
-    digits = math.log10(first / last)
-    return {"says": "helps", "digit": [max(factor, 1.0) ** (1 / digits) for factor in factors]}
-
-
-def get_work(run):
-    """Return the least and the most that a run costs: in opcodes, or else in time."""
-    if run["opcodes"]:
-        return [run["opcodes"], run["opcodes"]]
-    return run["ratio"] and [run["ratio"][0], run["ratio"][-1]]
+    return {"says": "helps", "digit": max(dear / cheap, 1.0) ** (1 / math.log10(first / last))}
 
 
 def study_budgets(name, effort, tick=lambda engine: None):
     """Ask one question of every engine at ever more substeps, as long as a frame has time."""
-    question = LADDERS[name]
+    question = QUESTIONS[name]
     runs = []
     for engine, settings in families().items():
         tick(engine)
         for setting in settings:
             runs += climb(question, setting, effort)
-    add_costs(runs, effort)
+    add_times(runs, effort)
     within = {
         engine: [find_least(runs, engine, ms) | {"budget": ms} for ms in effort.budgets]
         for engine in families()
@@ -162,16 +147,26 @@ def climb(question, setting, effort):
 
 
 def find_least(runs, engine, budget):
-    """Return the smallest error of an engine in so many ms a frame, and its range over repeats."""
+    """Return the run with the smallest error of an engine in so many ms a frame, and the range.
+
+    The range has that error with the times of the fastest repeat, and of the slowest.
+    """
     ours = [run for run in runs if run["engine"] == engine]
-    fast, middle, slow = (least_within(ours, budget, which) for which in range(3))
-    return {"error": middle, "range": [fast, slow]}
+    fast, middle, slow = (pick_within(ours, budget, which) for which in range(3))
+    best = {key: middle.get(key) for key in ("error", "setting")}
+    return {**best, "range": [fast["error"], slow["error"]]}
 
 
-def least_within(runs, budget, which):
-    """Return the smallest error of the runs that fit, or a word: how they gave up, or too slow.
+def pick_within(runs, budget, which):
+    """Return the run with the smallest error of those that fit.
 
+    If none of them gave a number, return the last that fits, or else "too slow" as the error.
     which is that of the three times that spread gives of a run.
     """
-    fitting = [run["error"] for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]
-    return min(filter(is_number, fitting), default=(fitting or ["too slow"])[-1])
+    fitting = [run for run in runs if run["ms"] and spread(run["ms"])[which] <= budget]
+    known = [run for run in fitting if is_number(run["error"])]
+    return min(known, key=get_error, default=(fitting or [{"error": "too slow"}])[-1])
+
+
+def get_error(run):
+    return run["error"]

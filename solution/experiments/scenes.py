@@ -343,6 +343,25 @@ def pendulum_period(length, degrees):
     return 2 * math.pi * math.sqrt(length / G) / a
 
 
+def find_pendulum_angle(seconds, length):
+    """Return the exact angle (rad) of a pendulum so long after it was let go at 90 degrees.
+
+    sin(angle / 2) is k cd(seconds sqrt(G / length), k), by Landen's steps to smaller moduli.
+    """
+    k = math.sin(math.pi / 4)
+    means, gaps = [1.0], [k]
+    while gaps[-1] > 1e-16:
+        a, b = means[-1], math.sqrt(means[-1] ** 2 - gaps[-1] ** 2)
+        means.append((a + b) / 2)
+        gaps.append((a - b) / 2)
+    # A quarter of the period later, cd is sn, whose amplitude the steps find.
+    quarter = math.pi / 2 / means[-1]
+    turn = 2 ** (len(means) - 1) * means[-1] * (seconds * math.sqrt(G / length) + quarter)
+    for a, gap in zip(reversed(means[1:]), reversed(gaps[1:]), strict=True):
+        turn = (turn + math.asin(gap / a * math.sin(turn))) / 2
+    return 2 * math.asin(k * math.sin(turn))
+
+
 def chain(links=20, step=(0.0, 20.0), bob=1.0):
     """Make balls on rods from a peg, each a step further; the last one has mass bob."""
     balls = [Ball((step[0] * i, step[1] * i), 4) for i in range(1, links + 1)]

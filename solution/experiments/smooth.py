@@ -1,12 +1,12 @@
 """The four integrators of integrators.py where the exact answer is known: error against cost.
 
-Every system here is smooth: no contacts. Each is run at many step sizes; the error is how far the
-end is from the exact one, and the cost is how often the acceleration had to be worked out. One
-that was just worked out is kept: Verlet ends each step where the next one begins.
+A spring is run at many step sizes. The error is how far it ever is from where it should be, in the
+last of its swings; at the very end of a swing, errors cancel. The cost is how often the
+acceleration had to be worked out. One that was just worked out is kept: Verlet ends each step where
+the next one begins. An orbit shows whether the energy error stays bounded.
 """
 
 import math
-from dataclasses import dataclass
 from statistics import linear_regression
 
 import integrators
@@ -17,78 +17,24 @@ METHODS = (
     integrators.velocity_verlet,
     integrators.rk4,
 )
-SETTLED = 0.05  # an error below this share of the system's size follows the method's order
+SETTLED = 0.05  # an error below this share of the swing follows the method's order
 ROUNDING = 2e-12  # below this share, rounding of the numbers hides the method's error
 FINEST = 3  # so many points, the finest of those in between, make the measured order
+SWINGS = 10  # of the spring, each of 1 s
+STEPS = 160  # of the coarsest run
+HALVINGS = ((2, 11), (0, 8), (0, 8), (0, 8))  # of the step: the first and the last of each method
+ORDERS = (1, 1, 2, 4)  # expected
 
 
-@dataclass
-class System:
-    """A body that moves without contacts, and where it is in the end.
-
-    Positions may be complex numbers, x + iy: the methods only add and multiply.
-    """
-
-    title: str
-    unit: str
-    start: tuple  # position, velocity
-    end: tuple  # exactly, after seconds
-    seconds: float
-    accel: object  # accel(x)
-    size: float  # the largest position
-    rate: float  # 1/s: a velocity error divided by it counts as a position error
-    orders: tuple  # expected, one per method
-    steps: int  # of the coarsest run
-    halvings: tuple  # of the step, the first and the last, one pair per method
-
-
-def make_spring():
-    """Return a weight on a spring of 1 Hz, stopped off-phase: after whole periods errors cancel."""
-    omega, seconds = integrators.OMEGA, 9.75
-    start = (integrators.X0, 0.0)
-    end = (
-        integrators.X0 * math.cos(omega * seconds),
-        -integrators.X0 * omega * math.sin(omega * seconds),
-    )
-    size, accel, halvings = integrators.X0, integrators.spring, ((2, 11), (0, 8), (0, 8), (0, 8))
-    orders = (1, 1, 2, 4)
-    return System("spring", "px", start, end, seconds, accel, size, omega, orders, 156, halvings)
-
-
-def make_orbit():
-    """Return a planet on an ellipse (e = 0.5, half axis 100 px, 1 s per round), for 10 rounds.
-
-    It starts nearest to the sun. There a semi-implicit step is a Verlet step seen half a kick
-    later, so after whole rounds its error shrinks with the square of the step.
-    """
-    half_axis, e, omega = 100.0, 0.5, 2 * math.pi
-    pull = omega**2 * half_axis**3  # px³/s²
-    start = (complex(half_axis * (1 - e)), 1j * omega * half_axis * math.sqrt((1 + e) / (1 - e)))
-
-    def accel(x):
-        return -pull * x / abs(x) ** 3
-
-    halvings, orders = ((2, 5), (0, 7), (0, 7), (0, 6)), (1, 2, 2, 4)
-    return System("orbit", "px", start, start, 10.0, accel, 150.0, omega, orders, 1280, halvings)
-
-
-SYSTEMS = (make_spring, make_orbit)
-
-
-def study_system(system, methods=METHODS, most=math.inf):
-    """Run each method at step sizes that halve, and measure its order. Runs have most steps."""
+def study_spring(methods=METHODS, most=math.inf):
+    """Run each method at steps that halve, and measure its order. Runs have most steps."""
     found = []
-    for method, expected, (first, last) in zip(
-        methods, system.orders, system.halvings, strict=True
-    ):
-        counts = [system.steps * 2**k for k in range(first, last + 1)]
-        points = [measure_run(system, method, steps) for steps in counts if steps <= most]
-        order = measure_order(points, system.size)
-        found.append(
-            {"method": method.__name__, "expected": expected, "order": order, "points": points}
-        )
-    about = {"title": system.title, "unit": system.unit, "size": system.size}
-    return {**about, "methods": found}
+    for method, expected, (first, last) in zip(methods, ORDERS, HALVINGS, strict=True):
+        counts = [STEPS * 2**k for k in range(first, last + 1)]
+        points = [measure_run(method, steps) for steps in counts if steps <= most]
+        row = {"method": method.__name__, "expected": expected, "order": measure_order(points)}
+        found.append({**row, "points": points})
+    return found
 
 
 class Remembered:
@@ -104,16 +50,17 @@ class Remembered:
         return self.answer
 
 
-def measure_run(system, method, steps):
-    """Run a method. Return its step (s), its calls of accel, and its error or what failed."""
-    accel = Remembered(system.accel)
-    dt = system.seconds / steps
-    x, v = system.start
+def measure_run(method, steps):
+    """Run a spring. Return the step (s), the calls of accel, and the error (px) or what failed."""
+    accel = Remembered(integrators.spring)
+    dt = SWINGS / steps
+    x, v, error = integrators.X0, 0.0, 0.0
     try:
-        for _ in range(steps):
+        for step in range(1, steps + 1):
             x, v = method(x, v, dt, accel)
-        error = measure_distance(system, x, v)
-        error = error if math.isfinite(error) else "blown up"
+            if step * dt > SWINGS - 1:
+                error = max(error, measure_distance(x, v, step * dt))
+        error = error if math.isfinite(x) else "blown up"
     except ArithmeticError:
         error = "blown up"
     except Exception as problem:  # the method is a student's
@@ -121,14 +68,16 @@ def measure_run(system, method, steps):
     return {"dt": dt, "calls": accel.calls, "error": error}
 
 
-def measure_distance(system, x, v):
-    """Return how far a position and a velocity are from the exact ones, in the system's unit."""
-    return math.hypot(abs(x - system.end[0]), abs(v - system.end[1]) / system.rate)
+def measure_distance(x, v, seconds):
+    """Return how far a position and a velocity are from the exact ones of the spring, in px."""
+    turn = integrators.OMEGA * seconds
+    miss = x - integrators.X0 * math.cos(turn)
+    return math.hypot(miss, v / integrators.OMEGA + integrators.X0 * math.sin(turn))
 
 
-def measure_order(points, size):
+def measure_order(points):
     """Return the slope of log error over log step where errors are small but not rounding."""
-    low, high = ROUNDING * size, SETTLED * size
+    low, high = ROUNDING * integrators.X0, SETTLED * integrators.X0
     kept = [p for p in points if not isinstance(p["error"], str) and low < p["error"] < high]
     if len(kept) < FINEST:
         return None
@@ -136,6 +85,8 @@ def measure_order(points, size):
     return linear_regression(steps, errors).slope
 
 
+ORBIT_PULL = (2 * math.pi) ** 2 * 100.0**3  # px³/s²: half axis 100 px, 1 s a round
+NEAREST, FASTEST = 50.0, 2 * math.pi * 100.0 * math.sqrt(3)  # px, px/s: e = 0.5
 ENERGY_ROUNDS, ENERGY_CALLS = 300, 400  # rounds of the orbit, and evaluations in each
 CALLS = {"rk4": 4}  # evaluations in a step, where they are more than 1
 
@@ -143,19 +94,20 @@ CALLS = {"rk4": 4}  # evaluations in a step, where they are more than 1
 def find_energy_peaks(method, rounds=ENERGY_ROUNDS):
     """Return the largest relative energy error of each round, at equal evaluations."""
     steps = ENERGY_CALLS // CALLS.get(method.__name__, 1)
-    system = make_orbit()
-    pull = abs(system.accel(1.0))
+
+    def accel(x):
+        return -ORBIT_PULL * x / abs(x) ** 3
 
     def energy(x, v):
-        return abs(v) ** 2 / 2 - pull / abs(x)
+        return abs(v) ** 2 / 2 - ORBIT_PULL / abs(x)
 
-    x, v = system.start
+    x, v = complex(NEAREST), 1j * FASTEST  # the methods only add and multiply
     start, peaks = energy(x, v), []
     try:
         for _ in range(rounds):
             peak = 0.0
             for _ in range(steps):
-                x, v = method(x, v, 1 / steps, system.accel)
+                x, v = method(x, v, 1 / steps, accel)
                 peak = max(peak, abs(energy(x, v) / start - 1))
             peaks.append(peak)
     except Exception as problem:
