@@ -100,7 +100,7 @@ for (const [name, chart] of Object.entries(measured.charts)) {
       const frame = Math.log10(FRAME);
       if (chart.frame === "x" && panel === chart.panels[0] && reach[0] < frame && frame < reach[1]) {
         figure.line([at(frame, low), at(frame, high)], "grey", 1);
-        figure.text(at(frame, 0).x - 5, 50, "a frame", { color: "grey", anchor: "end", size: 12 });
+        figure.text(at(frame, 0).x - 5, 50, "a frame, 16.7 ms", { color: "grey", anchor: "end", size: 12 });
       }
       marks = [];
       for (const { look, name: curve, points, high: given, low: less } of panel.curves) {

@@ -4,6 +4,7 @@ A line has a name and one number, or a word. A range is two lines, least and mos
 the lines of a full one that it measured.
 """
 
+from .questions import plural
 from .runs import EXACT, FRAMES, is_number
 from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
 from .table import Table, as_range, number, span
@@ -164,13 +165,20 @@ def list_dials(study):
 def tabulate_piles(piles):
     """Show each engine's overlap and time, a row per setting and two columns per pile."""
     heads, rows = ["engine"], []
-    for runs in zip(*[study["runs"] for study in piles], strict=True):
-        substeps = f", {runs[0]['substeps']} substeps" if runs[0]["engine"] in SUBSTEPPED else ""
-        cells = [[say_error(run["error"]), span(run["ratio"], "x")] for run in runs]
-        rows.append([name_engine(runs[0]["engine"]) + substeps, *sum(cells, [])])
     for study in piles:
         heads += [f"{study['balls']} balls: overlap, px", "time"]
+    for runs in zip(*[study["runs"] for study in piles], strict=True):
+        row = [name_run(runs[0])]
+        for run in runs:
+            row += [say_error(run["error"]), span(run["ratio"], "x")]
+        rows.append(row)
     return Table("Settled piles, in steps of 1/120 s", heads, rows, "Time: pymunk takes 1.")
+
+
+def name_run(run):
+    """Name an engine, and its substeps where it is made for them."""
+    name = name_engine(run["engine"])
+    return f"{name}, {plural(run['substeps'], 'substep')}" if run["engine"] in SUBSTEPPED else name
 
 
 def list_pile(study):

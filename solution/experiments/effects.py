@@ -23,7 +23,7 @@ from .engines import Lesson, Stable, State
 from .figures import draw_figures
 from .measures import overlap, run, states
 from .opcodes import count_calls, count_opcodes
-from .scenes import BOUNCE, DT, EFFECTS, TOUCH, Ball, Scene, Spring, all_but, pile, slot
+from .scenes import BOUNCE, DT, EFFECTS, TOUCH, Ball, Scene, Spring, pile, slot
 from .table import Progress, write_markdown
 
 SIZES = (10, 40, 200)  # balls
@@ -33,10 +33,6 @@ USERS = 10  # rods, springs, bullets
 WARM_UP = 20  # steps before anything is counted
 DAMPING = (0.05, 0.3)  # 1/s
 OUT = Path("build/effects")
-
-FILES = {name: [f"{name.lower()}.py"] for name in EFFECTS}
-FILES["Contacts"] += ["contact.py", "broad_phase.py", "sweep.py"]
-FILES["Bounce"] += ["impacts.py"]
 
 
 @dataclass
@@ -242,21 +238,6 @@ def list_prices(balls):
     return listed
 
 
-def list_undeclared(balls):
-    """Return, for each effect, the opcodes in its own files with all declared, and with others."""
-    heap = settled(balls)
-    listed = []
-    for effect in EFFECTS:
-        spent = []
-        for effects in (EFFECTS, all_but(effect)):
-            step = RepeatedStep(Stable(replace(heap, effects=effects)))
-            by_file = count(step, STABLE_WORK)["by_file"]
-            spent.append(sum(by_file.get(name, 0) for name in FILES[effect]))
-        found = {"effect": effect, "files": FILES[effect]}
-        listed.append({**found, "declared": spent[0], "undeclared": spent[1]})
-    return listed
-
-
 def list_lesson(balls):
     """Return what the lesson's engine does on the same pile, and leaves out where it can."""
     heap = settled(balls)
@@ -302,13 +283,11 @@ def count_sleepers(engine):
 def measure(sizes=SIZES, heaps=HEAPS):
     """Return all lists, as plain data."""
     middle = sizes[len(sizes) // 2]
-    progress = Progress(sum(sizes) + 2 * middle + sum(heaps))
+    progress = Progress(sum(sizes) + middle + sum(heaps))
     prices = {}
     for balls in sizes:
         progress.step(balls, f"{balls} balls")
         prices[str(balls)] = list_prices(balls)
-    progress.step(middle, "effects that are not declared")
-    undeclared = list_undeclared(middle)
     progress.step(middle, "the lesson's engine")
     lesson = list_lesson(middle)
     bonus = {}
@@ -321,7 +300,6 @@ def measure(sizes=SIZES, heaps=HEAPS):
         "middle": str(middle),
         "stacked": STACKED,
         "prices": prices,
-        "undeclared": undeclared,
         "lesson": lesson,
         "bonus": bonus,
     }

@@ -17,6 +17,10 @@ RATE = 120  # steps per second, of the lesson
 SHARED = "shared substeps"  # of the lesson's engine: they share the 8 passes of a step
 
 
+def plural(count, one, more=""):
+    return f"{count} {one if count == 1 else more or one + 's'}"
+
+
 @dataclass(frozen=True)
 class Setting:
     """An engine and the values of its dials."""
@@ -28,8 +32,8 @@ class Setting:
     slop: float | None = None  # px: overlap that pymunk leaves alone; None: its own choice, 0.1
 
     def __str__(self):
-        dials = [f"{self.passes} passes"] if self.passes else []
-        dials += [f"{self.substeps} substeps"] if self.substeps > 1 else []
+        dials = [plural(self.passes, "pass", "passes")] if self.passes else []
+        dials += [plural(self.substeps, "substep")] if self.substeps > 1 else []
         dials += [f"slop {self.slop:g}"] if self.slop is not None else []
         dials += [f"1/{self.rate} s"] if self.rate != RATE else []
         return ", ".join([self.engine, *dials])

@@ -4,7 +4,7 @@ import math
 from dataclasses import asdict, dataclass, replace
 from itertools import count
 
-from .costs import opcodes_per_second, repeated_times, shares, spread, time_slice
+from .costs import opcodes_per_second, repeated_times, spread, time_slice
 from .measures import finite
 from .questions import LESSON, QUESTIONS, dials, families
 
