@@ -64,8 +64,8 @@ def tabulate_budgets(budgets):
 
 def say_reached(cell):
     """Say an error, and its range where the repeats differ."""
-    error, ends = say_error(cell["error"]), [say_error(end) for end in cell["range"]]
-    return error if ends[0] == ends[1] else f"{error} ({ends[0]} to {ends[1]})"
+    fast, middle, slow = (say_error(pick["error"]) for pick in cell["picks"])
+    return middle if fast == slow else f"{middle} ({fast} to {slow})"
 
 
 def say_error(error):
@@ -76,12 +76,13 @@ def say_error(error):
 
 
 def list_budgets(scene):
-    lines = {}
+    """List the range of each cell of the table, and the settings that it comes from."""
+    lines, title, error = {}, scene["title"], scene["error"]
     for engine, cells in scene["within"].items():
-        lines |= list_errors(scene["title"], scene["error"], cells)
         for cell in cells:
-            name = f"{scene['title']}, {engine}: {scene['error']} within {cell['budget']:g} ms"
-            lines |= as_range(name, [*filter(is_number, [*cell["range"], cell["error"]])])
+            lines |= list_errors(title, error, cell["picks"])
+            name = f"{title}, {engine}: {error} within {cell['budget']:g} ms"
+            lines |= as_range(name, [*filter(is_number, [pick["error"] for pick in cell["picks"]])])
     return lines
 
 

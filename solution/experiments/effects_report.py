@@ -13,7 +13,7 @@ def make_tables(results):
 
 
 def in_thousands(opcodes):
-    return number(opcodes / 1000)
+    return number(opcodes / 1000) if opcodes < 1e6 else f"{opcodes / 1000:,.0f}"
 
 
 def tabulate_prices(prices):

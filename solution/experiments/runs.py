@@ -125,7 +125,7 @@ def study_budgets(name, effort, tick=lambda engine: None):
             runs += climb(question, setting, effort)
     add_times(runs, effort)
     within = {
-        engine: [find_least(runs, engine, ms) | {"budget": ms} for ms in effort.budgets]
+        engine: [{"budget": ms, "picks": find_least(runs, engine, ms)} for ms in effort.budgets]
         for engine in families()
     }
     return {**describe(question, effort), "runs": runs, "within": within}
@@ -147,14 +147,13 @@ def climb(question, setting, effort):
 
 
 def find_least(runs, engine, budget):
-    """Return the run with the smallest error of an engine in so many ms a frame, and the range.
+    """Return the setting and the smallest error of an engine in so many ms a frame, three times.
 
-    The range has that error with the times of the fastest repeat, and of the slowest.
+    By the times of the fastest repeat, of the middle one, and of the slowest.
     """
     ours = [run for run in runs if run["engine"] == engine]
-    fast, middle, slow = (pick_within(ours, budget, which) for which in range(3))
-    best = {key: middle.get(key) for key in ("error", "setting")}
-    return {**best, "range": [fast["error"], slow["error"]]}
+    picked = [pick_within(ours, budget, which) for which in range(3)]
+    return [{key: run.get(key) for key in ("setting", "error")} for run in picked]
 
 
 def pick_within(runs, budget, which):

@@ -1,0 +1,89 @@
+"""What results.json has of errors is what the engines give now: no table is older than they are."""
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from experiments.piles import choose_settings, settle_pile
+from experiments.questions import (
+    LESSON,
+    QUESTIONS,
+    STABLE,
+    Question,
+    Setting,
+    dials,
+    families,
+    measure_overlap,
+)
+from experiments.runs import EXACT, Effort, run_setting
+
+HANDOUTS = Path(__file__).parents[2] / "handouts"
+LINES: dict[str, Any] = json.loads((HANDOUTS / "results.json").read_text("utf-8"))["accuracy.md"]
+DOUBLINGS = 16  # of substeps: more do not fit into a frame
+QUICK = 170_000  # solves of a body: the stable engine takes about a second
+AGAIN = "run accuracy.py --markdown"
+
+
+def name_lines() -> Iterator[tuple[str, Question, Setting]]:
+    """Yield every question and setting of accuracy.py with the name of its line.
+
+    Machine code is left out: it has the same bits as the plain source.
+    """
+    ladders = [setting for family in families().values() for setting in family]
+    tried = [replace(one, substeps=2**n) for one in ladders for n in range(DOUBLINGS)]
+    tried += [setting for row in dials().values() for setting in row.values()]
+    for question in QUESTIONS.values():
+        for setting in dict.fromkeys(tried):
+            yield question.name(setting), question, setting
+
+
+def is_quick(question: Question, setting: Setting) -> bool:
+    """Return true for the engines as they are, and where a frame of the stable one is short."""
+    steps = question.seconds * setting.rate * setting.substeps
+    short = 2 * steps * len(question.scene().bodies) < QUICK
+    return setting == LESSON or (setting.engine == STABLE.engine and short)
+
+
+RUNS = [
+    pytest.param(*line, id=line[0], marks=() if is_quick(*line[1:]) else pytest.mark.soak)
+    for line in name_lines()
+    if line[0] in LINES
+]
+
+
+@pytest.mark.parametrize(("name", "question", "setting"), RUNS)
+def test_an_error_is_what_its_engine_gives(name: str, question: Question, setting: Setting) -> None:
+    error = run_setting(question, setting, Effort())["error"]
+    assert error == pytest.approx(LINES[name], rel=1e-6, abs=EXACT), AGAIN
+
+
+@pytest.mark.parametrize("balls", [40, pytest.param(200, marks=pytest.mark.soak)])
+def test_an_overlap_is_what_its_engine_leaves(balls: int) -> None:
+    scene = settle_pile(balls)
+    question = Question(f"pile of {balls}", lambda: scene, measure_overlap, "overlap", "px", 2.0)
+    for setting in choose_settings():
+        error = run_setting(question, setting, Effort())["error"]
+        assert error == pytest.approx(LINES[question.name(setting)], rel=1e-6), AGAIN
+
+
+CELL = re.compile(r"(.*), (lesson|stable|compiled|pymunk): (.*) within \d+ ms, (least|most)")
+
+
+def test_every_cell_of_the_table_is_the_error_of_a_line() -> None:
+    """Box2D is not among them: it may be missing."""
+    cells = [(CELL.fullmatch(name), error) for name, error in LINES.items()]
+    known = [(found, error) for found, error in cells if found]
+    assert len(known) == 2 * 3 * 4 * len(QUESTIONS)
+    for found, error in known:
+        title, engine, what, _ = found.groups()
+        runs = [
+            other
+            for name, other in LINES.items()
+            if name.startswith(f"{title}, {engine}") and name.endswith(f": {what}")
+        ]
+        assert error in runs, found[0]
