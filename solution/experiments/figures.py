@@ -108,9 +108,9 @@ def draw_chart(plot, chart):
         for curve in panel["curves"]:
             draw_curve(axes, curve, bottom, top)
         axes.set_xlabel(panel["x"])
+        axes.set_ylim(bottom / 1.3, top * 1.3)
         set_ticks(axes)
     panels[0][0].set_ylabel(chart["y"])
-    panels[0][0].set_ylim(bottom / 1.3, top * 1.3)
     if chart["frame"]:
         panels[0][0].axvline(FRAME, color="0.35", linewidth=1, label=f"a frame, {FRAME:.1f} ms")
     explain_edges(panels[0][-1], chart)
@@ -131,18 +131,16 @@ def draw_curve(axes, curve, bottom, top):
 
 
 def set_ticks(axes):
-    """Write powers of ten as plain numbers, and more along x where it spans few of them.
+    """Write powers of ten as plain numbers, and more along an axis that spans few of them.
 
     matplotlib's own powers of ten take most of the time of a figure.
     """
     from matplotlib import ticker
 
     axes.minorticks_off()
-    low, high = axes.get_xlim()
-    between = (1, 2, 5) if high / low < 30 else (1,)
-    axes.xaxis.set_major_locator(ticker.LogLocator(subs=between, numticks=99))
-    axes.yaxis.set_major_locator(ticker.LogLocator(numticks=99))
-    for axis in (axes.xaxis, axes.yaxis):
+    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        between = (1, 2, 5) if high / low < 30 else (1,)
+        axis.set_major_locator(ticker.LogLocator(subs=between, numticks=99))
         axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
 
 

@@ -86,7 +86,7 @@ def test_a_claim_that_differs_from_its_line_is_found(evidence: list[Any], is_wro
     assert bool(wrong(lines, evidence)) == is_wrong
 
 
-TIMED = re.compile("time|as fast|within|work for a digit")  # lines that a clock has a part in
+TIMED = re.compile("time|within")  # lines that a clock has a part in
 
 
 @pytest.mark.soak
@@ -104,7 +104,7 @@ def test_a_quick_run_agrees_with_the_full_one_in_all_that_they_share(tmp_path: P
     assert not [
         (name, lines[name], full[name])
         for name in both
-        if not agree(lines[name], full[name], 0.05 if "work" in name else 1e-12)
+        if not agree(lines[name], full[name], 0.05 if name.endswith("work") else 1e-9)
     ]
 
 

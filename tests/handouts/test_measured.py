@@ -93,10 +93,11 @@ def test_no_point_of_a_curve_lies_beyond_its_axes(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "look", "place", "line"),
     [
-        ("accuracy-dials-tower-sink", "as it is", 0, "tower of 20 balls: sink, lesson as it is"),
-        ("accuracy-dials-tower-sink", "step", 0, "tower of 20 balls: sink, lesson, step 1/60"),
-        ("accuracy-dials-tower-sink", "step", -1, "tower of 20 balls: sink, lesson, step 1/480"),
-        ("accuracy-dials-tower-sink", "passes", -1, "tower of 20 balls: sink, lesson, passes 64"),
+        ("accuracy-dials-tower", "as it is", 0, "tower of 20, lesson, 8 passes: sink"),
+        ("accuracy-dials-tower", "step", 0, "tower of 20, lesson, 8 passes, 1/60 s: sink"),
+        ("accuracy-dials-tower", "step", -1, "tower of 20, lesson, 8 passes, 1/480 s: sink"),
+        ("accuracy-dials-tower", "passes", -1, "tower of 20, lesson, 64 passes: sink"),
+        ("accuracy-engines-tower", "stable", -1, "tower of 20, stable, 128 substeps: sink"),
         ("accuracy-smooth-energy", "rk4", 0, "orbit, rk4: energy error of the first round"),
         ("accuracy-smooth-energy", "rk4", -1, "orbit, rk4: energy error of the last round"),
     ],
@@ -109,14 +110,14 @@ def test_a_curve_says_what_the_lines_say(name: str, look: str, place: int, line:
 def told(curve: dict[str, Any], place: int, unit: str) -> str:
     """How the figure begins to say a point."""
     number = float(f"{curve['points'][place][1]:.3g}")
-    return f"{curve['name']}: sink {number:g}{unit}; time per frame of 1/60 s: "
+    return f"{curve['name']}: sink {number:g}{unit}; work (the engine as it is: 1): "
 
 
 @pytest.mark.soak
 def test_a_curve_is_read_by_keys_and_switched_off(screen: Screen) -> None:
-    figure = opened(screen, "accuracy-dials-tower-sink")
+    figure = opened(screen, "accuracy-dials-tower")
     words, keys = figure.locator("output"), screen.page.keyboard
-    passes, step = (curve_of("accuracy-dials-tower-sink", look) for look in ("passes", "step"))
+    passes, step = (curve_of("accuracy-dials-tower", look) for look in ("passes", "step"))
     figure.locator("svg[role]").first.focus()
     keys.press("ArrowRight")
     assert words.inner_text().startswith(told(passes, 1, " px"))
