@@ -42,6 +42,20 @@ def test_the_handout_has_what_the_integrators_do(study):
         assert value == pytest.approx(RECORDED[name], rel=1e-6), name
 
 
+def test_after_whole_swings_the_errors_of_semi_implicit_euler_cancel():
+    """The handout says so: there it is as close as Verlet, and in its last swing it is not."""
+    last, worst = {}, {}
+    for method in smooth.METHODS[1:3]:
+        x, v = integrators.X0, 0.0
+        for _ in range(1280):
+            x, v = method(x, v, smooth.SWINGS / 1280, integrators.spring)
+        last[method] = smooth.measure_distance(x, v, smooth.SWINGS)
+        worst[method] = smooth.measure_run(method, 1280)["error"]
+    euler, verlet = smooth.METHODS[1:3]
+    assert last[euler] == pytest.approx(last[verlet], rel=0.01)
+    assert worst[euler] > 4 * worst[verlet]
+
+
 def verlet_with_one_force(x, v, dt, accel):
     a = accel(x)
     return x + v * dt + 0.5 * a * dt**2, v + a * dt
