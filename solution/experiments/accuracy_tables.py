@@ -11,6 +11,7 @@ from .table import Table, as_range, number, span
 
 SHOWN_AS = {"compiled": "stable compiled"}
 SUBSTEPPED = ("stable", "compiled")
+LEAST_ORDER = 0.2  # below it, smaller steps do not help
 
 
 def name_engine(engine):
@@ -93,10 +94,8 @@ def tabulate_orders(smooth):
     """Show each method's order and price on a spring, and its energy error on an orbit."""
     rows = []
     for row, orbit in zip(smooth["spring"], smooth["energy"], strict=True):
-        order = "not reached" if row["order"] is None else f"{row['order']:.2f}"
-        calls = "" if row["order"] is None else f"{10 ** (1 / row['order']):.2g}x"
         peaks = [number(orbit["peaks"][i]) for i in (0, -1)]
-        rows.append([row["method"], row["expected"], order, calls, *peaks])
+        rows.append([row["method"], row["expected"], *say_order(row["order"]), *peaks])
     heads = ["method", "order", "measured", "calls for a digit"]
     heads += ["orbit: first round", f"round {ENERGY_ROUNDS}"]
     note = (
@@ -104,6 +103,13 @@ def tabulate_orders(smooth):
         f"error (share) in a round of an orbit, with {ENERGY_CALLS} calls of the force each."
     )
     return Table("Integrators", heads, rows, note)
+
+
+def say_order(order):
+    """Say the measured order, and by what factor of calls an error is a tenth."""
+    if order is None:
+        return ["not reached", "-"]
+    return [f"{order:.2f}", f"{10 ** (1 / order):.2g}x" if order > LEAST_ORDER else "-"]
 
 
 def list_smooth(smooth):

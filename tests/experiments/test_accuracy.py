@@ -42,6 +42,14 @@ def test_the_handout_has_what_the_integrators_do(study):
         assert value == pytest.approx(RECORDED[name], rel=1e-6), name
 
 
+@pytest.mark.parametrize(
+    ("order", "said"),
+    [(2.0, ["2.00", "3.2x"]), (None, ["not reached", "-"]), (0.0, ["0.00", "-"])],
+)
+def test_an_order_is_said_with_what_a_digit_costs(order, said):
+    assert accuracy_tables.say_order(order) == said
+
+
 def test_after_whole_swings_the_errors_of_semi_implicit_euler_cancel():
     """The handout says so: there it is as close as Verlet, and in its last swing it is not."""
     last, worst = {}, {}
