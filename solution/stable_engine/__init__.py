@@ -11,8 +11,10 @@ from .contacts import Contacts
 from .damping import Damping
 from .effect import Effect
 from .friction import Friction
+from .kinematics import Kinematics
+from .rays import RayHit
 from .rods import Rod, Rods
-from .shapes import Box, Circle
+from .shapes import Box, Circle, Segment
 from .sleep import Sleep
 from .springs import Spring, Springs
 from .world import World
@@ -28,8 +30,11 @@ __all__ = [
     "Damping",
     "Effect",
     "Friction",
+    "Kinematics",
+    "RayHit",
     "Rod",
     "Rods",
+    "Segment",
     "Sleep",
     "Spring",
     "Springs",

@@ -9,7 +9,7 @@ from typing import Any
 from pygame import Vector2
 
 from .reading import read
-from .shapes import Box, Circle
+from .shapes import Box, Circle, Segment
 from .validate import finite, not_negative, number, pair, refuse, require
 
 RESTITUTION, FRICTION = 0.3, 0.6  # where none is given
@@ -29,6 +29,10 @@ class Listeners:
 
     def look_again(self, body: Body) -> None:
         """Check in the next step what was set of this body."""
+        raise NotImplementedError
+
+    def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
+        """Add to the force and the torque that act on a body in the next step."""
         raise NotImplementedError
 
 
@@ -55,39 +59,48 @@ class Island:
 class Body:
     """One rigid body: plain floats inside; pos, vel and omega to read and set from outside.
 
-    Mass 0 makes a static body, which never moves. A Box is static only. Restitution and friction
-    are for scenes that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is
-    stopped where it first touches a static body, however fast it is. All but the shape and what is
-    static can be set later on, and counts from the next step. Raises ValueError when a value makes
-    no sense.
+    Mass 0 makes a static body, which never moves; a kinematic one moves by its own velocity, and
+    no force changes that. A Box or Segment has no mass. A Segment stands where it was drawn unless
+    pos says where its middle is; other shapes need a pos. Restitution and friction are for scenes
+    that declare Bounce() and Friction(); there None means 0.3 and 0.6. A bullet is stopped where it
+    first touches a static body, however fast it is. All but the shape and what is static can be set
+    later on, and counts from the next step. Raises ValueError when a value makes no sense.
     """
 
     __slots__ = (
-        *("outline", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
+        *("outline", "segment", "r", "hx", "hy", "m", "inv_mass", "inv_inertia"),
         *("e", "mu", "restitution_given", "friction_given"),
         *("x", "y", "vx", "vy", "angle", "w"),
-        *("id", "world", "is_bullet", "idle", "sleeps", "still", "calm", "island", "joint_count"),
+        *("id", "world", "is_bullet", "is_kinematic", "idle", "sleeps", "still", "calm", "island"),
+        "joint_count",
     )
 
     def __init__(
         self,
-        shape: Circle | Box,
-        pos: Iterable[float],
+        shape: Circle | Box | Segment,
+        pos: Iterable[float] | None = None,
         mass: float = 0.0,
         restitution: float | None = None,
         friction: float | None = None,
         bullet: bool = False,
+        kinematic: bool = False,
     ) -> None:
         not_negative("Body.mass", mass)
         require(mass > 0 or not bullet, "Body.mass", mass, "above 0 for a bullet")
-        if isinstance(shape, Box):
-            require(mass == 0, "Body.mass", mass, "0 for a Box, which is always static")
+        require(mass == 0 or not kinematic, "Body.mass", mass, "0 for a kinematic body")
+        self.segment: Segment | None = None
+        if isinstance(shape, (Box, Segment)):
+            name = type(shape).__name__
+            require(mass == 0, "Body.mass", mass, f"0 for a {name}, which is always static")
             self.r = 0.0
             self.hx, self.hy = shape.half  # px, half extents of the bounding box
+            if isinstance(shape, Segment):
+                self.segment = shape
+                pos = shape.middle if pos is None else pos
         elif isinstance(shape, Circle):
             self.r = self.hx = self.hy = shape.radius  # px
         else:
-            refuse("Body.shape", shape, "a Circle or a Box")
+            refuse("Body.shape", shape, "a Circle, a Box or a Segment")
         self.outline = shape
         self.world: Listeners | None = None
         self.island: Island | None = None  # the bodies it sleeps with
@@ -99,12 +112,15 @@ class Body:
         if friction is not None:
             self.friction = friction
         self.weigh(mass)
+        if pos is None:
+            refuse("Body.pos", pos, "a pair of numbers, except for a Segment")
         self.x, self.y = pair("Body.pos", pos)  # px
         self.vx = self.vy = 0.0  # px/s
         self.angle = 0.0  # rad, clockwise on the screen
         self.w = 0.0  # rad/s
         self.id = 0  # from 1 up for a ball in a world, from -1 down for a static body
         self.is_bullet = bullet
+        self.is_kinematic = kinematic
         self.idle = mass == 0  # static or asleep
         self.sleeps = False
         self.still = 0.0  # s, how long it has been slow enough to sleep
@@ -125,13 +141,13 @@ class Body:
         self.inv_inertia = 2 / twice if mass else 0.0  # 1/(kg px²)
 
     @property
-    def shape(self) -> Circle | Box:
+    def shape(self) -> Circle | Box | Segment:
         """Return the shape, which stays the same."""
         return self.outline
 
     @property
     def radius(self) -> float:
-        """Return the radius in px, 0 for a box."""
+        """Return the radius of a circle in px, 0 for other shapes."""
         return self.r
 
     @property
@@ -157,8 +173,13 @@ class Body:
 
     @property
     def is_static(self) -> bool:
-        """Return whether no force can move this body."""
+        """Return whether no force can move this body: true of kinematic ones as well."""
         return self.inv_mass == 0
+
+    @property
+    def kinematic(self) -> bool:
+        """Return whether it moves by its own velocity and spin, which no force changes."""
+        return self.is_kinematic
 
     @property
     def mass(self) -> float:
@@ -247,12 +268,41 @@ class Body:
         self.w += ((x - self.x) * jy - (y - self.y) * jx) * self.inv_inertia
         self.wake()
 
+    def apply_force(self, force: Iterable[float], at: Iterable[float] | None = None) -> None:
+        """Push with a force in kg px/s² during the whole next step, and no longer.
+
+        at is a place in px: the centre, unless given. Its torque is that of the moment of the call.
+        Forces add up. Raises ValueError for a static body, and for one that is in no world.
+        """
+        fx, fy = pair("Body.apply_force's force", force)
+        x, y = (self.x, self.y) if at is None else pair("Body.apply_force's at", at)
+        self.push(fx, fy, (x - self.x) * fy - (y - self.y) * fx)
+
+    def apply_torque(self, torque: float) -> None:
+        """Turn with a torque in kg px²/s², clockwise on the screen, during the whole next step.
+
+        Torques add up. Raises ValueError for a static body, and for one that is in no world.
+        """
+        self.push(0.0, 0.0, finite("Body.apply_torque's torque", torque))
+
+    def push(self, fx: float, fy: float, torque: float) -> None:
+        """Have the world push and turn this body in the next step."""
+        require(not self.is_static, "Body.mass", 0, "above 0 for a force to move it")
+        if self.world is None:
+            refuse("Body.world", None, "a World: add the body before you push it")
+        self.world.push(self, fx, fy, torque)
+        self.still = 0.0
+        self.wake()
+
     def contains(self, point: Iterable[float]) -> bool:
         """Return whether a point (px) is in the body or on its edge."""
         x, y = pair("Body.contains's point", point)
         dx, dy = x - self.x, y - self.y
         if self.r:
             return hypot(dx, dy) <= self.r
+        if self.segment is not None:
+            x, y = self.segment.nearest(dx, dy)
+            return hypot(dx - x, dy - y) <= self.segment.rim
         return abs(dx) <= self.hx and abs(dy) <= self.hy
 
     def wake(self) -> None:

@@ -35,7 +35,7 @@ def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
     for body in bodies:
         if body.friction_given and body.mu > 0:
             reasons.setdefault("Friction", f"{body!r} was given a friction of {body.mu:g}")
-        if "Contacts" in world.effects and (body.w or (body.is_static and (body.vx or body.vy))):
+        if "Contacts" in world.effects and (body.w or is_belt(body)):
             words = "turns" if body.w else "has a velocity, as a belt has,"
             reasons.setdefault("Friction", f"{body!r} {words} and would drag nothing along")
         if body.restitution_given and body.e > 0:
@@ -57,6 +57,11 @@ def missing(world: WorldState, looked_at: list[Body]) -> dict[str, str]:
         for name, reason in reasons.items()
         if name not in world.effects
     }
+
+
+def is_belt(body: Body) -> bool:
+    """Return whether a body has a velocity and stays where it is."""
+    return body.is_static and not body.is_kinematic and bool(body.vx or body.vy)
 
 
 def is_too_fast(body: Body) -> bool:

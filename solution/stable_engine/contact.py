@@ -5,8 +5,10 @@ from math import copysign, cos, sin, sqrt
 from pygame import Vector2
 
 from .body import Body
+from .shapes import Segment
 
 GOLDEN_ANGLE = 2.399963  # rad
+OPPOSITE = -0.5  # cosine; where a normal turns further, a centre has crossed a segment
 
 
 class Contact:
@@ -47,6 +49,28 @@ class Contact:
         """Return the unit normal from A to B."""
         return Vector2(self.nx, self.ny)
 
+    @property
+    def point(self) -> Vector2:
+        """Return the point (px) on the rim of A, a ball, where it touches B."""
+        a = self.a
+        return Vector2(a.x + a.r * self.nx, a.y + a.r * self.ny)
+
+    @property
+    def impulse(self) -> float:
+        """Return the impulse (kg px/s) of the latest substep, 0 or more: it pushes A and B apart.
+
+        Divide it by the length of a substep for the force. What Bounce does is not part of it.
+        """
+        return self.jn
+
+    @property
+    def friction_impulse(self) -> float:
+        """Return the friction impulse (kg px/s) of the latest substep.
+
+        B gets it along the tangent, the normal turned clockwise on the screen; A the opposite.
+        """
+        return self.jt
+
     def closing_speed(self) -> float:
         """Return how fast A and B come together, in px/s."""
         a, b = self.a, self.b
@@ -64,7 +88,9 @@ class Contact:
 
 def collide(a: Body, b: Body) -> tuple[float, float, float]:
     """Unit normal from circle a to body b, in two numbers, and the gap between them in px."""
-    return circle_circle(a, b) if b.r else circle_box(a, b)
+    if b.r:
+        return circle_circle(a, b)
+    return circle_box(a, b) if b.segment is None else circle_segment(a, b, b.segment)
 
 
 def circle_circle(a: Body, b: Body) -> tuple[float, float, float]:
@@ -93,6 +119,17 @@ def circle_box(a: Body, b: Body) -> tuple[float, float, float]:
     return -copysign(1.0, x), 0.0, -a.r - out_x
 
 
+def circle_segment(a: Body, b: Body, wall: Segment) -> tuple[float, float, float]:
+    """Return normal and depth of a circle and a segment. A centre on its axis leaves clockwise."""
+    x, y = a.x - b.x, a.y - b.y
+    near_x, near_y = wall.nearest(x, y)
+    dx, dy = near_x - x, near_y - y
+    distance = sqrt(dx * dx + dy * dy)
+    if distance > 0:
+        return dx / distance, dy / distance, distance - wall.rim - a.r
+    return -wall.uy, wall.ux, -wall.rim - a.r
+
+
 def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float, float, float]:
     """Return the normal and depth of two bodies that touched before, with normal (c.nx, c.ny).
 
@@ -100,6 +137,8 @@ def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float
     nearest one, a ball pressed into a thin box beyond the middle would come out on the other side.
     """
     a, b = c.a, c.b
+    if b.segment is not None:
+        return the_side_it_came(c, b.segment, nx, ny, gap)
     if gap >= -a.r or b.r:
         return nx, ny, gap
     nx, ny = c.nx, c.ny
@@ -108,3 +147,18 @@ def the_way_it_came(c: Contact, nx: float, ny: float, gap: float) -> tuple[float
     else:
         nx, ny = 0.0, copysign(1.0, ny)
     return nx, ny, (b.x - a.x) * nx + (b.y - a.y) * ny - b.hx * abs(nx) - b.hy * abs(ny) - a.r
+
+
+def the_side_it_came(
+    c: Contact, wall: Segment, nx: float, ny: float, gap: float
+) -> tuple[float, float, float]:
+    """Return the normal and depth of a ball and a segment that touched before.
+
+    A centre that has crossed the segment, and has not gone round its end, leaves by the side it
+    came from.
+    """
+    a, b = c.a, c.b
+    along = (a.x - b.x) * wall.ux + (a.y - b.y) * wall.uy
+    if nx * c.nx + ny * c.ny > OPPOSITE or abs(along) >= wall.reach:
+        return nx, ny, gap
+    return -nx, -ny, -gap - 2 * (wall.rim + a.r)

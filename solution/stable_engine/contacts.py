@@ -24,6 +24,7 @@ TOUCHING = 1e-6  # bodies that are no further apart touch, but for what numbers 
 REDETECT_DISTANCE = 1e-4  # contacts stay valid until a body has moved further
 
 OnHit = Callable[[Body, Body, float], object]
+OnPart = Callable[[Body, Body], object]
 
 
 class Group:
@@ -41,18 +42,22 @@ class Contacts(Effect):
     """Contacts found once per step and solved in every substep as soft constraints.
 
     on_hit(a, b, speed) is called at the end of a step for each two bodies that began to touch in
-    it, with the speed (px/s) at which they came together. It may add and remove bodies.
+    it, with the speed (px/s) at which they came together. on_part(a, b) is called for each two that
+    no longer touch. Both may add and remove bodies; what is removed does not part.
 
     Each stage solves contacts of two balls first: the last word is that of the static bodies.
     """
 
     rank = 3
 
-    def __init__(self, on_hit: OnHit | None = None) -> None:
+    def __init__(self, on_hit: OnHit | None = None, on_part: OnPart | None = None) -> None:
         if on_hit is not None and not callable(on_hit):
             refuse("Contacts.on_hit", on_hit, "a function of two bodies and a speed, or None")
-        self.on_hit = on_hit
+        if on_part is not None and not callable(on_part):
+            refuse("Contacts.on_part", on_part, "a function of two bodies, or None")
+        self.on_hit, self.on_part = on_hit, on_part
         self.hits: list[tuple[Body, Body, float]] = []  # of this step, where somebody asks
+        self.parted: list[tuple[Body, Body]] = []  # in this step, where somebody asks
         self.touching: list[Contact] = []
         self.begun: list[Contact] = []  # those of touching that are new in this step
         self.changed = False  # whether contacts are new in this step, so that rows must be too
@@ -136,6 +141,9 @@ class Contacts(Effect):
             found[pair] = c
             if gap < -a.r or gap < -b.r < 0:
                 deep.append(c)
+        if self.on_part:
+            gone = [pair for pair in cache if pair not in found and pair not in self.sleeping_cache]
+            self.parted += [(cache[pair].a, cache[pair].b) for pair in gone]
         self.cache = found
         if len(deep) > 1:
             share_push(deep, push)
@@ -282,7 +290,7 @@ class Contacts(Effect):
         """Stop a ball that has gone further than its radius where its core met a static body."""
         body = last.body
         distance = abs(body.x - last.x) + abs(body.y - last.y)
-        if distance > body.r > 0 and not body.is_bullet:
+        if distance > body.r > 0 and not (body.is_bullet or body.is_static):
             self.sweep(body, (last.x, last.y), CORE * body.r, 0.0, h)
 
     def let_no_deeper(self, c: Contact, gap: float) -> bool:
@@ -318,12 +326,17 @@ class Contacts(Effect):
         return False
 
     def tell(self, h: float) -> None:
-        """Tell of hits, those whose bodies are still there."""
+        """Tell of hits and partings, those whose bodies are still there."""
         if self.hits and self.on_hit:
             hits, self.hits = self.hits, []
             for a, b, speed in hits:
                 if a.world is b.world is self.world:
                     self.on_hit(a, b, speed)
+        if self.parted and self.on_part:
+            parted, self.parted = self.parted, []
+            for a, b in parted:
+                if a.world is b.world is self.world:
+                    self.on_part(a, b)
 
     def sweep(
         self, body: Body, start: tuple[float, float], radius: float, overlap: float, h: float

@@ -90,6 +90,9 @@ class Effect:
     def finish(self, h: float) -> None:
         """Look at the result of the step."""
 
+    def coast(self, dt: float) -> None:
+        """Called alone, for a step of dt seconds in which no ball is awake."""
+
     def tell(self, h: float) -> None:
         """Tell the program of the step, once all is done: it may change the world as it likes."""
 

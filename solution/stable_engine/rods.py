@@ -33,6 +33,13 @@ class Rod(Joint):
         self.fitting(self.rest)
         self.j = 0.0  # kg px/s, accumulated impulse, positive when it pushes
 
+    @property
+    def impulse(self) -> float:
+        """Return the impulse (kg px/s) of the latest substep: positive if it pushes, negative if it
+        pulls. Divide it by the length of a substep for the force.
+        """
+        return self.j
+
     def fitting(self, length: float) -> float:
         found = super().fitting(length)
         require(found > 0, "Rod.length", found, "above 0: move a and b apart first")

@@ -87,7 +87,8 @@ class Sleep(Effect):
     def find_islands(self) -> list[list[Body]]:
         """Return the awake balls in groups, by union-find: connected ones get the same root.
 
-        Find out as well which balls touch something static, or are tied to it.
+        Find out as well which balls touch something static, or are tied to it. What moves with a
+        kinematic body does not lie still.
         """
         self.supported: set[Body] = set()
         parent = {body: body for body in self.world.awake}
@@ -103,7 +104,10 @@ class Sleep(Effect):
                 if not (a.idle or b.idle):
                     parent[root(a)] = root(b)
                 elif not (a.idle and b.idle):
-                    self.supported.add(b if a.idle else a)
+                    ball, other = (b, a) if a.idle else (a, b)
+                    self.supported.add(ball)
+                    if other.is_kinematic and (other.vx or other.vy or other.w):
+                        ball.still = 0.0
         islands: dict[Body, list[Body]] = {}
         for body in self.world.awake:
             islands.setdefault(root(body), []).append(body)

@@ -46,6 +46,13 @@ class Spring(Joint):
         self.changed()
 
     @property
+    def impulse(self) -> float:
+        """Return the impulse (kg px/s) of the latest substep: positive if it pushes, negative if it
+        pulls. Divide it by the length of a substep for the force.
+        """
+        return self.j
+
+    @property
     def damping(self) -> float:
         """Force per px/s, in kg/s. Setting it wakes both ends."""
         return self.c

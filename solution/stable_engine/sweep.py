@@ -3,6 +3,7 @@
 from math import copysign, hypot, sqrt
 
 from .body import Body
+from .shapes import Segment
 
 NO_HIT = 1.0
 
@@ -44,15 +45,18 @@ def moment_of_touch(a: Body, b: Body, dt: float) -> tuple[float, float, float]:
 
     Both have flown straight on since. 0 where they did not begin to touch within dt seconds.
     """
-    vx, vy = (a.vx, a.vy) if b.is_static else (a.vx - b.vx, a.vy - b.vy)
+    stays = b.is_static and not b.is_kinematic
+    vx, vy = (a.vx, a.vy) if stays else (a.vx - b.vx, a.vy - b.vy)
     dx, dy = vx * dt, vy * dt
     x, y = a.x - b.x - dx, a.y - b.y - dy
-    hit = hit_circle if b.r else hit_box
-    fraction = hit(b, a.r, x, y, dx, dy)
+    fraction = hit_body(b, a.r, x, y, dx, dy)
     if fraction >= NO_HIT:
         return 0.0, 0.0, 0.0
     x, y = x + dx * fraction, y + dy * fraction
-    if not b.r:
+    if b.segment is not None:
+        near_x, near_y = b.segment.nearest(x, y)
+        x, y = x - near_x, y - near_y
+    elif not b.r:
         x, y = x - max(-b.hx, min(x, b.hx)), y - max(-b.hy, min(y, b.hy))
     distance = hypot(x, y)
     return (1 - fraction) * dt, -x / distance, -y / distance
@@ -67,14 +71,17 @@ def first_hit(
     """
     fraction = NO_HIT
     for s in statics:
-        hit = hit_circle if s.r else hit_box
-        fraction = min(fraction, hit(s, radius, x - s.x, y - s.y, dx, dy))
+        fraction = min(fraction, hit_body(s, radius, x - s.x, y - s.y, dx, dy))
     return fraction
 
 
-def hit_circle(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
-    """Return the time of impact with a circle; the ball starts at (x, y) from the centre of s."""
-    return hit_point(s.r + radius, x, y, dx, dy)
+def hit_body(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
+    """Return the time of impact with a body; the ball starts at (x, y) from the centre of s."""
+    if s.r:
+        return hit_point(s.r + radius, x, y, dx, dy)
+    if s.segment is None:
+        return hit_box(s, radius, x, y, dx, dy)
+    return hit_segment(s.segment, radius, x, y, dx, dy)
 
 
 def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) -> float:
@@ -96,6 +103,24 @@ def hit_box(s: Body, radius: float, x: float, y: float, dx: float, dy: float) ->
     if abs(at_x) > s.hx and abs(at_y) > s.hy:
         return hit_point(radius, x - copysign(s.hx, at_x), y - copysign(s.hy, at_y), dx, dy)
     return enter
+
+
+def hit_segment(wall: Segment, radius: float, x: float, y: float, dx: float, dy: float) -> float:
+    """Return the time of impact with a segment: a point against its sides moved out, its ends
+    rounded.
+    """
+    reach, ux, uy = wall.rim + radius, wall.ux, wall.uy
+    along, off = x * ux + y * uy, y * ux - x * uy
+    ahead, across = dx * ux + dy * uy, dy * ux - dx * uy
+    fraction = 0.0
+    if abs(off) > reach:
+        if off * across >= 0:
+            return NO_HIT
+        fraction = (abs(off) - reach) / abs(across)
+    at = along + ahead * fraction
+    if abs(at) <= wall.reach:
+        return fraction or NO_HIT
+    return hit_point(reach, along - copysign(wall.reach, at), off, ahead, across)
 
 
 def hit_point(reach: float, x: float, y: float, dx: float, dy: float) -> float:

@@ -11,6 +11,7 @@ from .body import Body
 from .check import complaints, missing
 from .effect import Effect, WorldState
 from .joint import Joint
+from .rays import RayHit, cast_ray
 from .validate import pair, positive, refuse, require, whole
 
 Thing = TypeVar("Thing", bound=Body | Joint)
@@ -41,6 +42,7 @@ class World(WorldState):
         self.added = 0  # how many bodies ever were
         self.unchecked: list[Body] = []  # bodies and ends of joints that are new or were set
         self.warned: set[str] = set()  # the effects that a step has warned of
+        self.forces: dict[Body, tuple[float, float, float]] = {}  # kg px/s² twice, kg px²/s²
         self.effects = {}
         if not isinstance(effects, Iterable):
             refuse("World.effects", effects, "a list of effects")
@@ -62,6 +64,7 @@ class World(WorldState):
         self.relax_hooks = self.hooks("relax")
         self.finish_hooks = self.hooks("finish")
         self.tell_hooks = self.hooks("tell")
+        self.coast_hooks = self.hooks("coast")
         self.static_moved_hooks = self.hooks("static_moved")
         self.body_changed_hooks = self.hooks("body_changed")
         self.lighter_hooks = self.hooks("lighter")
@@ -117,6 +120,8 @@ class World(WorldState):
         require(body.world is None, "World.add's body", found, "a new one")
         if body.is_bullet:
             self.need("Bullets", body).add(body)
+        if body.is_kinematic:
+            self.need("Kinematics", body).add(body)
         self.bodies.append(body)
         self.added += 1
         body.world, body.id = self, -self.added if body.is_static else self.added
@@ -165,6 +170,7 @@ class World(WorldState):
     def remove_body(self, body: Body) -> None:
         require(body.world is self, "World.remove's body", body, "one that is in this world")
         body.wake()
+        self.forces.pop(body, None)
         for lighter in self.lighter_hooks:
             lighter(body, 0.0)
         for forget in self.forget_hooks:
@@ -186,6 +192,35 @@ class World(WorldState):
         """Return the bodies that a point (px) is in or on the edge of, in the order of adding."""
         at = pair("World.bodies_at's point", point)
         return [body for body in self.bodies if body.contains(at)]
+
+    def ray_cast(self, start: Iterable[float], end: Iterable[float]) -> RayHit | None:
+        """Return the first body, of any kind, on the straight way from start to end (px), or None.
+
+        The hit has its body, the point, the normal out of the body and the distance from start. A
+        body that the ray starts in is not hit.
+        """
+        way = pair("World.ray_cast's start", start), pair("World.ray_cast's end", end)
+        return cast_ray(self.bodies, *way)
+
+    def push(self, body: Body, fx: float, fy: float, torque: float) -> None:
+        """Add to the force and the torque that act on a body in the next step."""
+        if not self.forces:
+            self.force_hooks = [self.apply_forces, *self.hooks("force")]
+            self.finish_hooks = [self.clear_forces, *self.hooks("finish")]
+        before_x, before_y, before = self.forces.get(body, (0.0, 0.0, 0.0))
+        self.forces[body] = before_x + fx, before_y + fy, before + torque
+
+    def apply_forces(self, h: float) -> None:
+        """Accelerate the bodies that were pushed, for h seconds."""
+        for body, (fx, fy, torque) in self.forces.items():
+            body.vx += fx * body.inv_mass * h
+            body.vy += fy * body.inv_mass * h
+            body.w += torque * body.inv_inertia * h
+
+    def clear_forces(self, h: float) -> None:
+        """End all forces, with the step they were for."""
+        self.forces = {}
+        self.force_hooks, self.finish_hooks = self.hooks("force"), self.hooks("finish")
 
     def check(self) -> list[str]:
         """Say which effects the scene calls for and does not declare, and which it does not use.
@@ -221,6 +256,8 @@ class World(WorldState):
         for body in self.awake:
             body.check()
         if not self.awake:
+            for coast in self.coast_hooks:
+                coast(dt)
             return
 
         # 1 detect

@@ -18,6 +18,7 @@ from stable_engine import (
     Friction,
     Rod,
     Rods,
+    Segment,
     Sleep,
     Spring,
     Springs,
@@ -86,9 +87,12 @@ SETTABLE = {
     "World.substeps": (8, lambda world: world.substeps == 8),
 }
 FIXED = [
-    *("Body.shape", "Body.radius", "Body.asleep", "Body.is_static"),
-    *("Rod.a", "Rod.b", "Spring.a", "Spring.b", "World.unit", "Circle.radius", "Box.half"),
+    *("Body.shape", "Body.radius", "Body.asleep", "Body.is_static", "Body.kinematic"),
+    *("Rod.a", "Rod.b", "Rod.impulse", "Spring.a", "Spring.b", "Spring.impulse"),
+    *("World.unit", "Circle.radius", "Box.half"),
+    *("Segment.start", "Segment.end", "Segment.radius"),
 ]
+SHAPES = ["Circle", "Box", "Segment"]
 
 
 def contact_of(body):
@@ -106,7 +110,7 @@ def things():
     spring.b.pos = (200, -301)
     return {
         **{"World": world, "Body": ball, "Rod": rod, "Spring": spring},
-        **{"Circle": ball.shape, "Box": ground.shape},
+        **{"Circle": ball.shape, "Box": ground.shape, "Segment": Segment((0, 0), (1, 1))},
     }
 
 
@@ -132,7 +136,7 @@ def test_what_would_take_no_effect_cannot_be_set(name):
         setattr(thing, field, getattr(thing, field))
 
 
-@pytest.mark.parametrize("kind", ["World", "Body", "Rod", "Spring", "Circle", "Box"])
+@pytest.mark.parametrize("kind", ["World", "Body", "Rod", "Spring", *SHAPES])
 def test_no_property_is_left_out(kind):
     properties = {
         f"{kind}.{name}"
@@ -185,7 +189,80 @@ def test_an_impulse_at_the_rim_turns_the_ball_as_well():
     assert ball.omega == pytest.approx(8 * 10 / (4 * 10**2 / 2))
 
 
+def test_a_force_acts_for_one_step_and_adds_up():
+    world = World(gravity=(0, 0), effects=[Contacts()])
+    ball = world.add(Body(Circle(10), (5, 5), mass=4))
+    ball.apply_force((300, -100))
+    ball.apply_force((100, -100))
+    assert ball.vel == (0, 0)
+    world.step(DT)
+    assert tuple(ball.vel) == pytest.approx((100 * DT, -50 * DT), rel=1e-12)
+    once = ball.vel
+    run(world, 0.5)
+    assert ball.vel == once
+    for _ in range(120):
+        ball.apply_force((400, 0))
+        world.step(DT)
+    assert ball.vx == pytest.approx(100 * 121 * DT, rel=1e-12)
+
+
+def test_a_force_at_the_rim_and_a_torque_turn_clockwise():
+    world = World(gravity=(0, 0))
+    ball, other = (world.add(Body(Circle(10), (x, 5), mass=4)) for x in (5, 500))
+    ball.apply_force((800, 0), at=(5, -5))  # at the top, to the right: clockwise
+    other.apply_torque(8000)
+    world.step(DT)
+    assert tuple(ball.vel) == pytest.approx((200 * DT, 0))
+    assert other.vel == (0, 0)
+    assert ball.omega == other.omega == pytest.approx(8000 * DT / (4 * 10**2 / 2))
+
+
+def test_a_force_that_holds_a_ball_up_keeps_it_awake_and_ends_with_it():
+    world = build(Scene([floor(), Ball((0, -10)), Ball((300, -10))]), *SLEEPY)
+    run(world, 2)
+    ball, other = world.bodies[1:]
+    for _ in range(120):
+        ball.apply_force((0, -G / 2))
+        world.step(DT)
+        assert not ball.asleep
+    assert other.asleep
+    ball.apply_force((1e6, 0))
+    world.remove(ball)
+    world.add(ball)
+    world.step(DT)
+    assert ball.vx == 0
+
+
+def test_what_cannot_be_pushed_says_so():
+    world = World()
+    wall, ball = world.add(Body(Box((9, 9)), (0, 9))), Body(Circle(3), (0, -9), mass=1)
+    with pytest.raises(ValueError, match=r"Body\.mass"):
+        wall.apply_force((1, 0))
+    with pytest.raises(ValueError, match=r"Body\.world"):
+        ball.apply_torque(1)
+    with pytest.raises(ValueError, match=r"apply_torque's torque"):
+        ball.apply_torque(math.nan)
+
+
 # ---------------------------------------------------------------- reading
+
+
+def test_impulses_of_contacts_rods_and_springs_are_the_forces_they_bear():
+    world = build(Scene([floor(), Ball((0, -10), mass=3)]), *TOUCH, "Rods", "Springs")
+    ground, ball = world.bodies
+    peg = world.add(Body(Circle(5), (300, -300)))
+    bob, weight = (world.add(Body(Circle(5), (x, -200), mass=2)) for x in (300, 400))
+    rod = world.add(Rod(peg, bob))
+    nail = world.add(Body(Circle(5), (400, -300)))
+    spring = world.add(Spring(nail, weight, 1000.0, 50.0))
+    run(world, 5)
+    h = DT / world.substeps
+    (c,) = world.effects["Contacts"].of_body(ball)
+    assert (c.a, c.b, c.friction_impulse) == (ball, ground, 0)
+    assert c.point == (0, ball.y + 10)
+    assert c.impulse / h == pytest.approx(3 * G, rel=1e-3)
+    assert rod.impulse / h == pytest.approx(-2 * G, rel=1e-3)
+    assert spring.impulse / h == pytest.approx(-2 * G, rel=1e-3)
 
 
 def test_what_is_read_cannot_be_changed_in_part():
@@ -334,3 +411,39 @@ def test_who_is_told_of_a_hit_may_take_out_both_and_add():
     counts = watch(world, 0.3, lambda: len(world.bodies))
     assert counts[0] == 3
     assert counts[-1] == 2
+
+
+def test_a_parting_is_told_once():
+    told = []
+    contacts = Contacts(lambda a, b, _: told.append("hit"), lambda a, b: told.append((a, b)))
+    world = World(effects=[contacts, Friction(), Sleep()])
+    ground = world.add(Body(Box((100, 50)), (0, 50)))
+    ball = world.add(Body(Circle(10), (0, -30), mass=1))
+    run(world, 3)
+    assert ball.asleep
+    assert told == ["hit"]
+    ball.vel = (0, -300)
+    run(world, 0.1)
+    assert told == ["hit", (ball, ground)]
+    run(world, 3)
+    assert told == ["hit", (ball, ground), "hit"]
+    world.remove(ball)
+    world.add(Body(Circle(10), (0, -300), mass=1))
+    run(world, 0.1)
+    assert told == ["hit", (ball, ground), "hit"]
+
+
+def test_hits_and_partings_alternate_where_balls_bounce():
+    told = []
+    contacts = Contacts(lambda *_: told.append("hit"), lambda *_: told.append("part"))
+    world = World(effects=[contacts, Bounce()])
+    world.add(Body(Box((100, 50)), (0, 50), restitution=1))
+    world.add(Body(Circle(10), (0, -110), mass=1, restitution=1))
+    run(world, 10)
+    assert len(told) > 20
+    assert told == (["hit", "part"] * len(told))[: len(told)]
+
+
+def test_what_cannot_be_told_is_refused():
+    with pytest.raises(ValueError, match=r"Contacts\.on_part"):
+        Contacts(on_part=3)

@@ -1,0 +1,48 @@
+"""Kinematic bodies: they move by their own velocity, and push whatever is in their way."""
+
+from .body import Body
+from .effect import Effect
+
+
+class Kinematics(Effect):
+    """Move bodies that are kinematic=True by their velocity and spin, which nothing else changes.
+
+    They carry and push balls with any force, as lifts, paddles and pistons do. They pass through
+    each other and through static bodies. One that moves by more than a ball's radius in a step may
+    pass through the ball.
+    """
+
+    rank = -1  # so that they have moved before any other effect relaxes
+
+    def __init__(self) -> None:
+        self.bodies: list[Body] = []
+
+    def add(self, body: Body) -> None:
+        self.bodies.append(body)
+
+    def forget(self, body: Body) -> None:
+        if body.is_kinematic:
+            self.bodies.remove(body)
+
+    def is_used(self) -> bool:
+        return bool(self.bodies)
+
+    def detect(self, h: float) -> None:
+        """Wake what sleeps where moving ones are."""
+        world = self.world
+        if len(world.awake) + len(world.statics) < len(world.bodies):
+            for body in self.bodies:
+                if body.vx or body.vy:
+                    for static_moved in world.static_moved_hooks:
+                        static_moved(body)
+
+    def relax(self, h: float) -> None:
+        """Move them on, at the same time as the balls."""
+        for body in self.bodies:
+            body.x += body.vx * h
+            body.y += body.vy * h
+            body.angle += body.w * h
+
+    def coast(self, dt: float) -> None:
+        self.relax(dt)
+        self.detect(dt)

@@ -1,0 +1,58 @@
+"""Cast rays: which body a straight line meets first, and where."""
+
+from math import copysign, hypot
+from typing import NamedTuple
+
+from pygame import Vector2
+
+from .body import Body
+from .sweep import NO_HIT, hit_body
+
+
+class RayHit(NamedTuple):
+    """Where a ray first meets a body."""
+
+    body: Body
+    point: Vector2  # px
+    normal: Vector2  # unit vector, out of the body
+    distance: float  # px, from the start of the ray
+
+
+def cast_ray(
+    bodies: list[Body], start: tuple[float, float], end: tuple[float, float]
+) -> RayHit | None:
+    """Return where a ray from start first meets one of the bodies before its end, or None.
+
+    Of bodies that it meets at one moment, the first of the list counts.
+    """
+    x, y = start
+    dx, dy = end[0] - x, end[1] - y
+    nearest, met = NO_HIT, None
+    if not (dx or dy):
+        return None
+    for body in bodies:
+        fraction = hit_body(body, 0.0, x - body.x, y - body.y, dx, dy)
+        if fraction < nearest:
+            nearest, met = fraction, body
+    if met is None:
+        return None
+    x, y = x + dx * nearest, y + dy * nearest
+    normal = normal_at(met, x - met.x, y - met.y, dx, dy)
+    return RayHit(met, Vector2(x, y), Vector2(normal), hypot(dx, dy) * nearest)
+
+
+def normal_at(body: Body, x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
+    """Return the unit normal out of a body at (x, y) from its centre, where a ray comes in."""
+    wall = body.segment
+    if wall is not None:
+        if wall.rim == 0:
+            side = copysign(1.0, dx * wall.uy - dy * wall.ux)
+            return -wall.uy * side, wall.ux * side
+        near_x, near_y = wall.nearest(x, y)
+        x, y = x - near_x, y - near_y
+    elif not body.r:
+        if body.hx - abs(x) < body.hy - abs(y):
+            return copysign(1.0, x), 0.0
+        return 0.0, copysign(1.0, y)
+    distance = hypot(x, y)
+    return x / distance, y / distance

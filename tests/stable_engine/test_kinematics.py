@@ -1,0 +1,126 @@
+"""Kinematic bodies: they go their way, and carry and push what is there."""
+
+import math
+
+import pytest
+from worlds_for_tests import make
+
+from experiments.measures import run, watch
+from experiments.scenes import DT, G
+from stable_engine import Body, Box, Circle, Contacts, Kinematics, Rod, Segment, World
+
+R = 10.0
+
+
+def lift_world(*more, vel=(0.0, -60.0)):
+    """A lift with a ball on it."""
+    world = World(effects=make(["Contacts", "Friction", "Kinematics", *more]))
+    lift = world.add(Body(Box((50, 5)), (0, 5), kinematic=True))
+    ball = world.add(Body(Circle(R), (0, -R), mass=1))
+    lift.vel = vel
+    return world, lift, ball
+
+
+def test_it_moves_by_its_velocity_and_spin_whatever_it_meets():
+    world, lift, ball = lift_world()
+    wheel = world.add(Body(Circle(5), (500, 0), kinematic=True))
+    wheel.omega = 3
+    ball.mass = 1000
+    run(world, 1)
+    assert lift.pos == (0, 5 - 60)
+    assert lift.vel == (0, -60)
+    assert wheel.angle == pytest.approx(3)
+
+
+def test_a_lift_carries_a_ball_without_a_gap():
+    world, lift, ball = lift_world()
+    run(world, 0.5)
+    gaps = watch(world, 1, lambda: lift.y - 5 - (ball.y + R))
+    assert max(abs(gap) for gap in gaps) < 0.01
+    assert ball.vy == pytest.approx(-60, rel=1e-3)
+
+
+def test_a_lift_that_goes_sideways_takes_along_what_rolls_on_it():
+    world, _, ball = lift_world(vel=(60.0, 0.0))
+    run(world, 0.5)
+    assert 0 < ball.vx < 60
+    assert ball.vx - ball.w * R == pytest.approx(60, rel=1e-3)
+
+
+def test_a_paddle_returns_a_ball_by_the_speed_between_them():
+    world = World(gravity=(0, 0), effects=make(["Contacts", "Bounce", "Kinematics"]))
+    paddle = world.add(Body(Segment((0, -50), (0, 50)), restitution=1, kinematic=True))
+    ball = world.add(Body(Circle(R), (100, 0), mass=1, restitution=1))
+    paddle.vel, ball.vel = (100, 0), (-200, 0)
+    run(world, 0.5)
+    assert ball.vel == (400, 0)
+    assert ball.x == pytest.approx(100 - 200 * 0.3 + 400 * (0.5 - 0.3), abs=300 * DT)
+
+
+def test_a_peg_that_moves_takes_its_rod_along():
+    world = World(gravity=(0, 0), effects=make(["Rods", "Kinematics"]))
+    peg = world.add(Body(Circle(5), (0, 0), kinematic=True))
+    bob = world.add(Body(Circle(R), (80, 0), mass=1))
+    world.add(Rod(peg, bob))
+    peg.vel = (-100, 0)
+    run(world, 1)
+    assert bob.vel == (-100, 0)
+    assert math.dist(peg.pos, bob.pos) == pytest.approx(80, rel=1e-6)
+
+
+# ---------------------------------------------------------------- sleep
+
+
+def test_what_rides_slowly_does_not_fall_asleep():
+    world, _, ball = lift_world("Sleep", vel=(0.0, -1.0))
+    asleep = watch(world, 3, lambda: ball.asleep)
+    assert not any(asleep)
+    assert ball.y == pytest.approx(-R - 3, abs=0.01)
+
+
+def test_it_moves_on_while_all_sleep_and_wakes_what_it_meets():
+    world = World(effects=make(["Contacts", "Friction", "Kinematics", "Sleep"]))
+    world.add(Body(Box((500, 50)), (0, 50)))
+    ball = world.add(Body(Circle(R), (0, -R), mass=1))
+    plough = world.add(Body(Box((5, 20)), (-300, -20), kinematic=True))
+    run(world, 2)
+    assert ball.asleep
+    plough.vel = (100, 0)
+    run(world, 2)
+    assert ball.asleep
+    assert plough.x == pytest.approx(-100)
+    run(world, 2)
+    assert not ball.asleep
+    assert ball.x > plough.x + 14.9
+
+
+# ---------------------------------------------------------------- what it is
+
+
+def test_it_needs_its_effect_and_has_no_mass():
+    with pytest.raises(ValueError, match=r"needs Kinematics\(\)"):
+        World(effects=[Contacts()]).add(Body(Circle(1), (0, 0), kinematic=True))
+    with pytest.raises(ValueError, match=r"Body\.mass is 2"):
+        Body(Circle(1), (0, 0), mass=2, kinematic=True)
+
+
+def test_one_that_is_taken_out_stays_where_it_is():
+    world, lift, ball = lift_world()
+    assert lift.kinematic
+    assert lift.is_static
+    assert not ball.kinematic
+    run(world, 0.5)
+    world.remove(lift)
+    y = lift.y
+    run(world, 0.5)
+    assert lift.y == y
+    assert ball.vy == pytest.approx(-60 + G * 0.5, rel=1e-3)
+    assert world.effects["Kinematics"].bodies == []
+
+
+def test_check_says_so_where_none_is_there_and_asks_no_friction_of_one():
+    world = World(effects=[Contacts(), Kinematics()])
+    assert any("Kinematics" in sentence for sentence in world.check())
+    world.add(Body(Box((9, 9)), (0, 0), kinematic=True)).vel = (5, 0)
+    world.add(Body(Circle(1), (0, -50), mass=1))
+    assert world.check() == []
