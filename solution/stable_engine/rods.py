@@ -53,8 +53,9 @@ class Rods(Joints[Rod]):
     along the axis after the move: along the one before, a pendulum would lose energy.
 
     An error of length that is there is taken back softly. Where a rod of a frame turns far in one
-    substep, all are soft, and may give their balls no energy. If its ends would even pass each
-    other, use the speed along the present axis; the direction after the move would drive them on.
+    substep, the speeds of its balls are scaled, so that rods do no work. Where it turns even
+    further, all are soft, and may take energy. If its ends would pass each other, use the speed
+    along the present axis; the direction after the move would drive them on.
     """
 
     rank = 2
@@ -128,6 +129,8 @@ class Frame:
         self.hangs = len(self.balls) < len(ends)
         self.most = -1.0  # kg px²/s², the energy that it may have, or -1 for any
         self.lost = 0.0  # kg px²/s², what it has lost while it turned fast, and may gain again
+        self.work = 0.0  # kg px²/s², that its rods have done in this substep, if they are firm
+        self.gave_way = False  # whether its rods were soft or torn in this substep
 
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities with which all rods have their lengths after the move (SHAKE).
@@ -135,6 +138,7 @@ class Frame:
         bias is the share per second of an error of length that is taken back, soft by how much
         more a rod gives way where it turns too far in a substep for Newton's method.
         """
+        is_soft = False
         for left in range(PASSES - 1, -1, -1):
             off, turned = self.look_ahead(h, bias)
             if off <= EXACT:
@@ -151,6 +155,9 @@ class Frame:
                 rod.j += rod.rhs
             if is_soft or off < NEAR:
                 break
+        if self.most >= 0:
+            self.gave_way = is_soft or self.is_torn()
+            self.work = self.energy(*self.velocity()) - self.most
 
     def look_ahead(self, h: float, bias: float) -> tuple[float, float]:
         """Set the changes of speed that keep each rod's length in the move to come.
@@ -184,11 +191,17 @@ class Frame:
             if nx * rod.nx + ny * rod.ny < SAME_DIRECTION:
                 rod.j = 0.0
             rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
-        self.apply()
-        if self.most >= 0:
-            self.limit_energy()
-        else:
+        if self.most < 0:
+            self.apply()
             self.lost = 0.0
+            return
+        self.work -= self.energy(*self.velocity())
+        self.apply()
+        self.keep_energy()
+
+    def is_torn(self) -> bool:
+        """Return whether any rod is far from its length: it takes energy to come back to that."""
+        return any([abs(rod.distance - rod.rest) > LOOSE * rod.rest for rod in self.rods])
 
     def energy_before(self) -> float:
         """Return the energy that the balls had before the rods acted in this substep."""
@@ -211,14 +224,18 @@ class Frame:
         """Return twice the energy (kg px²/s²) of the balls, seen at a velocity."""
         return sum([b.m * ((b.vx - vx) ** 2 + (b.vy - vy) ** 2) for b in self.balls])
 
-    def limit_energy(self) -> None:
-        """Slow the balls as seen from the whole, so that soft rods give them no energy."""
+    def keep_energy(self) -> None:
+        """Scale the speeds of the balls as seen from the whole, so that rods do no work.
+
+        Soft and torn rods may take energy. The balls never get more than they had.
+        """
         vx, vy = self.velocity()
         energy = self.energy(vx, vy)
         most = self.most + self.lost
-        self.lost = max(most - energy, 0.0)
-        if energy > most:
-            share = sqrt(most / energy)
+        wanted = min(energy if self.gave_way else max(-self.work, 0.0), most)
+        self.lost = most - wanted
+        if energy > 0 and wanted != energy:
+            share = sqrt(wanted / energy)
             for ball in self.balls:
                 ball.vx = vx + (ball.vx - vx) * share
                 ball.vy = vy + (ball.vy - vy) * share

@@ -42,9 +42,9 @@ def test_a_triple_pendulum_keeps_its_energy():
     assert energy_error(swinging(3, 100.0), 10) < 0.02
 
 
-@pytest.mark.soak
-def test_a_whip_keeps_its_energy():
-    assert energy_error(swinging(40, 20.0), 5) < 0.03
+@pytest.mark.parametrize("length", sample([10.0, 20.0], 1))
+def test_a_whip_keeps_its_energy(length):
+    assert energy_error(swinging(40, length), 5) < 0.03
 
 
 @pytest.mark.parametrize("ratio", sample([1.0, 100.0, 1000.0, 10_000.0, 100_000.0], 4))
