@@ -153,9 +153,13 @@ class Contacts(Effect):
         """Return whether two free balls have touched on their way here, and are past each other."""
         if (abs(a.vx - b.vx) + abs(a.vy - b.vy)) * self.last_dt <= gap or not b.r:
             return False
-        if a.joint_count or b.joint_count or a.is_bullet or b.is_bullet:
+        if a.joint_count or b.joint_count or self.was_stopped(a) or self.was_stopped(b):
             return False
         return moment_of_touch(a, b, self.flown.get(a, self.last_dt))[0] > 0
+
+    def was_stopped(self, body: Body) -> bool:
+        """Return whether a bullet met something static in the step before."""
+        return body.is_bullet and body in self.flown
 
     def new_contact(self, a: Body, b: Body) -> Contact:
         """Return a contact, with what other effects need of it filled in."""

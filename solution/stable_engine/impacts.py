@@ -1,18 +1,20 @@
 """Impacts: which come first, which come together, and where the bodies are afterwards."""
 
 from collections.abc import Callable
+from math import hypot
 from typing import Any
 
 from .body import Body
 from .contact import Contact, collide
 from .contacts import Contacts
-from .sweep import moment_of_touch
+from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # per contact: how often impacts are passed on within one step
 SETTLINGS = 3  # each may make impacts due once more
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
 SAME = 1e-9  # share by which times and speeds of one moment may differ
+BEFORE = 0.01  # radii, how far from a wall a bullet is left: the next step finds what it meets
 CONVERGED = 1e-14  # share of an impulse by which the last pass changed it
 
 
@@ -35,12 +37,13 @@ class Impacts:
 
     A contact is found after the touch. Impulses go along the normal at the touch, and free balls
     are put where they would be had they bounced then. This keeps angular momentum. A ball on a
-    joint or at a static body stays where it is.
+    joint or at a static body stays where it is, and so does a bullet that was stopped at one.
     """
 
     def __init__(self, contacts: Contacts, slow: float) -> None:
         self.touching = contacts.touching
         self.begun, self.flown = set(contacts.begun), contacts.flown
+        self.contacts = contacts
         self.last_dt = contacts.last_dt  # s, of the step in which they touched
         self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower ones are not due
@@ -112,13 +115,26 @@ class Impacts:
             ago = 0.0
         wanted = [parting_speed(c, c.closing_speed()) for c in group]
         if ago > 0:
-            fly(hit, -ago)
+            self.fly_on(hit, -ago)
         self.resolve(group, wanted)
         if ago > 0:
-            fly(hit, ago)
+            self.fly_on(hit, ago)
         for body in hit:
             reached[body] = ago
         self.look_around(hit, ago > 0)
+
+    def fly_on(self, hit: list[Body], seconds: float) -> None:
+        """Have balls fly straight on for a time, or back. A bullet stops before it meets a wall."""
+        statics = self.contacts.world.statics
+        for body in hit:
+            share = 1.0
+            if body.is_bullet:
+                x, y = body.vx * seconds, body.vy * seconds
+                share = first_hit(statics, body.r, body.x, body.y, x, y)
+                if share < 1:
+                    share = max(share - BEFORE * body.r / hypot(x, y), 0.0)
+                    self.free.discard(body)
+            fly([body], share * seconds)
 
     def look_around(self, hit: list[Body], moved: bool) -> None:
         """Look anew at all contacts of balls that were hit."""
@@ -135,7 +151,8 @@ class Impacts:
                 if not body.is_static:
                     self.beside.setdefault(body, []).append(c)
         held = {c.a for c in self.touching if c.b.is_static}
-        held |= {body for body in self.beside if body.joint_count or body.is_bullet}
+        stopped = self.contacts.was_stopped
+        held |= {body for body in self.beside if body.joint_count or stopped(body)}
         self.free = self.beside.keys() - held
 
     def take_first(self) -> tuple[list[Contact], float]:
@@ -158,11 +175,11 @@ class Impacts:
         hit = balls_of(slow)
         if len(slow) < 2 or not self.free.issuperset(hit):
             return
-        fly(hit, -ago)
+        self.fly_on(hit, -ago)
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
         self.resolve(slow, [0.0] * len(slow))
-        fly(hit, ago)
+        self.fly_on(hit, ago)
         self.look_around(hit, True)
 
     def island_of(self, body: Body, reached: dict[Body, float]) -> list[Contact]:

@@ -4,6 +4,7 @@ No threshold comes from what the engine gives. Angles are in degrees, speeds in 
 """
 
 import math
+import random
 
 import pytest
 from samples import sample
@@ -216,3 +217,41 @@ def test_a_box_of_elastic_balls_creates_no_energy():
     before = kinetic(world)
     seen = watch(world, 2, lambda: kinetic(world))
     assert max(seen) < before * (1 + 1e-9)
+
+
+# ---------------------------------------------------------------- bullets
+
+
+@pytest.mark.parametrize("fast", [500.0, 5000.0, 50_000.0])
+@pytest.mark.parametrize("mass", [1.0, 10.0])
+@pytest.mark.parametrize("both", [True, False])
+def test_a_bullet_hits_another_ball_as_a_slow_ball_does(fast, mass, both):
+    """By the law of a smooth elastic impact, along the normal at touch; none passes the other."""
+    nx, ny = math.sqrt(1 - 0.3**2), 0.3
+    closing = 2 * fast * nx
+    impulse = 2 * closing / (1 + 1 / mass)
+    for phase in range(8):
+        far = fast * (0.05 + phase * DT / 8)
+        ball = Ball((-far, 0), 10, vel=(fast, 0), bullet=True, **IDEAL)
+        other = Ball((fast * 0.05, 6), 10, mass, vel=(-fast, 0), bullet=both, **IDEAL)
+        world = build(Scene([ball, other], gravity=(0, 0)), *SMOOTH, "Bullets")
+        run(world, 0.2)
+        one, two = balls(world)
+        after = fast - impulse * nx, -impulse * ny, impulse * nx / mass - fast, impulse * ny / mass
+        assert (*one.vel, *two.vel) == pytest.approx(after, abs=1e-6 * fast)
+
+
+@pytest.mark.parametrize("seed", sample(range(20), 5))
+def test_bullets_that_hit_each_other_stay_in_their_box(seed):
+    rng = random.Random(seed)
+    walls = [Block((0, side * 301), (320, 1), **IDEAL) for side in (-1, 1)]
+    walls += [Block((side * 301, 0), (1, 320), **IDEAL) for side in (-1, 1)]
+    flying = []
+    for i in range(10):
+        fast, way = 10 ** rng.uniform(2, 4.7), rng.uniform(0, 2 * math.pi)
+        at, vel = (40 * i - 200, rng.uniform(-250, 250)), (math.cos(way), math.sin(way))
+        vel = (fast * vel[0], fast * vel[1])
+        flying.append(Ball(at, 8, 10 ** rng.uniform(-0.5, 0.5), vel=vel, bullet=True, **IDEAL))
+    world = build(Scene([*walls, *flying], gravity=(0, 0)), *SMOOTH, "Bullets")
+    run(world, 1)
+    assert all(max(abs(ball.x), abs(ball.y)) < 300 for ball in balls(world))
