@@ -14,8 +14,8 @@ class Bullets(Effect):
     """Continuous collision detection: a bullet's step is swept, and ends where it first hits.
 
     Contacts stop any fast ball, but only once its core is in the static body, and softly: a ball
-    of 200,000 px/s still gets through a thin one. Where Bounce is declared, fast balls also meet each
-    other on their way, bullets or not.
+    of 200,000 px/s still gets through a thin one. Where Bounce is declared, fast balls also meet
+    each other on their way, bullets or not.
     """
 
     rank = 7

@@ -130,7 +130,8 @@ class Frame:
         self.most = -1.0  # kg px²/s², the energy that it may have, or -1 for any
         self.lost = 0.0  # kg px²/s², what it has lost while it turned fast, and may gain again
         self.work = 0.0  # kg px²/s², that its rods have done in this substep, if they are firm
-        self.gave_way = False  # whether its rods were soft or torn in this substep
+        self.is_off = False  # whether a rod was torn or hit before this substep
+        self.gave_way = False  # whether its rods may take energy in this substep
 
     def keep_lengths(self, h: float, bias: float, soft: float) -> None:
         """Choose velocities with which all rods have their lengths after the move (SHAKE).
@@ -145,7 +146,7 @@ class Frame:
                 break
             is_soft = turned < TURNED or (left == 0 and off > LOOSE)
             if self.most < 0 and (is_soft or turned < GUARDED):
-                self.most = self.energy_before()
+                self.most = self.energy_before(h)
             if is_soft:
                 for rod in self.rods:
                     rod.pivot = soft / rod.m
@@ -156,7 +157,7 @@ class Frame:
             if is_soft or off < NEAR:
                 break
         if self.most >= 0:
-            self.gave_way = is_soft or self.is_torn()
+            self.gave_way = is_soft or self.is_off
             self.work = self.energy(*self.velocity()) - self.most
 
     def look_ahead(self, h: float, bias: float) -> tuple[float, float]:
@@ -199,14 +200,18 @@ class Frame:
         self.apply()
         self.keep_energy()
 
-    def is_torn(self) -> bool:
-        """Return whether any rod is far from its length: it takes energy to come back to that."""
-        return any([abs(rod.distance - rod.rest) > LOOSE * rod.rest for rod in self.rods])
+    def energy_before(self, h: float) -> float:
+        """Return the energy that the balls had before the rods acted in this substep.
 
-    def energy_before(self) -> float:
-        """Return the energy that the balls had before the rods acted in this substep."""
+        Find out as well whether any rod is off its length, or would be without impulses: one that
+        was torn or hit takes energy.
+        """
+        self.is_off = False
         for rod in self.rods:
             rod.apply_impulse(-rod.j)
+        for rod in self.rods:
+            off = abs(rod.distance - rod.rest) + abs(rod.speed()) * h
+            self.is_off = self.is_off or off > LOOSE * rod.rest
         energy = self.energy(*self.velocity())
         for rod in self.rods:
             rod.apply_impulse(rod.j)
@@ -227,7 +232,7 @@ class Frame:
     def keep_energy(self) -> None:
         """Scale the speeds of the balls as seen from the whole, so that rods do no work.
 
-        Soft and torn rods may take energy. The balls never get more than they had.
+        Some may take energy, see energy_before. The balls never get more than they had.
         """
         vx, vy = self.velocity()
         energy = self.energy(vx, vy)
