@@ -83,7 +83,7 @@ class Replays:
         if found is None or not check.failed or over:
             return check
         try:
-            made = self._make_files(todo, check, found)
+            made = self.make_files(todo, check, found)
         except Exception:  # whatever a submission makes of it: the marks stand without a picture
             made = None
         if made is None or self.written + sum(map(len, made)) > MAX_TOGETHER:
@@ -95,7 +95,7 @@ class Replays:
                 stream.write(text)
         return msgspec.structs.replace(check, replay=f"{self.folder.name}/{path.name}")
 
-    def _make_files(
+    def make_files(
         self, todo: TodoResult, check: CheckResult, failing: Failing
     ) -> list[str] | None:
         """Return the page and the script, or None where nothing is to be seen."""

@@ -12,14 +12,17 @@ import sys
 import tempfile
 import tomllib
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import jinja2
+import markupsafe
 from markdown_it import MarkdownIt
 
 from grader.errors import Stop
 from grader.judge.course import FULL, Course
 from grader.judge.grade import KIT
+from grader.player.page import list_sources, read_player
 from grader.release.build import (
     NAME,
     Refused,
@@ -27,6 +30,7 @@ from grader.release.build import (
     hash_folders,
     list_files,
     move_into,
+    record_right_runs,
     sha256,
     write_zip,
 )
@@ -42,11 +46,13 @@ from grader.source.regions import TODO_ID, regions_in
 
 PARTS = Path(__file__).with_name("tab")
 CACHE = KIT / "build" / "tab-cache"
-PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip")
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm")
+STDLIB = "python_stdlib.zip"
 LOCK = "pyodide-lock.json"
 PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
 PYTHON = "3.14"
-AS_THEY_ARE = ("index.html", "style.css", "worker.js", "shared.js")
+AS_THEY_ARE = ("style.css", "worker.js", "shared.js")
+TEXTS = (".py", ".md")  # what a person may edit
 UNUSED = re.compile(
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
 )
@@ -58,7 +64,11 @@ TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
 )
-PUBLISHED = "lab.zip/site/"  # the packages, as anybody gets them
+COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
+OWN = ("kit/", "shims/")  # in lab.zip: programs whose source is kept, to be searched for leaks
+RUNS = "kit/grader/checks/expected_runs.json"
+PUBLISHED = ("lab.zip/site/", "more.zip/site/")  # the packages, as anybody gets them
+SHEETS = ("lab-sheet.md", "bonus.md")
 WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
 
 
@@ -90,14 +100,22 @@ def build_tab(
     site = built / f"{NAME}-tab"
     site.mkdir(parents=True)
     write_copy(copy, wrong, course, leave_out_practice(record))
+    runs = record("runs", lambda: record_right_runs(course))
+    (copy / "grader" / "checks" / "expected_runs.json").write_bytes(runs)
     files = {n: each for n, each in make_students_tree(KIT, course).items() if is_on_page(n)}
-    write_lab(site / "lab.zip", copy, files, cache, cffi)
+    sources = work / "sources"
+    sources.mkdir()
+    write_lab(sources / "lab.zip", copy, files, cache, cffi)
     write_sheet(site, copy, files, course, cffi is not None)
+    pyodide = cache / "node_modules" / "pyodide"
     (site / "pyodide").mkdir()
     for name in (*PYODIDE, LOCK):
-        shutil.copyfile(cache / "node_modules" / "pyodide" / name, site / "pyodide" / name)
+        shutil.copyfile(pyodide / name, site / "pyodide" / name)
+    shutil.copyfile(pyodide / STDLIB, sources / STDLIB)
+    write_compiled(sources, site, pyodide)
     for name in AS_THEY_ARE:
         shutil.copyfile(PARTS / "page" / name, site / name)
+    write_index(site)
     bundle_scripts(site, cache)
     write_service_worker(site)
     look_for_own_leaks(site, course)
@@ -183,34 +201,90 @@ def write_lab(
     target: Path, copy: Path, files: Mapping[str, bytes], cache: Path, cffi: Path | None
 ) -> None:
     """Write all that Python has on the page: wheels, grader, stand-ins and the starter."""
-    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    with zipfile.ZipFile(target, "w") as archive:
         wheels = [
             each for each in find_wheels(cache / "wheels") if cffi or each.stem[:6] != "pymunk"
         ]
         for path in [*wheels, *([cffi] if cffi else [])]:
-            for name, content in read_archive(path):
-                put_in(archive, f"site/{name}", content)
+            for name, content in read_archive(path).items():
+                if not UNUSED.search(f"/{name}"):
+                    put_in(archive, f"site/{name}", content)
         stand_ins = ["python"] if cffi else ["python", "without_cffi"]
         for folder in stand_ins:
             put_tree(archive, "shims", PARTS / folder)
         put_tree(archive, "shims/pygame", PARTS / "pygame")
+        for package in (jinja2, markupsafe):  # as they are installed here, by their hashes
+            put_tree(archive, f"site/{package.__name__}", Path(package.__path__[0]))
         put_tree(archive, "kit/grader", copy / "grader")
         for name, content in sorted(files.items()):
             put_in(archive, f"lab/{name}", content)
 
 
-def read_archive(path: Path) -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a wheel that are used at run time."""
+def read_archive(path: Path) -> dict[str, bytes]:
     with zipfile.ZipFile(path) as archive:
-        for name in sorted(archive.namelist()):
-            if not name.endswith("/") and not UNUSED.search(f"/{name}"):
-                yield name, archive.read(name)
+        names = [each for each in sorted(archive.namelist()) if not each.endswith("/")]
+        return {name: archive.read(name) for name in names}
 
 
 def put_tree(archive: zipfile.ZipFile, place: str, folder: Path) -> None:
     for name, path in list_files(folder):
-        if "__pycache__" not in path.parts:
+        if "__pycache__" not in path.parts and path.suffix not in COMPILED_HERE:
             put_in(archive, f"{place}/{name}", path.read_bytes())
+
+
+def write_compiled(sources: Path, site: Path, pyodide: Path) -> None:
+    """Write the archives in `sources` into the page: compiled what it loads, and apart the rest."""
+    words = [str(PARTS / "compile.mjs"), str(pyodide), str(PARTS / "compile.py"), str(sources)]
+    run_tool(["node", *words], sources)
+    lab, later = split_lab(*map(read_archive, (sources / "lab.zip", sources / "lab.pyc.zip")))
+    stdlib, more = split_stdlib(
+        *map(read_archive, (sources / STDLIB, sources / "python_stdlib.pyc.zip"))
+    )
+    for path, files in (
+        (site / "lab.zip", lab),
+        (site / "more.zip", later | more),
+        (site / "pyodide" / STDLIB, stdlib),
+    ):
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+            for name, content in sorted(files.items()):
+                put_in(archive, name, content)
+
+
+Files = dict[str, bytes]
+
+
+def split_lab(files: Files, compiled: Files) -> tuple[Files, Files]:
+    """Return what the page loads at first, and what it loads when people read.
+
+    A package of others has its compiled programs in place of their sources; ours have both.
+    """
+    first = {name: each for name, each in files.items() if not is_for_later(name)}
+    for name, content in compiled.items():
+        if name.startswith(OWN):
+            folder, _, file = name.rpartition("/")
+            version = PYTHON.replace(".", "")
+            first[f"{folder}/__pycache__/{file[:-4]}.cpython-{version}.pyc"] = content
+        else:
+            first[name] = content
+    done = {name.removesuffix("c") for name in compiled if not name.startswith(OWN)}
+    later = {name: files[name] for name in files.keys() - first.keys() - done}
+    return first, later
+
+
+def is_for_later(name: str) -> bool:
+    return name == RUNS or (name.startswith("site/") and name.endswith(".py"))
+
+
+def split_stdlib(files: Files, compiled: Files) -> tuple[Files, Files]:
+    """Return the same of Python's own modules; a package stays in one piece."""
+    loaded = {name.partition("/")[0].removesuffix(".pyc") for name in compiled}
+    first, later = dict(compiled), {}
+    for name, content in files.items():
+        if name.partition("/")[0].removesuffix(".py") not in loaded:
+            later[f"lib/python{PYTHON}/{name}"] = content
+        elif f"{name}c" not in compiled:
+            first[name] = content
+    return first, later
 
 
 def write_sheet(
@@ -218,8 +292,8 @@ def write_sheet(
 ) -> None:
     """Write what the page shows of each TODO: its text, file, program and hints."""
     hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
-    texts = make_handouts(KIT / "handouts", course)
-    sections = find_sections(texts.get("lab-sheet.md", "") + "\n" + texts.get("bonus.md", ""))
+    handouts = make_handouts(KIT / "handouts", course)
+    sections = find_sections("\n".join(handouts.get(n, "") for n in SHEETS))
     places = find_places(files)
     todos = [
         {
@@ -234,7 +308,9 @@ def write_sheet(
         if todo.id in places
     ]
     note = "" if has_pymunk else WITHOUT_PYMUNK
-    sheet = json.dumps({"title": course.title, "note": note, "todos": todos}, ensure_ascii=False)
+    texts = {name: each.decode() for name, each in files.items() if name.endswith(TEXTS)}
+    shown = {"title": course.title, "note": note, "todos": todos, "files": texts}
+    sheet = json.dumps(shown, ensure_ascii=False)
     (site / "lab.json").write_text(sheet, encoding="utf-8", newline="\n")
     (site / "figures").mkdir()
     for figure in find_figures("".join(sections.values())):
@@ -268,6 +344,14 @@ def render(text: str) -> str:
     return make_scrollable(str(reader.renderer.render(tokens, reader.options, {})))
 
 
+def write_index(site: Path) -> None:
+    """Write the page itself, which lets the player of replays run in its frame."""
+    text = (PARTS / "page" / "index.html").read_text(encoding="utf-8")
+    allowed = list_sources([read_player()])
+    text = text.replace("script-src 'self'", f"script-src 'self' {allowed}")
+    (site / "index.html").write_text(text, encoding="utf-8", newline="\n")
+
+
 def bundle_scripts(site: Path, cache: Path) -> None:
     """Bundle the page's scripts and the editor into one file."""
     sources = cache / "page"  # beside node_modules, where esbuild looks for the editor
@@ -282,6 +366,9 @@ def write_service_worker(site: Path) -> None:
     """Name to the service worker all files, and a version that changes with any of them."""
     text = (PARTS / "page" / "sw.js").read_text(encoding="utf-8")
     names = ["./", *(name for name, _ in list_files(site) if name != "index.html")]
-    text = text.replace("FILES = []", f"FILES = {json.dumps(names)}")
+    later = [each for each in names if each.startswith("figures/") or each == "more.zip"]
+    first = [each for each in names if each not in later]
+    text = text.replace("FIRST = []", f"FIRST = {json.dumps(first)}")
+    text = text.replace("LATER = []", f"LATER = {json.dumps(later)}")
     text = text.replace("-VERSION", f"-{hash_folders([site], text)[:16]}")
     (site / "sw.js").write_text(text, encoding="utf-8", newline="\n")

@@ -112,12 +112,10 @@ async function boot() {
   const began = performance.now();
   const answer = await python.start();
   if (answer.failed) return say(`Python does not start: ${answer.failed}`);
-  given = JSON.parse(answer.files);
   document.body.dataset.ready = Math.round(performance.now() - began);
   document.body.dataset.boots = Number(document.body.dataset.boots ?? 0) + 1;
   say(`Ready. ${lab.note}`);
   setBusy(false);
-  return answer;
 }
 
 async function run() {
@@ -141,10 +139,11 @@ async function run() {
 }
 
 async function check(only) {
+  $("replay").hidden = true;
   const columns = Math.floor(($("result").clientWidth - MARGINS) / LETTER);
   const answer = await ask({ kind: "check", only, columns }, "Checking …");
   if (!answer) return;
-  const { lines, todos } = JSON.parse(answer.found);
+  const { lines, todos, replays } = JSON.parse(answer.found);
   for (const [id, state, points, most] of todos) states[id] = [state, points, most];
   showStates();
   $("found").replaceChildren(...lines.map(([text, style]) => {
@@ -158,6 +157,30 @@ async function check(only) {
   const own = states[todo.id];
   say(only.length && own ? `TODO ${todo.id}: ${own[0]}, ${own[1]} of ${own[2]} points.` : "Checked.");
   save();
+  $("replays").replaceChildren(...replays.map(([id, check, title]) => new Option(title, JSON.stringify([id, check]))));
+  showReplay();
+}
+
+// Show the chosen replay. A check without one leaves the menu, and the next is taken.
+async function showReplay() {
+  const menu = $("replays"), asked = menu.value;
+  if (!asked) return ($("replay").hidden = true);
+  const [id, check] = JSON.parse(asked);
+  const { page } = await python.ask({ kind: "replay", todo: id, check });
+  if (menu.value !== asked) return; // another check has come since
+  if (!page) {
+    menu.selectedOptions[0].remove();
+    return showReplay();
+  }
+  $("player").title = `Replay of ${menu.selectedOptions[0].text}`;
+  $("player").srcdoc = page;
+  $("replay").hidden = false;
+}
+
+// Make the frame as high as its page, so that there is one scroll bar.
+function fitPlayer() {
+  const inside = $("player").contentDocument.documentElement;
+  new ResizeObserver(() => ($("player").style.height = `${inside.offsetHeight}px`)).observe(inside);
 }
 
 // ---------------------------------------------------------------- files in and out
@@ -210,14 +233,16 @@ async function isolate() {
   if (!("serviceWorker" in navigator)) {
     throw new Error("this browser, or this address, does not allow it: the page needs https:// or localhost");
   }
-  say("Loading the page, about 10 MB …");
-  await navigator.serviceWorker.register("./sw.js");
-  await navigator.serviceWorker.ready;
+  const registered = navigator.serviceWorker.register("./sw.js");
   if (crossOriginIsolated) return;
+  say("Loading Python, about 8 MB. Read the text meanwhile …");
+  await registered;
+  await navigator.serviceWorker.ready;
   if (sessionStorage.getItem("loaded-again")) {
     throw new Error("this browser does not share memory: take a newer Firefox, Chrome, Edge or Safari");
   }
   sessionStorage.setItem("loaded-again", "yes");
+  if (saving) await save();
   location.reload();
   await new Promise(() => {});
 }
@@ -245,6 +270,8 @@ function connect() {
   $("import").onclick = () => $("chosen").click();
   $("chosen").onchange = ({ target }) => target.files[0] && bringIn(target.files[0]);
   $("start-over").onclick = startOver;
+  $("replays").onchange = showReplay;
+  $("player").onload = fitPlayer;
   for (const button of document.querySelectorAll("[data-key]")) {
     button.onclick = () => stage.type(button.dataset.key);
   }
@@ -259,17 +286,21 @@ function connect() {
 
 async function main() {
   try {
-    await isolate();
+    const isolated = isolate();
+    isolated.catch(() => {}); // told below
     lab = await (await fetch("./lab.json")).json();
+    given = lab.files;
     const kept = await read("work").catch(() => undefined);
     ({ files = {}, states = {} } = kept ?? {});
-    if (!(await boot())) return;
     document.title = $("course").textContent = lab.title;
     $("todo").replaceChildren(...lab.todos.map(({ id }) => new Option(id, id)));
     showStates();
     connect();
     choose(kept?.todo);
+    await isolated;
     document.body.dataset.shown = "yes";
+    await boot();
+    (await navigator.serviceWorker.ready).active.postMessage("keep all");
   } catch (error) {
     say(`The page does not start: ${error.message}`);
   }

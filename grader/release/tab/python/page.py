@@ -14,11 +14,11 @@ import sys
 import time
 import traceback
 import zipfile
+from contextlib import ExitStack
+from functools import cache, partial
 from pathlib import Path, PurePosixPath
 
-import msgspec
 import pygame
-from rich.console import Console
 
 LAB = Path("/lab")
 HANDED_OUT = Path("/handed-out")
@@ -40,6 +40,7 @@ def start(bridge_):
 def lay_out(files):
     """Make the lab's folder: what was handed out, and over it these files, text by name."""
     os.chdir("/")
+    forget_last()
     shutil.rmtree(LAB)
     shutil.copytree(HANDED_OUT, LAB)
     for name, text in json.loads(files).items():
@@ -53,12 +54,6 @@ def lay_out(files):
 
 def is_of_the_lab(module):
     return str(getattr(module, "__file__", None) or "").startswith(f"{LAB}/")
-
-
-def read_files():
-    """Return the text of each file that a person may edit, by name."""
-    paths = [path for path in sorted(LAB.rglob("*")) if path.suffix in (".py", ".md", ".ipynb")]
-    return json.dumps({str(p.relative_to(LAB)): p.read_text(encoding="utf-8") for p in paths})
 
 
 # ---------------------------------------------------------------- run
@@ -158,25 +153,46 @@ class Stopped(BaseException):
     """Raised between two checks once somebody has stopped them."""
 
 
+last = ExitStack()  # of the last check, to show again what failed in it
+failed = {}  # by the ids of a TODO and a check: how to make its replay
+
+
 def grade_lab(only):
-    """Grade the lab, or these TODOs of it."""
-    from grader.judge.grade import Options, grade
+    """Grade the lab, or these TODOs of it; return the result, and keep what failed."""
+    from grader.judge.grade import Options, grading
     from grader.judge.inline import InlineWorker
     from grader.worker.tab import TabChannel
 
     def connect(setup):
-        return TabChannel(setup, bridge.watch, PACE)
+        return TabChannel(setup, bridge.watch, measure_pace())
 
     def tell(check):
         if bridge.told(check.title):
             raise Stopped
 
     options = Options(trusted=True, only=frozenset(only), progress=tell)
-    return grade(LAB, options, InlineWorker(connect))
+    forget_last()
+    run = last.enter_context(grading(LAB, options, InlineWorker(connect)))
+    result = run.run()
+    for todo in result.todos:
+        for each in todo.checks:
+            if each.failed and (key := (todo.id, each.id)) in run.failing:
+                failed[key] = partial(make_replay, run, todo, each, run.failing[key])
+    return result
+
+
+def forget_last():
+    failed.clear()
+    last.close()
 
 
 def check(only, columns):
-    """Check these TODOs, or all; return the screen's lines with their styles, and the states."""
+    """Check these TODOs, or all.
+
+    Return the screen's lines with their styles, the states, and which checks a replay may show.
+    """
+    from rich.console import Console
+
     from grader.cli.restore import list_notes
 
     result = grade_lab(json.loads(only))
@@ -184,17 +200,38 @@ def check(only, columns):
     notes = [note.partition(" Undo it:")[0] for note in list_notes(LAB, result)]
     lines = make_screen(console).lay_out(result, (), notes)
     todos = [[each.id, each.state, each.points, each.max_points] for each in result.todos]
-    return json.dumps({"lines": lines, "todos": todos})
+    titles = {(t.id, c.id): f"TODO {t.id}: {c.title}" for t in result.todos for c in t.checks}
+    replays = [[*key, titles[key]] for key in failed]
+    return json.dumps({"lines": lines, "todos": todos, "replays": replays})
+
+
+def replay(todo, check):
+    """Return the page that shows a check of the last ones that failed, or "" where it cannot."""
+    return failed[todo, check]() if (todo, check) in failed else ""
+
+
+def make_replay(run, todo, check, failing):
+    from grader.player.replay import Replays
+
+    try:
+        replays = Replays(LAB, run.sandbox.open_child, None, frozenset(run.submission.functions))
+        made = replays.make_files(todo, check, failing)
+    except Exception:  # whatever a submission makes of it
+        return ""
+    return made[0] if made else ""
 
 
 def warm():
     """Load what the first check would load."""
     import hypothesis  # noqa: F401
+    import rich.console  # noqa: F401
 
     import grader.cli.restore
     import grader.judge.grade
     import grader.report.screen
     import grader.worker.tab  # noqa: F401
+
+    measure_pace()
 
 
 def make_screen(console):
@@ -217,9 +254,12 @@ def make_screen(console):
 
 def grade_as_json(only):
     """Grade and return all of the result, to be compared with that of another worker."""
+    import msgspec
+
     return msgspec.json.encode(grade_lab(json.loads(only))).decode()
 
 
+@cache
 def measure_pace():
     """Return how many seconds here are worth one of a usual processor, from 1 to 2."""
     began = time.perf_counter()
@@ -230,7 +270,6 @@ def measure_pace():
 
 
 USUAL = 0.05  # s that the loop of measure_pace takes on a usual processor
-PACE = measure_pace()
 
 
 # ---------------------------------------------------------------- keep
