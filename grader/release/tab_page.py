@@ -281,7 +281,7 @@ def split_stdlib(files: Files, compiled: Files) -> tuple[Files, Files]:
     first, later = dict(compiled), {}
     for name, content in files.items():
         if name.partition("/")[0].removesuffix(".py") not in loaded:
-            later[f"lib/python{PYTHON}/{name}"] = content
+            later[f"stdlib/{name}"] = content
         elif f"{name}c" not in compiled:
             first[name] = content
     return first, later

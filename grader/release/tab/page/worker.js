@@ -58,7 +58,7 @@ async function start(message) {
   py.unpackArchive(await lab, "zip", { extractDir: "/" });
   py.runPython(`
 import importlib, sys
-sys.path[:0] = ["/shims", "/kit", "/site"]
+sys.path[:] = ["/shims", "/kit", "/site", *sys.path, "/stdlib"]
 importlib.invalidate_caches()
 import page
 `);
