@@ -130,7 +130,7 @@ wheels: $(DEV) ## Make a wheel of it for this system, and try it; the workflow o
 ##@ Handing out
 
 release: $(CORE) ## Make what students get, in build/release
-	@$(PY) -m grader release $(if $(FRESH),--fresh)
+	@$(PY) -m grader release $(if $(FRESH),--fresh) $(if $(CFFI),--cffi "$(CFFI)")
 
 tab: $(CORE) ## Make the lab as a page for a browser tab, in build/tab (CFFI=wheel for pymunk)
 	@$(PY) -m grader tab $(if $(CFFI),--cffi "$(CFFI)")

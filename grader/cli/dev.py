@@ -24,6 +24,9 @@ FRESH = "Grade every member of the bank, also those that build/verify holds a re
 MembersAtATime = Annotated[
     int, typer.Option(min=0, help="Submissions graded at a time; 0 for one per core.")
 ]
+Cffi = Annotated[
+    Path | None, typer.Option(help="The wheel of cffi for Pyodide, which the page's pymunk needs.")
+]
 
 app = typer.Typer()
 
@@ -72,18 +75,23 @@ def release_command(
     fresh: Annotated[
         bool, typer.Option("--fresh", help="Record and prove all again, also what is kept.")
     ] = False,
+    cffi: Cffi = None,
     course: CourseFile = None,
 ) -> None:
     """Make the archive that students get, unless something in it gives the solution away.
 
+    The page of `grader tab` goes with it, where Node.js and the network are there.
     Exit status 0: it is there, 2: it was not made, and why.
     """
     require_checkout("release")
     from grader.release.build import release
+    from grader.release.tab_page import add_tab
 
     require_folder_target(out, "--out")
     for path in release(out, console, fresh, read_course(course)):
         print_note(f"made {path}")
+    for note in add_tab(out / "tab", read_course(course), cffi):
+        print_note(note)
 
 
 @app.command("tab")
@@ -91,9 +99,7 @@ def tab_command(
     out: Annotated[Path, typer.Option(help="Where to put it.", show_default="build/tab")] = KIT
     / "build"
     / "tab",
-    cffi: Annotated[
-        Path | None, typer.Option(help="The wheel of cffi for Pyodide, which pymunk needs.")
-    ] = None,
+    cffi: Cffi = None,
     course: CourseFile = None,
 ) -> None:
     """Make the lab as a page: to write, run, check and hand in with nothing but a browser.

@@ -51,7 +51,7 @@ STDLIB = "python_stdlib.zip"
 LOCK = "pyodide-lock.json"
 PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
 PYTHON = "3.14"
-AS_THEY_ARE = ("style.css", "worker.js", "shared.js")
+AS_THEY_ARE = ("README.md", "style.css", "worker.js", "shared.js")
 TEXTS = (".py", ".md")  # what a person may edit
 UNUSED = re.compile(
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
@@ -64,6 +64,7 @@ TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
 )
+UNSERVED = ("index.html", "README.md")  # known as ./, and for those who serve the page
 COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
 OWN = ("kit/", "shims/")  # in lab.zip: programs whose source is kept, to be searched for leaks
 RUNS = "kit/grader/checks/expected_runs.json"
@@ -82,6 +83,16 @@ def make_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list
         wrong = build_wrong_members(work / "wrong", course)
         built = build_tab(work, wrong, course, Recordings(course), cffi)
         return [move_into(each, out) for each in sorted(built.iterdir())]
+
+
+def add_tab(out: Path, course: Course = FULL, cffi: Path | None = None) -> list[str]:
+    """Build the page with a release; return what was made, or a sentence that says why not."""
+    try:
+        fetch_parts(CACHE)
+    except Stop as error:
+        why = str(error).partition("\n")[0].rstrip(":")
+        return [f"left out the page for a browser: {why}"]
+    return [f"made {path}" for path in make_tab(out, course, cffi)]
 
 
 def build_tab(
@@ -365,7 +376,7 @@ def bundle_scripts(site: Path, cache: Path) -> None:
 def write_service_worker(site: Path) -> None:
     """Name to the service worker all files, and a version that changes with any of them."""
     text = (PARTS / "page" / "sw.js").read_text(encoding="utf-8")
-    names = ["./", *(name for name, _ in list_files(site) if name != "index.html")]
+    names = ["./", *(name for name, _ in list_files(site) if name not in UNSERVED)]
     later = [each for each in names if each.startswith("figures/") or each == "more.zip"]
     first = [each for each in names if each not in later]
     text = text.replace("FIRST = []", f"FIRST = {json.dumps(first)}")
