@@ -38,7 +38,13 @@ from grader.release.formulas import typeset
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import make_handouts
 from grader.release.leaks import find_leaks, find_secrets
-from grader.release.pages import find_figures, make_scrollable, mend_links
+from grader.release.pages import (
+    SITE_ONLY,
+    find_figures,
+    make_scrollable,
+    mend_links,
+    write_files,
+)
 from grader.release.recordings import Record, Recordings
 from grader.release.students_copy import Tree, write_copy
 from grader.report.files import put_in
@@ -64,11 +70,13 @@ TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
     (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
 )
+LATER = ("figures/", "lesson.html", "more.zip")  # what the page does not wait for
 UNSERVED = ("index.html", "README.md")  # known as ./, and for those who serve the page
 COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
 OWN = ("kit/", "shims/")  # in lab.zip: programs whose source is kept, to be searched for leaks
 RUNS = "kit/grader/checks/expected_runs.json"
 PUBLISHED = ("lab.zip/site/", "more.zip/site/")  # the packages, as anybody gets them
+LESSON = "lesson.md"
 SHEETS = ("lab-sheet.md", "bonus.md")
 WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
 
@@ -301,7 +309,7 @@ def split_stdlib(files: Files, compiled: Files) -> tuple[Files, Files]:
 def write_sheet(
     site: Path, copy: Path, files: Mapping[str, bytes], course: Course, has_pymunk: bool
 ) -> None:
-    """Write what the page shows of each TODO: its text, file, program and hints."""
+    """Write what the page shows of each TODO, its text, file, program and hints, and the lesson."""
     hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
     handouts = make_handouts(KIT / "handouts", course)
     sections = find_sections("\n".join(handouts.get(n, "") for n in SHEETS))
@@ -323,6 +331,7 @@ def write_sheet(
     shown = {"title": course.title, "note": note, "todos": todos, "files": texts}
     sheet = json.dumps(shown, ensure_ascii=False)
     (site / "lab.json").write_text(sheet, encoding="utf-8", newline="\n")
+    write_files(KIT / "handouts", site, {LESSON: SITE_ONLY.sub("", handouts[LESSON])})
     (site / "figures").mkdir()
     for figure in find_figures("".join(sections.values())):
         shutil.copyfile(KIT / "handouts" / figure, site / figure)
@@ -351,8 +360,9 @@ def render(text: str) -> str:
     reader = MarkdownIt("commonmark").enable("table")
     tokens = reader.parse(typeset(text.replace("- [ ] ", "- \N{BALLOT BOX} ")))
     for token in tokens:
-        mend_links(token.children or [], ())
-    return make_scrollable(str(reader.renderer.render(tokens, reader.options, {})))
+        mend_links(token.children or [], [LESSON])
+    html = make_scrollable(str(reader.renderer.render(tokens, reader.options, {})))
+    return html.replace('<a href="lesson.html', '<a target="_blank" href="lesson.html')
 
 
 def write_index(site: Path) -> None:
@@ -377,7 +387,7 @@ def write_service_worker(site: Path) -> None:
     """Name to the service worker all files, and a version that changes with any of them."""
     text = (PARTS / "page" / "sw.js").read_text(encoding="utf-8")
     names = ["./", *(name for name, _ in list_files(site) if name not in UNSERVED)]
-    later = [each for each in names if each.startswith("figures/") or each == "more.zip"]
+    later = [each for each in names if each.startswith(LATER)]
     first = [each for each in names if each not in later]
     text = text.replace("FIRST = []", f"FIRST = {json.dumps(first)}")
     text = text.replace("LATER = []", f"LATER = {json.dumps(later)}")

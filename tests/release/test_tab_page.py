@@ -271,6 +271,24 @@ def test_a_task_is_typed_run_and_checked(tab: Tab):
 
 
 @SOAK
+def test_other_files_and_the_lesson_are_at_hand(tab: Tab):
+    tab.choose("1")
+    assert tab.page.input_value("#file") == "mini_engine/contacts.py"
+    tab.page.select_option("#file", "mini_engine/body.py")
+    assert "class Body" in tab.page.inner_text("#editor .cm-content")
+    tab.page.click("#editor .cm-content")
+    tab.page.keyboard.press("Control+Home")
+    tab.page.keyboard.type("# mine\n")
+    tab.choose("2")
+    tab.page.select_option("#file", "mini_engine/body.py")
+    assert "# mine" in tab.page.inner_text("#editor .cm-content")
+    tab.choose("1")
+    with tab.context.expect_page() as opening:
+        tab.page.click("#text a[href='lesson.html#contacts']")
+    assert opening.value.locator("#contacts").is_visible()
+
+
+@SOAK
 def test_endless_loops_end(tab: Tab):
     tab.choose("5")
     text = read_source(KIT / "starter" / "mini_engine" / "world.py")
@@ -313,8 +331,11 @@ def test_work_is_kept_offline_too_and_carried_over(
     assert "# mine" in tab.shown()
     assert tab.page.input_value("#todo") == "8a"
     other = Tab(browser, address)
-    other.page.set_input_files("#chosen", carried)
     other.wait()
+    other.page.set_input_files("#chosen", carried)
+    other.page.wait_for_function(
+        "document.querySelector('#status').textContent.startsWith('Read ')"
+    )
     other.choose("8a")
     assert "# mine" in other.shown()
     other.context.close()

@@ -10,7 +10,7 @@ const SILENT_MS = 3000; // without a picture, until we say how to stop
 const MOST_PRINTED = 30_000; // characters on the page
 const LETTER = 7.9, MARGINS = 52; // px of a column of the check's text, and left and right of it
 
-let lab, given, files = {}, todo, states = {}, saving;
+let lab, given, files = {}, todo, shown, states = {}, saving; // `shown` is the file in the editor
 const python = new Python(hear);
 const stage = new Stage($("window"), (...event) => python.send(...event));
 const editor = new Editor($("editor"), edit);
@@ -20,7 +20,7 @@ const editor = new Editor($("editor"), edit);
 const textOf = (name) => files[name] ?? given[name] ?? "";
 
 function edit(text) {
-  files[todo.file] = text;
+  files[shown] = text;
   clearTimeout(saving);
   saving = setTimeout(save, SAVE_MS);
 }
@@ -38,15 +38,30 @@ function choose(id) {
   $("todo").value = todo.id;
   $("title").textContent = `TODO ${todo.id}: ${todo.title}`;
   $("text").innerHTML = todo.text; // of the lab sheet, made with the page
-  $("file").textContent = todo.file;
   $("back").disabled = todo === lab.todos[0];
   $("next").disabled = todo === lab.todos.at(-1);
   $("hints").replaceChildren();
   showHintButton();
-  showFolded(true);
-  editor.show(textOf(todo.file), todo.id);
+  showFiles();
+  open(todo.file);
   $("task").scrollTop = 0;
   save();
+}
+
+// Open a file: that of the TODO at its region, another one whole.
+function open(name) {
+  shown = $("file").value = name;
+  $("whole").disabled = name !== todo.file;
+  showFolded(name === todo.file);
+  editor.show(textOf(name), todo.id);
+}
+
+// Offer the files of the TODO's program, and those beside it.
+function showFiles() {
+  const [top, inside] = todo.file.split("/");
+  const names = Object.keys({ ...given, ...files }).filter((name) =>
+    name.endsWith(".py") && (!name.includes("/") || (inside && name.startsWith(`${top}/`))));
+  $("file").replaceChildren(...names.sort().map((name) => new Option(name)));
 }
 
 function step(by) {
@@ -219,10 +234,12 @@ async function bringIn(file) {
 }
 
 function startOver() {
-  if (!confirm(`Put ${todo.file} back as it was handed out? All that you wrote in it is lost.`)) return;
-  delete files[todo.file];
-  choose(todo.id);
-  say(`${todo.file} is as it was handed out.`);
+  const name = shown;
+  if (!confirm(`Put ${name} back as it was handed out? All that you wrote in it is lost.`)) return;
+  delete files[name];
+  save();
+  open(name);
+  say(`${name} is as it was handed out.`);
 }
 
 // ---------------------------------------------------------------- the page
@@ -262,6 +279,7 @@ function connect() {
     folded ? editor.fold() : editor.unfold();
     showFolded(folded);
   };
+  $("file").onchange = () => open($("file").value);
   $("run").onclick = run;
   $("check").onclick = () => check([todo.id]);
   $("check-all").onclick = () => check([]);
