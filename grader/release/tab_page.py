@@ -68,7 +68,8 @@ PREDICTION = re.compile(
 )  # of films, not played here
 TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
     (re.compile(r"`make check TODO=\w+`"), "**Check**"),
-    (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "press **Hint**"),
+    (re.compile(r"`make hint TODO=\w+`, or \[the hints\]\([^)]*\)"), "Press **Hint**"),
+    (re.compile(r"`python \w+\.py` prints"), "**Run** prints"),
 )
 LATER = ("figures/", "lesson.html", "more.zip")  # what the page does not wait for
 UNSERVED = ("index.html", "README.md")  # known as ./, and for those who serve the page

@@ -552,7 +552,7 @@ def test_sections_ask_for_no_film_that_the_page_does_not_play():
 
 
 def test_a_section_names_the_buttons_of_the_page():
-    text = "# Sheet\n\n## TODO 4: Friction\n\n- [ ] `make check TODO=4` says so.\n\n## After\n"
-    html = render(find_sections(text)["4"])
-    assert "<strong>Check</strong> says so" in html
+    says = "- [ ] `make check TODO=4` says so.\n- [ ] `python integrators.py` prints 4.\n"
+    html = render(find_sections(f"# Sheet\n\n## TODO 4: Friction\n\n{says}\n## After\n")["4"])
+    assert "<strong>Check</strong> says so" in html and "<strong>Run</strong> prints 4" in html
     assert not re.search("make|After", html)

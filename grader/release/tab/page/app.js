@@ -88,11 +88,20 @@ function showStates() {
 // ---------------------------------------------------------------- Python
 
 function hear(message) {
-  if (message.kind === "picture") stage.take(message);
+  if (message.kind === "picture") showPicture(message);
   if (message.kind === "told") say(`Checked: ${message.title}`);
   if (message.kind === "printed" && $("printed").textContent.length < MOST_PRINTED) {
     $("printed").textContent += message.text;
   }
+}
+
+// A program without a window shows none: it opens with the first picture.
+function showPicture(message) {
+  if (stage.pictures === 0) {
+    $("screen").hidden = false;
+    $("window").focus();
+  }
+  stage.take(message);
 }
 
 const say = (text) => ($("status").textContent = text);
@@ -135,13 +144,12 @@ async function boot() {
 
 async function run() {
   $("printed").textContent = "";
-  $("screen").hidden = false;
+  $("screen").hidden = true;
   stage.pictures = 0;
-  $("window").focus();
   const began = performance.now();
   let seen = -1;
   const silent = setInterval(() => {
-    if (seen === stage.pictures) say("No new picture for 3 s. If your loop never ends: Stop.");
+    if (seen === stage.pictures) say("Nothing new to see for 3 s. If your loop never ends: Stop.");
     seen = stage.pictures;
   }, SILENT_MS);
   const answer = await ask({ kind: "run", module: todo.program }, `Running ${todo.program}. Stop ends it.`);
