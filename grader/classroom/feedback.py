@@ -133,7 +133,7 @@ def find_address_column(roster: Roster) -> str:
     listed = [name for name in columns if name in roster.columns]
     column = next((name for name in listed if any("@" in row[name] for row in roster.rows)), None)
     if column is None:
-        raise Stop(f"{roster.path} has no column of addresses: {', '.join(ADDRESSES)}")
+        raise Stop(f"{roster.path} holds no address in any column: add a column {ADDRESSES[0]!r}")
     return column
 
 

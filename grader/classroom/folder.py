@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.classroom.adjustments import load_adjustments
+from grader.classroom.adjustments import Adjustments, load_adjustments
 from grader.errors import Stop
 from grader.intake.roster import ClassList
 from grader.intake.systems import BY_NAME, find_system, read_roster
@@ -137,6 +137,11 @@ class ClassFolder:
         people = ClassList(roster, self.settings.key)
         people.chosen = load_adjustments(self.decisions, self.course).choices
         return people
+
+    def resolve_decisions(self, names: list[str]) -> Adjustments:
+        """Return the decisions, with students by their names in the class."""
+        people = self.list_people()
+        return load_adjustments(self.decisions, self.course).resolve(names, people)
 
     @property
     def course_name(self) -> str:

@@ -1,13 +1,18 @@
 """Write mails to those who must send something again: drafts, and a list for mail merge.
 
 Nothing is sent: an EML file with `X-Unsent: 1` opens as a draft in the instructor's own program.
+A draft that a person edited is never replaced or removed.
 """
 
+import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from email import message_from_bytes
 from email.message import EmailMessage
 from email.policy import SMTP
+from pathlib import Path
 
+from grader.classroom.adjustments import Adjustments
 from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.feedback import Feedback, find_address_column
 from grader.classroom.owners import find_owners
@@ -17,6 +22,7 @@ from grader.intake.roster import Roster, Row, list_full_names
 from grader.text import clean, format_csv
 
 DRAFTS = "mail"  # the folder of drafts
+DIGEST = "X-Written"  # of a draft as it was written: an edited one has another
 ASKS = {  # by what the reason says, the first that fits
     "encrypted": "Your archive has a password. Please send it again without one.",
     "more than one program": "Your submission holds two versions of one file: {reason}. "
@@ -58,6 +64,16 @@ def write_body(name: str, reason: str, title: str) -> str:
     greeting = f"Hello {name}," if name else "Hello,"
     words = f"your submission of “{title}” has no points yet."
     return f"{greeting}\n\n{words} {ask_again(reason)}\n\nThank you.\n"
+
+
+def find_decided(outcomes: list[Outcome], adjustments: Adjustments) -> Iterator[Outcome]:
+    """Yield who has no mark, but points or work that a person chose since the class was graded."""
+    for each in outcomes:
+        chosen = [one for one in adjustments.adjust if one.points is not None or one.take]
+        reasons = [one.reason for one in chosen if one.concerns(each.name)]
+        counted = "; ".join(each.reasons)
+        if each.mark is None and any(reason not in counted for reason in reasons):
+            yield each
 
 
 def list_letters(
@@ -107,4 +123,31 @@ def make_draft(letter: Letter, subject: str) -> bytes:
     message["Subject"] = subject
     message["X-Unsent"] = "1"
     message.set_content(letter.body)
+    message[DIGEST] = digest(message.as_bytes())
     return message.as_bytes()
+
+
+def digest(draft: bytes) -> str:
+    """Return a digest of what a person reads of a draft."""
+    mail = message_from_bytes(draft, policy=SMTP)
+    read = f"{mail['To']}\n{mail['Subject']}\n{mail.get_content()}"
+    return hashlib.sha256(read.encode()).hexdigest()[:16]
+
+
+def is_unedited(draft: bytes) -> bool:
+    try:
+        return str(message_from_bytes(draft, policy=SMTP)[DIGEST]) == digest(draft)
+    except (LookupError, ValueError):  # an attachment, or no mail
+        return False
+
+
+def keep_edited(folder: Path, made: Feedback) -> None:
+    """Remove earlier drafts, but none that was edited: it stays in the place of a new one."""
+    for path in sorted((folder / DRAFTS).glob("*.eml")):
+        if is_unedited(path.read_bytes()):
+            path.unlink()
+            continue
+        why = "to have a new one, remove it"
+        if made.files.pop(f"{DRAFTS}/{path.name}", None) is None:
+            why = "its student needs none now"
+        made.notes.append(f"{path} is not as it was written, and stays: {why}")

@@ -39,6 +39,7 @@ from grader.text import harmless, plural
 TEMPLATES = Path(__file__).with_name("templates")
 MOST_FILES, MOST_LINES = 60, 20_000  # on a page
 LONGEST_FILE = 200_000  # bytes shown of a file
+READABLE = ("", "empty", "a web page")  # kinds of files whose text says something to a person
 HEADERS = {
     "Content-Type": "text/html; charset=utf-8",
     "Cache-Control": "no-store",
@@ -390,9 +391,10 @@ def list_files(shown: Shown, remarks: list[Remark]) -> list[File]:
 def show_file(name: str, content: bytes, remarks: list[Remark], most: int) -> File:
     """Return a file with at most so many lines."""
     words = name_type(content[:4096])
-    if (words and words != "empty") or b"\0" in content[:4096]:
+    if words not in READABLE or b"\0" in content[:4096]:
         return File(name, [], f"{words or 'no text'}, {len(content)} bytes")
-    note = "not UTF-8: wrong letters are shown as \ufffd" * (not is_utf8(content))
+    note = words.removeprefix("empty")
+    note = note or "not UTF-8: wrong letters are shown as \ufffd" * (not is_utf8(content))
     note = note or f"cut off after {LONGEST_FILE} bytes" * (len(content) > LONGEST_FILE)
     lines = split_lines(content[:LONGEST_FILE])
     note = note or f"cut off after {plural(most, 'line')}" * (len(lines) > most)

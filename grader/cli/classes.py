@@ -82,7 +82,9 @@ def describe_class(made: "ClassFolder") -> list[str]:
     """Return what the class is, a line each."""
     course, students = made.course, len(made.list_people().names)
     listed = f"{plural(students, 'student')} in {made.roster}" if made.roster else "no class list"
-    todos = ", ".join(todo.id for todo in course.rubric.counted)
+    counted = course.rubric.counted
+    bonus = [todo.id for todo in course.rubric.todos if todo not in counted]
+    todos = ", ".join(todo.id for todo in counted) + f"; bonus {', '.join(bonus)}" * bool(bonus)
     here = "" if made.submissions.exists() else ", not there yet"
     return [
         f"course:      {course.title}, {course.rubric.max_points} points, TODO {todos}",
@@ -169,15 +171,18 @@ def mail_command(folder: Folder = Path(".")) -> None:
     known = open_folder(folder)
     results, path = known.find_results(), known.find_roster("a mail")
     from grader.classroom.dashboard import read_outcomes
-    from grader.classroom.mail import DRAFTS, write_mail
+    from grader.classroom.mail import DRAFTS, find_decided, keep_edited, write_mail
     from grader.intake.systems import read_roster
     from grader.report.files import write_whole
 
     listed = read_roster(path)
     key = listed.choose_key(known.settings.key)
-    made = write_mail(listed, key, read_outcomes(results), known.course.title)
-    for old in (folder / DRAFTS).glob("*.eml"):
-        old.unlink()
+    outcomes = list(read_outcomes(results))
+    decided = list(find_decided(outcomes, known.resolve_decisions([o.name for o in outcomes])))
+    asked = [each for each in outcomes if each not in decided]
+    made = write_mail(listed, key, asked, known.course.title)
+    made.notes += [f"{each.label}: no mail, decided since: grade again" for each in decided]
+    keep_edited(folder, made)
     for name, content in made.files.items():
         write_whole(content, folder / name)
     drafts = plural(len(made.files) - 1, "draft")

@@ -49,6 +49,12 @@ def test_no_command_is_told_twice_what_the_class_is(place: Path):
     assert "Lab 3" in (lab / "results.class.html").read_text(encoding="utf-8")
 
 
+def test_bonus_tasks_are_named_too(place: Path):
+    (place / "autumn.toml").write_text('todos = ["8a", "8c", "B1", "B4"]\n')
+    said = call_class("new", place / "lab", "--course", place / "autumn.toml")
+    assert "4 points, TODO 8a, 8c; bonus B1, B4" in said
+
+
 def read_grades(lab: Path) -> list[str]:
     with open(lab / "marks.csv", encoding="utf-8") as table:
         return [row["Grade"] for row in csv.DictReader(table)]

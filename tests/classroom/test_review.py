@@ -22,7 +22,14 @@ from grader.classroom import grading
 from grader.classroom.comments import LONGEST_LINE, Comment, place_comment, write_comment
 from grader.classroom.decisions import DecisionsFile
 from grader.classroom.folder import read_class_folder
-from grader.classroom.review import MOST_LINES, Request, Response, list_files, respond
+from grader.classroom.review import (
+    MOST_LINES,
+    Request,
+    Response,
+    list_files,
+    respond,
+    show_file,
+)
 from grader.classroom.review_server import ReviewServer, open_review
 from grader.errors import Stop
 from grader.intake.found import Found, Intake
@@ -413,6 +420,12 @@ def tab_to(page: Any, *names: str) -> None:
     raise AssertionError(f"no Tab leads to {names}")
 
 
+def test_a_text_that_was_typed_is_shown_as_its_source():
+    shown = show_file("onlinetext.html", b"<html><p>I am ill</p></html>", [])
+    assert shown.lines == ["<html><p>I am ill</p></html>"] and shown.note == "a web page"
+    assert show_file("report.pdf", b"%PDF-1.7", []).lines == []
+
+
 # ---------------------------------------------------------------- mail
 
 
@@ -438,3 +451,38 @@ def test_a_decided_mark_needs_no_mail(lab: Path):
     call_class("grade", lab)
     assert "4 drafts in" in call_class("mail", lab)
     assert not (lab / "mail" / "dora@x.edu.eml").exists()
+
+
+def test_an_edited_draft_stays(lab: Path):
+    call_class("mail", lab)
+    drafts = {name: lab / "mail" / f"{name}@x.edu.eml" for name in ("ben", "dora", "eve", "finn")}
+    edited = drafts["dora"].read_bytes().replace(b"Thank you.", b"See you on Monday.")
+    drafts["dora"].write_bytes(edited)
+    drafts["finn"].write_bytes(b"From: me@x.edu\nTo: finn@x.edu\n\nas sent\n")
+    own = lab / "mail" / "all.eml"
+    own.write_bytes(b"To: all@x.edu\n\nhello\n")
+    said = call_class("mail", lab)
+    assert "3 drafts in" in said and said.count("stays: to have a new one, remove it") == 2
+    assert drafts["dora"].read_bytes() == edited and b"as sent" in drafts["finn"].read_bytes()
+    assert own.exists() and "stays: its student needs none now" in said
+
+
+def test_who_is_decided_since_grading_gets_no_draft(lab: Path):
+    decision = '[[adjust]]\nstudent = "Dora Lee"\npoints = 9\nreason = "shown"\n'
+    late = '[[adjust]]\nstudent = "eve"\nlate = false\nreason = "ill"\n'
+    (lab / "decisions.toml").write_text(decision + late, encoding="utf-8")
+    said = call_class("mail", lab)
+    assert "dora: no mail, decided since: grade again" in said
+    assert "4 drafts in" in said and (lab / "mail" / "eve@x.edu.eml").exists()
+
+
+def test_a_choice_that_did_not_help_is_asked_about_again(lab: Path):
+    decision = '[[adjust]]\nstudent = "dora"\ntake = "dora.zip"\nreason = "this"\n'
+    (lab / "decisions.toml").write_text(decision, encoding="utf-8")
+    call_class("grade", lab)
+    assert "5 drafts in" in call_class("mail", lab)
+
+
+def test_a_class_list_without_addresses_is_told_what_it_lacks(lab: Path):
+    (lab.parent / "list.csv").write_text("SIS Login ID,Full name\nann,Ann Lee\n", encoding="utf-8")
+    assert "holds no address in any column: add a column 'Email address'" in call_class("mail", lab)
