@@ -58,6 +58,7 @@ Key = Annotated[str, typer.Option(help="Its column that names students as their 
 Gradebook = Annotated[
     Path, typer.Argument(help="The class list: the gradebook as the LMS exports it.")
 ]
+COURSE = "course.toml"  # in the course folder of nbgrader: what it was made of
 OTHER_RECIPIENTS = ("email", "nbgrader")  # beside the learning systems
 
 
@@ -83,9 +84,18 @@ def course_command(
     release = None if without_checks else release or find_newest_release(KIT / "build" / "release")
     if release is None and not without_checks:
         raise Stop("there is no release in build/release, which has the checks: make release")
-    files = make_course(course, renew, release, read_course(taken))
+    asked = find_course(course, taken)
+    files = make_course(course, renew, release, read_course(asked))
+    if asked is not None and asked != course / COURSE:
+        (course / COURSE).write_bytes(asked.read_bytes())
     console.print(f"{len(files)} files are in {course / 'source' / ASSIGNMENT}")
     console.print(f"Next, in {course}: nbgrader generate_assignment {ASSIGNMENT}")
+
+
+def find_course(folder: Path, named: Path | None) -> Path | None:
+    """Return the course that is named, or of which the folder was made; None for the kit's own."""
+    own = folder / COURSE
+    return named or (own if own.is_file() else None)
 
 
 def refuse_folder(course: Path | None) -> None:
@@ -132,7 +142,8 @@ def bridge_command(
 
     troubles: list[str] = []
     if not results:
-        options = Options(shipped_reference(), isolation, seed=seed, course=read_course(taken))
+        asked = read_course(find_course(course, taken))
+        options = Options(shipped_reference(), isolation, seed=seed, course=asked)
         troubles = grade_submitted(course, options, jobs, console)
     for each in list(fill_gradebook(course, read_results(results or [course / "results"]))):
         if isinstance(each, str):
