@@ -19,6 +19,7 @@ from grader.intake.packing import pack
 from grader.intake.roster import ClassList, Roster, list_full_names
 from grader.intake.systems import find_system, read_roster
 from grader.judge.course import FULL, Course, read_course
+from grader.text import plural
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,8 @@ def check_roster(roster: Roster, key: str) -> Iterator[str]:
         yield roster.doubt
     nameless = sum(not row[key].strip() for row in roster.rows)
     if nameless:
-        yield f"{roster.path}: {nameless} rows have no {key!r}: nobody's work will be theirs"
+        have = f"{plural(nameless, 'row')} {'has' if nameless == 1 else 'have'}"
+        yield f"{roster.path}: {have} no {key!r}: nobody's work will be theirs"
     for value, count in Counter(fold(row[key]) for row in roster.rows).items():
         if value and count > 1:
             yield f"{roster.path}: {value!r} is listed {count} times under {key!r}"

@@ -5,6 +5,7 @@ What is no zip is first made one by `repack`, in a process of its own.
 
 import io
 import math
+import re
 import shutil
 import stat
 import subprocess
@@ -21,7 +22,7 @@ from grader.intake import repack
 from grader.intake.found import CannotTake
 from grader.intake.names import fold, make_portable
 from grader.intake.pieces import rank_file
-from grader.intake.places import SIGNS, is_system_file
+from grader.intake.places import ARCHIVES, SIGNS, is_system_file
 from grader.judge.children import command, reaped_seconds
 from grader.judge.submission import IGNORED, MAX_BYTES, MAX_DEPTH, MAX_FILES
 from grader.judge.workplace import work_folder
@@ -34,6 +35,8 @@ MAX_DIRECTORY = 16 * 1024**2  # bytes of the lists of files in zips: about 200,0
 MAX_SECONDS = repack.SECONDS  # of the processor, for what is no zip
 MAX_CLASS = 20 * MAX_DIRECTORY  # the same, of the zip of a class
 LONGEST_PATH, SHORT = 2000, 30  # bytes of a path in the zip of a class, and of a folder that is cut
+WORK = {".py", ".ipynb", "", *ARCHIVES}  # how names of work end; without a suffix, it may be packed
+DRIVE = re.compile(r"[A-Za-z]:")  # with which a name on Windows begins
 SPARED = 100  # files of a submission's allowance that only the lab's own are given
 OWN_WAY = "the zip is packed in an unusual way: ask for one as desktops make it"
 CLOCK_PER_CPU = (
@@ -52,6 +55,7 @@ class Bounds:
     listed: int = field(default_factory=lambda: MAX_DIRECTORY)  # bytes, of lists of files in zips
     seconds: float = field(default_factory=lambda: MAX_SECONDS)
     left_out: list[str] = field(default_factory=list)
+    misnamed: list[str] = field(default_factory=list)  # left out for a name not for every system
 
     def take(self, name: str, length: int, spared: int = 0) -> bool:
         """Take a file if there is room for it, and for `spared` others after it."""
@@ -76,12 +80,17 @@ class Bounds:
 
     @property
     def notes(self) -> list[str]:
-        """One note on everything that was skipped."""
-        if not self.left_out:
-            return []
-        more = len(self.left_out) - 1
-        others = f" and {plural(more, 'more file')}" if more else ""
-        return [f"left out {self.left_out[0]}{others}: size limit reached"]
+        """Return a note for each reason why something was skipped."""
+        skipped = {
+            "size limit reached": self.left_out,
+            "a name not for every system": list(map(repr, self.misnamed)),
+        }
+        return [f"left out {count_files(names)}: {why}" for why, names in skipped.items() if names]
+
+
+def count_files(names: list[str]) -> str:
+    more = len(names) - 1
+    return names[0] + (f" and {plural(more, 'more file')}" if more else "")
 
 
 def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
@@ -89,8 +98,8 @@ def unzip(path: Path, folder: Path, bounds: Bounds) -> None:
     bounds.open_one()
     with open_archive(path, bounds) as (archive, too_large):
         bounds.left_out += too_large
-        members = name_members(archive)
-        if not members:
+        members = name_members(archive, bounds.misnamed)
+        if not members and not bounds.misnamed:
             raise CannotTake("the archive holds no file, or is cut off")
         environments = {name.parent for name, _ in members if name.name == "pyvenv.cfg"}
         folder.mkdir(parents=True, exist_ok=True)
@@ -226,11 +235,20 @@ def list_members(archive: zipfile.ZipFile) -> Iterator[zipfile.ZipInfo]:
             yield member
 
 
-def name_members(archive: zipfile.ZipFile) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
-    """Return the files and their names; raises CannotTake where two differ that have one name."""
+def name_members(
+    archive: zipfile.ZipFile, misnamed: list[str]
+) -> list[tuple[PurePosixPath, zipfile.ZipInfo]]:
+    """Return the files and their names; raises CannotTake where two differ that have one name.
+
+    What is no work and has a name that not every system takes is added to `misnamed` instead.
+    """
     found: dict[str, tuple[PurePosixPath, zipfile.ZipInfo]] = {}
     for member in list_members(archive):
-        name = PurePosixPath(check_name(decode_name(member)))
+        try:
+            name = PurePosixPath(check_name(decode_name(member)))
+        except Misnamed as error:
+            misnamed.append(str(error))
+            continue
         other, first = found.get(fold(name.as_posix()), (name, member))
         if other != name:
             raise CannotTake(f"{other} and {name} differ in case alone: ask for other names")
@@ -249,15 +267,24 @@ def decode_name(member: zipfile.ZipInfo) -> str:
     return unicodedata.normalize("NFC", name.replace("\\", "/"))
 
 
+class Misnamed(Exception):
+    """A name that not every system takes, of a file that is no work."""
+
+
 def check_name(name: str) -> str:
-    """Return the name, if it stays inside its folder and every system can have it."""
+    """Return the name, if it stays inside its folder and every system can have it.
+
+    Raises CannotTake for the name of what may be work, and Misnamed for that of anything else.
+    """
     parts = [part for part in name.split("/") if part not in ("", ".")]
     if len(parts) > MAX_DEPTH:
         raise CannotTake(f"the archive has more than {MAX_DEPTH} folders in each other")
-    if name.startswith("/") or ".." in parts or ":" in parts[0]:
+    if name.startswith("/") or ".." in parts or DRIVE.match(name):
         raise CannotTake(f"the archive reaches outside its folder, with {name[:100]!r}")
     for part in parts:
         if make_portable(part) != part.strip(" .") and not is_system_file(part):
+            if PurePosixPath(name).suffix.lower() not in WORK:
+                raise Misnamed(name[:100])
             raise CannotTake(f"the archive holds {part[:100]!r}, a name not for every system")
     return "/".join(part if is_system_file(part) else make_portable(part) for part in parts)
 

@@ -20,7 +20,8 @@ COLUMNS = (
     *("Integration ID", "Root Account", "Section"),
 )
 POINTS_POSSIBLE = "Points Possible"  # the first cell of the second row
-TEST_STUDENT = "Student, Test"  # Canvas's own, who never hands in
+TEST_STUDENT = "Student, Test"  # Canvas's own, for the teacher to try
+TRIAL = re.compile(r"studenttest_(LATE_)?\d+_.+")  # how names of its files begin
 
 
 class Canvas(Lms):
@@ -33,6 +34,9 @@ class Canvas(Lms):
         if path.is_dir():
             return None
         return ANONYMOUS.fullmatch(path.name) or FILE.fullmatch(path.name)
+
+    def is_trial(self, path: Path) -> bool:
+        return not path.is_dir() and TRIAL.fullmatch(path.name) is not None
 
     def read_upload(self, path: Path, people: ClassList) -> Upload | None:
         match, empty = self.match(path), NO_FILE.fullmatch(path.name)

@@ -139,7 +139,9 @@ def list_uploads(paths: list[Path], people: ClassList, intake: Intake) -> Iterat
     systems = sort_systems(paths)
     for path in paths:
         upload = None if path.is_symlink() else read_upload(path, people, systems)
-        if upload is None:
+        if any(each.is_trial(path) for each in systems):
+            intake.notes.append(f"{path.name} is left out: the teacher's own trial")
+        elif upload is None:
             mention_file(path, intake, people)
         elif upload.empty:
             empty[upload.name] = path

@@ -63,6 +63,10 @@ class Lms:
         """Return the parts of a name that this system writes; None for any other name."""
         return None
 
+    def is_trial(self, path: Path) -> bool:
+        """Tell whether the teacher handed this in, in the view that students have."""
+        return False
+
     def read_own_name(self, path: Path) -> str | None:
         """Return a file's name as the student gave it; None where this system wrote no name."""
         match = self.match(path)

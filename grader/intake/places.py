@@ -7,7 +7,7 @@ from grader.judge.rubric import load_rubric
 from grader.judge.submission import IGNORED
 
 DEEPEST = 3  # folders around a program, and archives inside archives
-SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx"}  # and all that is hidden
+SYSTEM_FILES = {"thumbs.db", "desktop.ini", "__macosx", "icon\r"}  # and all that is hidden
 SIGNS = (b"7z\xbc\xaf", b"Rar!", b"\x1f\x8b", b"BZh", b"\xfd7zXZ")  # of what is no zip
 ARCHIVES = (".zip", ".7z", ".rar", ".tar", ".tgz", ".tbz2", ".txz", ".gz", ".bz2", ".xz")
 

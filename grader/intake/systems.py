@@ -60,7 +60,8 @@ def read_table(path: Path) -> Roster:
     text = re.sub(r"\Asep=[,;\t]\r?\n", "", text.removeprefix(mark))  # only spreadsheets read it
     first = text.partition("\n")[0]
     delimiter = max(",;\t", key=lambda each: len(next(csv.reader([first], delimiter=each), [])))
-    lines = [row for row in csv.reader(io.StringIO(text, newline=""), delimiter=delimiter) if row]
+    cells = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+    lines = [row for row in cells if any(map(str.strip, row))]
     if len(lines) < 2:
         raise Stop(f"{path} is empty: it needs a row of titles and a row per student")
     written = columns = [title.strip() for title in lines[0]]

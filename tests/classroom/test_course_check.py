@@ -62,7 +62,7 @@ def test_all_that_would_go_wrong_is_said_at_once(place):
     "roster, words",
     [
         ("Email address\nann@x.edu\nann@x.edu\n", "is listed 2 times"),
-        ("Email address,Name\nann@x.edu,A\n,B\n", "1 rows have no 'Email address'"),
+        ("Email address,Name\nann@x.edu,A\n,B\n", "1 row has no 'Email address'"),
         (
             "First name,Last name,Email address\nA,L,a@x.edu\nA,L,b@x.edu\n",
             "a@x.edu and b@x.edu have one name",

@@ -421,9 +421,9 @@ def tab_to(page: Any, *names: str) -> None:
 
 
 def test_a_text_that_was_typed_is_shown_as_its_source():
-    shown = show_file("onlinetext.html", b"<html><p>I am ill</p></html>", [])
+    shown = show_file("onlinetext.html", b"<html><p>I am ill</p></html>", [], 9)
     assert shown.lines == ["<html><p>I am ill</p></html>"] and shown.note == "a web page"
-    assert show_file("report.pdf", b"%PDF-1.7", []).lines == []
+    assert show_file("report.pdf", b"%PDF-1.7", [], 9).lines == []
 
 
 # ---------------------------------------------------------------- mail

@@ -403,9 +403,23 @@ def test_no_zip_reaches_outside(classroom, name):
     assert "outside" in refused(classroom, zipped(PROGRAM | {name: "x"}))
 
 
-@pytest.mark.parametrize("name", ["aux.py", "a/com1.txt", "what?.py", "x" * 200])
-def test_names_that_not_every_system_has_are_refused(classroom, name):
+@pytest.mark.parametrize(
+    "name", ["aux.py", "a/com1.zip", "what?.py", "lab: last/more.py", "x" * 200]
+)
+def test_names_of_work_that_not_every_system_has_are_refused(classroom, name):
     assert "not for every system" in refused(classroom, zipped(PROGRAM | {name: "x"}))
+
+
+@pytest.mark.parametrize("name", ["a/com1.txt", 'the "floor".png', "at 10:30.png", "note: b.md"])
+def test_other_files_with_such_names_are_left_out(classroom, name):
+    package = read_package(handed_in(classroom, zipped(PROGRAM | {name: "x"})))
+    assert [file for file, _ in package.files] == sorted(PROGRAM)
+    assert package.notes == [f"left out {name!r}: a name not for every system"]
+
+
+def test_what_desktops_leave_behind_is_left_out_whatever_its_name(classroom):
+    package = read_package(handed_in(classroom, zipped(PROGRAM | {"lab/Icon\r": ""})))
+    assert [file for file, _ in package.files] == sorted(PROGRAM) and not package.notes
 
 
 def test_names_that_differ_in_case_alone_are_refused(classroom):
@@ -619,3 +633,19 @@ def test_notes_of_one_submission_are_few(classroom):
     copies = {f"integrators ({number}).py": PROGRAM["integrators.py"] for number in range(200)}
     notes = read_package(Found("ann", (write(classroom / "ann", {**PROGRAM, **copies}),))).notes
     assert len(notes) == 21 and notes[-1] == "and 181 notes more"
+
+
+def test_what_the_teacher_tried_in_canvas_is_nobodys(classroom):
+    for name in ("studenttest_400001_9_lab.zip", "studenttest_LATE_400001_text.html"):
+        (classroom / name).write_bytes(zipped(PROGRAM))
+    (classroom / "doejane_12_34_lab.zip").write_bytes(zipped(PROGRAM))
+    with open_class(classroom) as intake:
+        assert intake.names == ["doejane_12"] and len(intake.notes) == 2
+        assert intake.notes[0].endswith("is left out: the teacher's own trial")
+
+
+@pytest.mark.parametrize("empty", [",,", " , ,\t"])
+def test_a_blank_row_of_a_class_list_is_nobody(tmp_path, empty):
+    path = tmp_path / "list.csv"
+    path.write_text(f"Email address,First name,Last name\n{empty}\na@x,A,L\n{empty}\n")
+    assert [row["Email address"] for row in read_roster(path).rows] == ["a@x"]
