@@ -1,7 +1,6 @@
 """Why the stable engine loses the rows that it loses, by how their titles begin."""
 
 SOFT = "Contacts are soft: they sink by a little that grows with the weight."
-MEET = "Only what does not move stops a bullet."
 REASONS = {
     "strike: the end of a rod at": "An impact does not see the rod behind a ball.",
     "bounce: rough, 900 px/s": "Friction takes more than μ times the impulse of the impact.",
@@ -19,8 +18,6 @@ REASONS = {
     "heavy on light: 1, 10": SOFT,
     "bad start: 10 balls with the same centre, speed": "Pairs part as fast as they are pushed, "
     "each in a direction of its own.",
-    "bullets: two that meet at 5,000 px/s": MEET,
-    "bullets: two that meet at 50,000 px/s": MEET,
     "gas: 20 balls of 1:100": "Impacts slower than 30 px/s do not bounce.",
 }
 
