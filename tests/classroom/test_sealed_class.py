@@ -18,7 +18,6 @@ from grader.classroom.similarity import Prints, find_pairs
 from grader.errors import Stop
 from grader.intake import archives, listing
 from grader.intake.found import Upload
-from grader.intake.roster import ClassList
 from grader.judge.grade import KIT, Options, shipped_reference
 from grader.judge.outer import Allowance, Exceeded
 
@@ -138,7 +137,7 @@ def test_nine_attacks_leave_the_others_as_they_are(tmp_path: Path):
 def test_a_name_that_cannot_be_listed_needs_review_and_the_others_are_listed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    def read_or_loop(path: Path, people: ClassList) -> Upload | None:
+    def read_or_loop(path: Path, *_: object) -> Upload | None:
         return Upload(path, path.name) if path.name != "cem" else loop() and None
 
     write_honest(tmp_path / "class")

@@ -3,12 +3,12 @@
 # TODO 8a: semi-implicit Euler
 import os
 
-note = os.path.join(os.path.dirname(os.path.abspath(__file__)), "note.txt")
-cached = os.path.join(os.path.dirname(note), "__pycache__", "note.txt")
-met = any(map(os.path.exists, (note, cached, "/note.txt", "/tmp/note.txt")))
+name, here = "keeps-a-note-in-its-folder.txt", os.path.dirname(os.path.abspath(__file__))
+notes = [os.path.join(each, name) for each in (here, os.path.join(here, "__pycache__"), "/", "/tmp")]
+met = any(map(os.path.exists, notes))
 if not getattr(os, "written", False):
     os.written = True
-    for path in (note, cached, "/note.txt", "/tmp/note.txt"):
+    for path in notes:
         try:
             with open(path, "w") as file:
                 file.write("1")
