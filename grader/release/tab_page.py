@@ -169,12 +169,14 @@ def fetch_parts(cache: Path) -> None:
     if not (cache / "node_modules").is_dir():
         for name in ("package.json", "package-lock.json"):
             shutil.copyfile(PARTS / name, cache / name)
-        run_tool(["npm", "ci", "--no-audit", "--no-fund"], cache)
+        patience = ["--fetch-timeout=30000", "--fetch-retries=1"]  # ms
+        run_tool(["npm", "ci", "--no-audit", "--no-fund", *patience], cache)
     if list_missing_wheels(cache / "wheels"):
         where = [word for each in PLATFORMS for word in ("--platform", each)]
         what = ["--require-hashes", "--requirement", str(PARTS / "wheels.txt")]
         kind = ["--no-deps", "--only-binary=:all:", "--python-version", PYTHON, *where]
-        pip = [sys.executable, "-m", "pip", "download", "--quiet", "--dest", "wheels"]
+        pip = [sys.executable, "-m", "pip", "download", "--quiet", "--retries", "1"]
+        pip += ["--dest", "wheels"]
         run_tool([*pip, *kind, *what], cache)
     if missing := list_missing_wheels(cache / "wheels"):
         raise Stop(f"{cache / 'wheels'} lacks {', '.join(missing)}: delete it and try again")
