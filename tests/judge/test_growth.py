@@ -276,7 +276,14 @@ def test_work_grows_little_faster_than_any_input(kind: str):
     try_shapes(kind, 300)
 
 
-@pytest.mark.parametrize("unit", ["x = 1\n", "\n", "x = 1\n\n"])
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "x = 1\n\n",
+        pytest.param("x = 1\n", marks=pytest.mark.soak),
+        pytest.param("\n", marks=pytest.mark.soak),
+    ],
+)
 def test_a_comment_is_found_in_time_among_lines_of_one_text(unit: str):
     check_growth(find_comment, Shape("x = 1\n", unit, ""), 80_000)
 
