@@ -4,6 +4,6 @@ import { readFileSync } from "node:fs";
 const [pyodide, program, folder] = process.argv.slice(2);
 const { loadPyodide } = await import(`${pyodide}/pyodide.mjs`);
 const python = await loadPyodide({ indexURL: `${pyodide}/`, env: { PYTHONHASHSEED: "0" } });
-python.mountNodeFS("/work", folder);
+python.mountNodeFS("/parts", folder);
 python.runPython(readFileSync(program, "utf8"));
 process.exit(0);

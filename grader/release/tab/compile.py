@@ -1,6 +1,6 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-Each NAME.zip in /work gets a NAME.pyc.zip beside it. It holds our own programs, and of others those
+Each NAME.zip in /parts gets a NAME.pyc.zip beside it. It holds our own programs, and of others those
 that are loaded by now, without what describes them. The page does not look whether a file is newer.
 """
 
@@ -19,7 +19,7 @@ DESCRIBED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 
 def load_page():
     """Load all that the page loads before it answers."""
-    shutil.unpack_archive("/work/lab.zip", "/")
+    shutil.unpack_archive("/parts/lab.zip", "/")
     sys.path[:0] = ["/shims", "/kit", "/site"]
     importlib.invalidate_caches()
     import page
@@ -55,4 +55,4 @@ def strip(tree):
 load_page()
 loaded = {getattr(each, "__file__", None) for each in [*sys.modules.values()]}
 for each in ("lab", "python_stdlib"):
-    compile_archive(Path(f"/work/{each}.zip"), loaded)
+    compile_archive(Path(f"/parts/{each}.zip"), loaded)
