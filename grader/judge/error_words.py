@@ -79,47 +79,41 @@ class Error:
         """Return the names that the file has outside its functions."""
         return {*imported_names(self.body), *bound(self.body)}
 
-    @property
-    def targets(self) -> set[str]:
-        """Return the names that the line itself gives a value: none of them has one before."""
-        nodes = ast.walk(self.function) if self.function else ()
-        here = (node for node in nodes if isinstance(node, ast.Name) and node.lineno == self.line)
-        return {node.id for node in here if isinstance(node.ctx, ast.Store)}
-
-    def reads_self(self, name: str) -> bool:
-        """Return whether the line reads self.name."""
-        nodes = ast.walk(self.function) if self.function else ()
-        return any(
-            isinstance(node, ast.Attribute)
-            and node.attr == name
-            and node.lineno == self.line
-            and isinstance(node.value, ast.Name)
-            and node.value.id == "self"
-            for node in nodes
-        )
-
-    def hands_over(self, name: str) -> bool:
-        """Return whether the line gives a call the answer of a function that is defined here."""
-        inner = {
-            node.name
-            for node in ast.walk(self.function or ast.Module([], []))
-            if isinstance(node, ast.FunctionDef)
-        }
-        given = [
-            each
-            for call in self.calls()
-            for each in (*call.args, *(keyword.value for keyword in call.keywords))
-        ]
-        return name in inner and any(
-            isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id == name
-            for each in given
-        )
+    def nodes(self) -> Iterator[ast.AST]:
+        """Yield the nodes that begin in the line."""
+        for node in ast.walk(self.function) if self.function else ():
+            if getattr(node, "lineno", 0) == self.line:
+                yield node
 
     def calls(self) -> Iterator[ast.Call]:
         """Yield the calls that begin in the line."""
-        for node in ast.walk(self.function) if self.function else ():
-            if isinstance(node, ast.Call) and node.lineno == self.line:
-                yield node
+        return (node for node in self.nodes() if isinstance(node, ast.Call))
+
+    @property
+    def targets(self) -> set[str]:
+        """Return the names that the line itself gives a value: none of them has one before."""
+        names = (node for node in self.nodes() if isinstance(node, ast.Name))
+        return {node.id for node in names if isinstance(node.ctx, ast.Store)}
+
+    def reads_self(self, name: str) -> bool:
+        """Return whether the line reads self.name."""
+        for node in self.nodes():
+            match node:
+                case ast.Attribute(ast.Name("self"), attr) if attr == name:
+                    return True
+        return False
+
+    def hands_over(self, name: str) -> bool:
+        """Return whether the line gives a call the answer of a function that is defined here."""
+        body = ast.walk(self.function) if self.function else ()
+        if not any(isinstance(node, ast.FunctionDef) and node.name == name for node in body):
+            return False
+        for call in self.calls():
+            for given in (*call.args, *(keyword.value for keyword in call.keywords)):
+                match given:
+                    case ast.Call(ast.Name(called)) if called == name:
+                        return True
+        return False
 
 
 def explain_error(got: str, read: Callable[[str], str], todo: str) -> str:
@@ -226,13 +220,10 @@ def explain_attribute(match: Match, error: Error) -> str:
             return "pymunk.PinJoint takes two bodies first, and then the anchor on each."
         return f"A {kind} of two numbers has no {name}. A vector has: write Vector2(x, y)."
     if kind in ("int", "float"):
-        for node in ast.walk(error.function) if error.function else ():
+        for node in error.nodes():
             match node:
-                case ast.Attribute(ast.Name(id=thing), attr, lineno=line) if (
-                    attr == name
-                    and line == error.line
-                    and thing in error.values
-                    and thing in error.parameters
+                case ast.Attribute(ast.Name(id=thing), attr) if (
+                    attr == name and thing in error.values and thing in error.parameters
                 ):
                     return REBOUND.format(line=error.values[thing], name=thing)
         if name == "clamp":

@@ -19,7 +19,7 @@ from grader.judge.course import FULL, Course
 from grader.judge.failures import IDLE, LOOP, REBOUND, UNREAD, Broke, Failing, NotYet
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
-from grader.judge.meaning import Evidence, Left, explain
+from grader.judge.meaning import NOTHING_SHOWN, Evidence, Left, RegionWords, explain
 from grader.judge.names import Names
 from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
@@ -310,19 +310,15 @@ class Grading:
         """Return by TODO which line of its function was changed outside its region, in words."""
         return {each.todo: each.outside for each in self.changed_given(()) if each.outside}
 
-    def read_region(self, todo: Todo) -> tuple[str, str, str, str]:
-        """Return what the text of a failed TODO shows, in words.
-
-        That is a line outside its region, an argument with another value, a loop, and a name that
-        gets a value which nothing reads.
-        """
+    def read_region(self, todo: Todo) -> RegionWords:
+        """Return what the text of a failed TODO shows."""
         where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
         if where is None or not path:
-            return "", "", "", ""
+            return NOTHING_SHOWN
         text = read_source(self.submission.folder / where.file)
         rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
         unread = find_unread(text, todo.id, path)
-        return (
+        return RegionWords(
             self.outside_of_region.get(todo.id, ""),
             REBOUND.format(line=rebound[0], name=rebound[1]) if rebound else "",
             LOOP.format(line=loop[0], text=loop[1]) if loop else "",
@@ -453,7 +449,7 @@ class Grading:
             lambda check: self.names.hint(todo, modules[check.id], check),
             {id: starts[module] for id, module in modules.items() if module in starts},
             self.left.get(todo.id),
-            *(self.read_region(todo) if ran else ("", "", "", "")),
+            self.read_region(todo) if ran else NOTHING_SHOWN,
             self.submission.remarks.get(todo.id, ""),
         )
         told = explain(evidence, checks, ran)

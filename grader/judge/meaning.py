@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import msgspec
 
@@ -34,12 +35,24 @@ FINISH = "TODO {ids} must be right before this can be checked: finish {it} first
 
 @dataclass(frozen=True)
 class Left:
-    """What was left in a TODO's region and should be gone: a sentence about it, and its line."""
+    """Say what was left in a TODO's region and should be gone, and in which line."""
 
     words: str
     where: Where
     is_all: bool  # whether nothing else needs to be told
     answers: bool = False  # whether it gives all answers that come at all
+
+
+class RegionWords(NamedTuple):
+    """Say what the text of a TODO shows, in words; empty where it shows no such thing."""
+
+    outside: str = ""  # which line of its function stands outside its region
+    rebound: str = ""  # which argument gets another value
+    loop: str = ""  # which loop of its code may never end
+    unread: str = ""  # which name gets a value that nothing reads
+
+
+NOTHING_SHOWN = RegionWords()
 
 
 @dataclass(frozen=True)
@@ -56,10 +69,7 @@ class Evidence:
     hint: Callable[[CheckResult], str] = lambda check: ""  # about names and arguments
     where: Mapping[str, Where] = field(default_factory=dict)  # where the program begins
     left: Left | None = None
-    outside: str = ""  # which line of its function stands outside its region
-    rebound: str = ""  # which argument gets another value
-    loop: str = ""  # which loop of its code may never end
-    unread: str = ""  # which name gets a value that nothing reads
+    region: RegionWords = NOTHING_SHOWN
     remark: str = ""  # why no code of the TODO counts
 
     @cached_property
@@ -97,12 +107,14 @@ def blame_given_code(evidence: Evidence, check: CheckResult) -> str:
         return ""
     if blamed.is_gone:
         return f"{blamed.in_words} {explain_names(evidence, check)}".rstrip()
-    told = "" if blamed.is_all else next_explanation(evidence, check)
+    told = "" if blamed.is_all else explain_after(blame_given_code, evidence, check)
     return f"{blamed.in_words} {told}".rstrip()
 
 
-def next_explanation(evidence: Evidence, check: CheckResult) -> str:
-    return next(filter(None, (each(evidence, check) for each in EXPLAINERS[1:])), "")
+def explain_after(explainer: "Explainer", evidence: Evidence, check: CheckResult) -> str:
+    """Return what the first explainer behind this one says that says anything."""
+    after = EXPLAINERS[EXPLAINERS.index(explainer) + 1 :]
+    return next(filter(None, (each(evidence, check) for each in after)), "")
 
 
 def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
@@ -114,13 +126,13 @@ def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
         return ""
     if evidence.left.is_all or (evidence.left.answers and check.state != "error"):
         return evidence.left.words
-    told = next(filter(None, (each(evidence, check) for each in EXPLAINERS[2:])), "")
+    told = explain_after(name_what_was_left, evidence, check)
     return f"{told} {evidence.left.words}".strip()
 
 
 def name_loop(evidence: Evidence, check: CheckResult) -> str:
     """Name the loop of a TODO whose check ran out of time: no answer was there to be explained."""
-    return evidence.loop if check.state == "error" and check.got.startswith(ENDLESS) else ""
+    return evidence.region.loop if check.state == "error" and check.got.startswith(ENDLESS) else ""
 
 
 def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
@@ -137,11 +149,9 @@ def explain_names(evidence: Evidence, check: CheckResult) -> str:
 
 def name_unread(evidence: Evidence, check: CheckResult) -> str:
     """Name a value that nothing reads, which may be why the answers are wrong as they are."""
-    if not evidence.unread or check.state == "error":
+    if not evidence.region.unread or check.state == "error":
         return ""
-    after = EXPLAINERS[EXPLAINERS.index(name_unread) + 1 :]
-    told = next(filter(None, (each(evidence, check) for each in after)), "")
-    return f"{told} {evidence.unread}".strip()
+    return f"{explain_after(name_unread, evidence, check)} {evidence.region.unread}".strip()
 
 
 def name_mistake(evidence: Evidence, check: CheckResult) -> str:
@@ -157,8 +167,8 @@ def name_trespass(evidence: Evidence, check: CheckResult) -> str:
 
 def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
     """Name code of the TODO outside its region, with what its answers are like."""
-    told = describe_answers(evidence, check) if evidence.outside else ""
-    return f"{evidence.outside} {told}".strip()
+    told = describe_answers(evidence, check) if evidence.region.outside else ""
+    return f"{evidence.region.outside} {told}".strip()
 
 
 def name_rounding(evidence: Evidence, check: CheckResult) -> str:
@@ -174,7 +184,7 @@ def name_rounding(evidence: Evidence, check: CheckResult) -> str:
 
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:
     """Name an argument that gets another value, where nothing else is known."""
-    return evidence.rebound
+    return evidence.region.rebound
 
 
 def name_earlier_todos(evidence: Evidence, check: CheckResult) -> str:

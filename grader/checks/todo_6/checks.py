@@ -51,14 +51,15 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
         all(-STEP_MS - p.waiting <= p.time - p.done <= STEP_MS + p.slack for p in paces.values()),
         ", ".join(f"{each.time / 1000:.3f} s at {rate}" for rate, each in paces.items()),
         ", ".join(f"{each.done / 1000:.3f} s at {rate}" for rate, each in paces.items()),
-        OTHER_STEPS
-        if any(each.sizes and not fixed(each.sizes) for each in paces.values())
-        else explain_too_much({rate: each.done / each.time for rate, each in paces.items()}),
+        explain_too_much(paces),
     )
 
 
-def explain_too_much(shares: dict[int, float]) -> str:
+def explain_too_much(paces: dict[int, Pace]) -> str:
     """Say what follows where more time is simulated than passes, by the frames a second."""
+    if any(each.sizes and not fixed(each.sizes) for each in paces.values()):
+        return OTHER_STEPS
+    shares = {rate: each.done / each.time for rate, each in paces.items()}
     if min(shares.values()) <= 1.05:
         return ""
     if shares[30] > 1.05 * shares[144]:
