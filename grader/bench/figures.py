@@ -29,7 +29,7 @@ KEPT = KIT / "build" / "bench"  # other commits, unpacked
 
 
 class Sizes(NamedTuple):
-    """How much is measured."""
+    """Say how much is measured."""
 
     rounds: int
     graded: int  # submissions in the class that is graded
@@ -38,7 +38,7 @@ class Sizes(NamedTuple):
 
 
 class Used(NamedTuple):
-    """What a command took: s on the clock, processor s, and MB of its largest process."""
+    """Hold what a command took: s on the clock, processor s, and MB of its largest process."""
 
     seconds: float
     cpu: float

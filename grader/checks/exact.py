@@ -50,7 +50,7 @@ def circle_box(disc: Disc, rect: Rect) -> list[Touch | None]:
 
 
 def equally_near(disc: Disc, rect: Rect) -> bool:
-    """Whether a centre inside has two nearest faces, so that either way out is right."""
+    """Return whether a centre inside has two nearest faces: either way out is right then."""
     across, down = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
     if min(across, down) < 0:
         return False
@@ -208,7 +208,7 @@ class Discs(NamedTuple):
 
     @property
     def k(self) -> float:
-        """How much an impulse changes the speed along it, 1/kg, where nothing turns."""
+        """Return the change of speed by one unit of impulse, 1/kg, where nothing turns."""
         return inverse(self.mass[0]) + inverse(self.mass[1])
 
 
@@ -263,7 +263,7 @@ def rk4(x: float, v: float, dt: float, accel: Accel) -> State:
 
 
 def pymunk_fall(gravity: float, dt: float, steps: int) -> tuple[float, float]:
-    """How far a body falls from rest, and its speed; pymunk moves it before it speeds it up."""
+    """Return the way and speed of a fall from rest; pymunk moves a body before it speeds it up."""
     return gravity * dt**2 * steps * (steps - 1) / 2, gravity * dt * steps
 
 
@@ -272,7 +272,7 @@ def disc_moment(mass: float, radius: float) -> float:
 
 
 def rolling_speed(speed: float) -> float:
-    """What is left of a full disc's speed once it rolls; friction decides only how soon."""
+    """Return the speed that a full disc keeps once it rolls; friction decides only how soon."""
     return speed * 2 / 3
 
 

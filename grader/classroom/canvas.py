@@ -64,7 +64,7 @@ OF_ONE_STUDENT = (  # refusals after which the others' marks may go through
 
 
 class Sent(Struct):
-    """What was sent of one student; two marks where the last one may not have arrived."""
+    """Hold what was sent of one student; two marks where the last may not have arrived."""
 
     marks: list[str] = []
     digest: str = ""
@@ -79,7 +79,7 @@ class Record(Struct):
 
 @dataclass(frozen=True)
 class Work:
-    """What one student is to get."""
+    """Hold what one student is to get."""
 
     name: str
     user: str  # the student's id in Canvas
@@ -114,7 +114,7 @@ class Change:
 
 @dataclass
 class Plan:
-    """What is to be sent, and notes on what is not as usual."""
+    """Hold what is to be sent, and notes on what is not as usual."""
 
     changes: list[Change] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)

@@ -55,7 +55,7 @@ Form = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Request:
-    """What a browser asks for."""
+    """Hold what a browser asks for."""
 
     method: str
     path: str

@@ -346,7 +346,7 @@ def feedback_command(
 
 @dataclass(frozen=True)
 class Sources:
-    """What pages are made of besides the results."""
+    """Hold what pages are made of besides the results."""
 
     submissions: Path | None
     roster: Path | None
@@ -443,7 +443,7 @@ def marks_command(
 
 @dataclass(frozen=True)
 class Assessed:
-    """What marks are made of: results of a class, or else the gradebook in nbgrader's folder."""
+    """Name what marks are made of: a class's results, or the gradebook in nbgrader's folder."""
 
     course: Course
     settings: Path | None  # marks.toml

@@ -82,7 +82,7 @@ class Lost(Exception):
 
 
 class Failed(Exception):
-    """What was called raised an exception; the message has its type and its words."""
+    """Tell that what was called raised an exception; the message has its type and its words."""
 
 
 class Answer(Struct, tag=True):

@@ -27,7 +27,7 @@ def record_anew(what: str, make: Callable[[], bytes]) -> bytes:
 
 
 class Recordings:
-    """What was recorded for the release of a course; all of it is recorded again if `fresh`."""
+    """Keep what was recorded for the release of a course; record all of it again if `fresh`."""
 
     def __init__(self, course: Course, folder: Path = FOLDER, fresh: bool = False) -> None:
         self.folder, self.key, self.fresh = folder, make_record_key(course), fresh

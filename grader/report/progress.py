@@ -44,7 +44,7 @@ class Counter:
 
 
 class CheckProgress:
-    """What a check of one's own work shows while it runs: a bar, and at once a loop without end.
+    """Show how a check of one's own work goes on: a bar, and at once a loop without end.
 
     Checks end in the order of the rubric.
     """

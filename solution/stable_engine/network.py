@@ -10,7 +10,7 @@ from .joint import AnyJoint, Joint
 
 
 class Coupling:
-    """What an impulse on one joint does to the speed of another one.
+    """Hold what an impulse on one joint does to the speed of another one.
 
     They share a ball, or both share one with a joint that is eliminated before them. The matrix is
     symmetric: once the order is known, `one` is eliminated before `other`.

@@ -14,7 +14,9 @@ from points_pool import Inline
 
 from grader.classroom import grading
 
-pytest.importorskip("canvasapi", reason="marks go to Canvas with the extra `canvas` alone")
+pytest.importorskip(
+    "canvasapi", reason="needs the extra `canvas`, whose library sends marks to Canvas"
+)
 from canvasapi import exceptions
 from canvasapi.course import Course
 from canvasapi.requester import Requester

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("Box2D", reason="needs the extra `box2d`, a fourth engine to compare with")
+pytest.importorskip("Box2D", reason="needs Box2D 2.3, of the extra `box2d`")
 
 from experiments.engines import ENGINES
 from experiments.measures import energy, finite, run

@@ -229,12 +229,18 @@ def test_the_handout_says_what_the_engine_does_now(row):
 # ---------------------------------------------------------------- engines
 
 INSTALLED = {one.name: one for one in list_contestants()[0]}
+NEEDS = {
+    "box2d": "Box2D 2.3, of the extra `box2d`",
+    "box2d3": "Box2D 3.1, the package pyb2d3 of the extra `box2d`",
+    "rapier": "Node.js and npm's package @dimforge/rapier2d-compat",
+    "planck": "Node.js and npm's package planck",
+}
 
 
 @pytest.mark.parametrize("name", ["pymunk", "pymunk4", "box2d", "box2d3", "rapier", "planck"])
 def test_an_engine_falls_rolls_and_swings_as_the_others_do(name):
     if name not in INSTALLED:
-        pytest.skip(f"needs {name}, one more engine to compare with")
+        pytest.skip(f"needs {NEEDS[name]}")
     one = INSTALLED[name]
     state = one.make(scenes.Scene([scenes.Ball((30, -50), 10, 2.0, (70, -90), 3.0)]), 4).read(0)
     assert tuple(state) == pytest.approx((30, -50, 70, -90, 0, 3), rel=1e-6)

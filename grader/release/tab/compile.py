@@ -1,7 +1,8 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-Each NAME.zip in /parts gets a NAME.pyc.zip beside it. It holds our own programs, and of others those
-that are loaded by now, without what describes them. The page does not look whether a file is newer.
+Each NAME.zip in /parts gets a NAME.pyc.zip beside it. It holds our own programs, and of others
+those that are loaded by now, without what describes them. The page does not look whether a file is
+newer.
 """
 
 import ast

@@ -17,7 +17,7 @@ MAX_EMBEDDED = 8_000_000  # characters of replays in one page; the others are li
 
 @dataclass(frozen=True)
 class Comment:
-    """What a person says to a student, beside the lines of code that it is about."""
+    """Hold what a person says to a student, beside the lines of code that it is about."""
 
     words: str
     place: str = ""  # the file and the line

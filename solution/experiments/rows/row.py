@@ -1,4 +1,4 @@
-"""What a row of the leaderboard is: a scene, what physics says of it, and how far off is too far.
+"""Define a row of the leaderboard: a scene, what physics says of it, and how far off is too far.
 
 Every bound comes from physics or from what a person can see, never from what an engine reached.
 Lengths in px, times in s, masses in kg, y down.

@@ -1,4 +1,4 @@
-"""What a hostile submission tries, as text; `{answers}` is a file of the instructor's.
+"""List what a hostile submission tries, as text; `{answers}` is a file of the instructor's.
 
 Each keeps to what a student can know: the graders' own documentation and source.
 """

@@ -45,7 +45,7 @@ Points = dict[str, float]  # what each got; whoever is missing could not be grad
 
 
 class Grader(NamedTuple):
-    """How to lay out a class for a grader, what to run then, and where the points are."""
+    """Say how to lay out a class for a grader, what to run then, and where the points are."""
 
     name: str
     prepare: Callable[[Path, Class], list[str]]
@@ -70,7 +70,7 @@ class Cost(NamedTuple):
     whole: list[Run]
 
     def one_more(self, kind: str) -> list[float]:
-        """What one submission more took in each round, in `seconds` or processor time, `cpu`."""
+        """Return what one submission more took in each round, in `seconds` or `cpu`, also in s."""
         more = len(self.whole[0].points) - len(self.alone[0].points)
         pairs = zip(each_of(self.alone, kind), each_of(self.whole, kind), strict=True)
         return [(whole - alone) / more for alone, whole in pairs]
@@ -145,7 +145,7 @@ def prepare_nbgrader(folder: Path, handed_in: Class) -> list[str]:
 
 
 def points_of_nbgrader(folder: Path) -> Points:
-    """What its gradebook says of those whose notebook it has graded."""
+    """Return what its gradebook says of those whose notebook it has graded."""
     ask = (
         "import json; from nbgrader.api import Gradebook\n"
         "with Gradebook('sqlite:///gradebook.db') as book:\n"
@@ -445,7 +445,7 @@ def compared(values: list[float], ours: list[float]) -> str:
 
 
 def outcomes(runs: dict[str, dict[str, Run]]) -> Table:
-    """What a hostile submission got, after how long, and whether the next one got its own."""
+    """Return what a hostile one got, after how long, and whether the next one got its own."""
     table = Table("a submission that", *runs, title=f"points of {POINTS}; it deserves 0")
     for attack in next(iter(runs.values())):
         table.add_row(attack, *[told(each[attack]) for each in runs.values()])
