@@ -27,7 +27,7 @@ from grader.judge.result import is_bonus
 from grader.text import printable
 
 LONGEST = 300  # rows that a terminal is given; the table as a file has them all
-LONGEST_PAGE = 2000  # rows of the page: making it takes all results at once, 35 kB each
+LONGEST_PAGE = 2000  # rows of the page: making it reads every result once more
 
 
 @dataclass(frozen=True)

@@ -106,8 +106,7 @@ def build(
     copy, tree, built = work / "copy", work / NAME, work / "built"
     built.mkdir(parents=True)
     write_copy(copy, wrong, course, record)
-    runs = copy / "grader" / "checks" / "expected_runs.json"  # for replays without a reference
-    runs.write_bytes(record("runs", lambda: record_right_runs(course)))
+    write_right_runs(copy, course, record)
     lay_out(tree, course)
     extra = [work / each / NAME for each in EXTRA]
     lay_out_engines(extra[0], course)
@@ -145,6 +144,12 @@ def prove_built(
 
     folders = [built, package, tree, KIT / "solution" / "notebooks"]
     record(f"proof of {hash_folders(folders, '')}", check)
+
+
+def write_right_runs(copy: Path, course: Course, record: Record) -> None:
+    """Write into a copy of the grader what its replays show beside a run: it has no reference."""
+    runs = copy / "grader" / "checks" / "expected_runs.json"
+    runs.write_bytes(record("runs", lambda: record_right_runs(course)))
 
 
 def record_right_runs(course: Course) -> bytes:

@@ -20,6 +20,7 @@ from grader.source.regions import TODO_ID
 from grader.text import listed, moment, number
 
 EXAMPLE, BONUS_EXAMPLE = "4", "B1"  # the TODOs that commands are shown with
+SHEETS = ("lab-sheet.md", "bonus.md")  # the pages with a section for each TODO
 SECTION = re.compile(rf"^(##+) (?:TODO )?({TODO_ID}): ")
 ROW = re.compile(rf"^\| \[?({TODO_ID})(?:\]\([^)]*\))? \|")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([\w./-]+\.md)(?:#[\w-]*)?\)")
@@ -80,13 +81,18 @@ def make_handouts(folder: Path, course: Course) -> dict[str, str]:
 
 def make_tasks(texts: Mapping[str, str]) -> Tasks:
     """Return what the pages say is to be done in each TODO, as paragraphs in plain words."""
+    return {todo: list(find_paragraphs(body)) for todo, body in find_sections(texts).items()}
+
+
+def find_sections(texts: Mapping[str, str]) -> dict[str, str]:
+    """Return the text of each TODO on the lab sheet and among the bonus tasks, without heading."""
     found = {}
-    for name in ("lab-sheet.md", "bonus.md"):
-        _, *sections = re.split(r"^(?=## )", texts.get(name, ""), flags=re.M)
+    for name in SHEETS:
+        _, *sections = re.split(r"^(?=##? )", texts.get(name, ""), flags=re.M)
         for section in sections:
             heading, _, body = section.partition("\n")
             if todo := SECTION.match(heading):
-                found[todo[2]] = list(find_paragraphs(body))
+                found[todo[2]] = body
     return found
 
 

@@ -30,13 +30,13 @@ from grader.release.build import (
     hash_folders,
     list_files,
     move_into,
-    record_right_runs,
     sha256,
+    write_right_runs,
     write_zip,
 )
 from grader.release.formulas import typeset
 from grader.release.handed_out import make_students_tree
-from grader.release.handouts import make_handouts
+from grader.release.handouts import find_sections, make_handouts
 from grader.release.leaks import find_leaks, find_secrets
 from grader.release.pages import (
     SITE_ONLY,
@@ -48,7 +48,7 @@ from grader.release.pages import (
 from grader.release.recordings import Record, Recordings
 from grader.release.students_copy import Tree, write_copy
 from grader.report.files import put_in
-from grader.source.regions import TODO_ID, regions_in
+from grader.source.regions import regions_in
 
 PARTS = Path(__file__).with_name("tab")
 CACHE = KIT / "build" / "tab-cache"
@@ -62,7 +62,6 @@ TEXTS = (".py", ".md")  # what a person may edit
 UNUSED = re.compile(
     r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
 )
-SECTION = re.compile(rf"^## TODO ({TODO_ID}): .*\n", re.M)
 PREDICTION = re.compile(
     r"^\*\*Predict\.\*\*.*?^</details>\n", re.M | re.S
 )  # of films, not played here
@@ -78,7 +77,6 @@ OWN = ("kit/", "shims/")  # in lab.zip: programs whose source is kept, to be sea
 RUNS = "kit/grader/checks/expected_runs.json"
 PUBLISHED = ("lab.zip/site/", "more.zip/site/")  # the packages, as anybody gets them
 LESSON = "lesson.md"
-SHEETS = ("lab-sheet.md", "bonus.md")
 WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
 
 
@@ -120,8 +118,7 @@ def build_tab(
     site = built / f"{NAME}-tab"
     site.mkdir(parents=True)
     write_copy(copy, wrong, course, leave_out_practice(record))
-    runs = record("runs", lambda: record_right_runs(course))
-    (copy / "grader" / "checks" / "expected_runs.json").write_bytes(runs)
+    write_right_runs(copy, course, record)
     files = {n: each for n, each in make_students_tree(KIT, course).items() if is_on_page(n)}
     sources = work / "sources"
     sources.mkdir()
@@ -315,7 +312,7 @@ def write_sheet(
     """Write what the page shows of each TODO, its text, file, program and hints, and the lesson."""
     hints = tomllib.loads((copy / "grader/checks/hints.toml").read_text(encoding="utf-8"))
     handouts = make_handouts(KIT / "handouts", course)
-    sections = find_sections("\n".join(handouts.get(n, "") for n in SHEETS))
+    sections = find_texts(handouts)
     places = find_places(files)
     todos = [
         {
@@ -340,14 +337,9 @@ def write_sheet(
         shutil.copyfile(KIT / "handouts" / figure, site / figure)
 
 
-def find_sections(text: str) -> dict[str, str]:
-    """Return the text of each TODO on the lab sheet, without its heading and its films."""
-    found = {}
-    for heading in SECTION.finditer(text):
-        rest = text[heading.end() :]
-        section = re.split(r"^##? ", rest, maxsplit=1, flags=re.M)[0]
-        found[heading[1]] = PREDICTION.sub("", section)
-    return found
+def find_texts(handouts: Mapping[str, str]) -> dict[str, str]:
+    """Return what the handouts say of each TODO, without its films."""
+    return {id: PREDICTION.sub("", text) for id, text in find_sections(handouts).items()}
 
 
 def find_places(files: Mapping[str, bytes]) -> dict[str, str]:

@@ -38,7 +38,7 @@ from grader.release.tab_page import (
     add_tab,
     build_tab,
     fetch_parts,
-    find_sections,
+    find_texts,
     list_missing_wheels,
     render,
 )
@@ -546,13 +546,21 @@ def test_a_leak_stops_the_build(tmp_path: Path):
 
 
 def test_sections_ask_for_no_film_that_the_page_does_not_play():
-    sections = find_sections((KIT / "handouts" / "lab-sheet.md").read_text(encoding="utf-8"))
+    sheet = (KIT / "handouts" / "lab-sheet.md").read_text(encoding="utf-8")
+    sections = find_texts({"lab-sheet.md": sheet})
     assert len(sections) > 10 and all("**What.**" in text for text in sections.values())
     assert not [id for id, text in sections.items() if "Predict" in text or "predict" in text]
 
 
+def test_bonus_tasks_have_their_texts_too():
+    bonus = (KIT / "handouts" / "bonus.md").read_text(encoding="utf-8")
+    texts = find_texts({"bonus.md": bonus})
+    assert [*texts] == ["B1", "B2", "B3", "B4", "B5", "B6"] and all(texts.values())
+
+
 def test_a_section_names_the_buttons_of_the_page():
     says = "- [ ] `make check TODO=4` says so.\n- [ ] `python integrators.py` prints 4.\n"
-    html = render(find_sections(f"# Sheet\n\n## TODO 4: Friction\n\n{says}\n## After\n")["4"])
+    sheet = f"# Sheet\n\n## TODO 4: Friction\n\n{says}\n## After\n"
+    html = render(find_texts({"lab-sheet.md": sheet})["4"])
     assert "<strong>Check</strong> says so" in html and "<strong>Run</strong> prints 4" in html
     assert not re.search("make|After", html)
