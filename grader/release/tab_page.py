@@ -57,10 +57,11 @@ STDLIB = "python_stdlib.zip"
 LOCK = "pyodide-lock.json"
 PLATFORMS = ("pyemscripten_2026_0_wasm32", "any")
 PYTHON = "3.14"
-AS_THEY_ARE = ("README.md", "style.css", "worker.js", "shared.js")
+AS_THEY_ARE = ("README.md", "style.css", "worker.js", "shared.js", "unpack.mjs")
 TEXTS = (".py", ".md")  # what a person may edit
-UNUSED = re.compile(
-    r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$"
+UNUSED = re.compile(  # of the wheels; of cffi, pymunk loads the compiled part alone
+    r"/tests?/|/testing/|pymunk/examples/|\.dist-info/(?!METADATA)|\.(pyi|c|h|pyc)$|"
+    r"/cffi/|/hypothesis/extra/"
 )
 PREDICTION = re.compile(
     r"^\*\*Predict\.\*\*.*?^</details>\n", re.M | re.S
@@ -73,9 +74,19 @@ TYPED = (  # commands of the lab sheet, and what is pressed on the page instead
 LATER = ("figures/", "lesson.html", "more.zip")  # what the page does not wait for
 UNSERVED = ("index.html", "README.md")  # known as ./, and for those who serve the page
 COMPILED_HERE = (".so", ".pyd", ".c", ".pyi")  # not for the page's Python
-OWN = ("kit/", "shims/")  # in lab.zip: programs whose source is kept, to be searched for leaks
-RUNS = "kit/grader/checks/expected_runs.json"
-PUBLISHED = ("lab.zip/site/", "more.zip/site/")  # the packages, as anybody gets them
+FOR_CHECKS = ("kit/grader/checks/expected_runs.json", "kit/grader/checks/recorded.json")
+NOT_RUN = (  # here: of what is handed out, what no button runs
+    *("accuracy.py", "experiments/", "stable_engine/"),
+    *("notebooks/", "handouts/", "requirements.txt"),
+)
+WITHOUT_USE = re.compile(  # where there is no network, no process and no terminal
+    r"(_pyrepl|curses|dbm|ensurepip|http|idlelib|multiprocessing|pydoc_data|sqlite3|tkinter|"
+    r"turtledemo|urllib|venv|wsgiref|xml|xmlrpc)/|(_pyio|bdb|cProfile|doctest|ftplib|imaplib|"
+    r"mailbox|netrc|pdb|pickletools|poplib|profile|pstats|pydoc|smtplib|socketserver|turtle|"
+    r"webbrowser)\.py$"
+)
+SOLID = "all.zip"  # in an archive of the page: packed in one piece, which makes it a third smaller
+PUBLISHED = tuple(f"{each}/site/" for each in ("lab.zip", f"lab.zip/{SOLID}", f"more.zip/{SOLID}"))
 LESSON = "lesson.md"
 WITHOUT_PYMUNK = "This page was made without pymunk: do TODO 7 on a computer with Python."
 
@@ -126,8 +137,11 @@ def build_tab(
     write_sheet(site, copy, files, course, cffi is not None)
     pyodide = cache / "node_modules" / "pyodide"
     (site / "pyodide").mkdir()
-    for name in (*PYODIDE, LOCK):
+    for name in PYODIDE:
         shutil.copyfile(pyodide / name, site / "pyodide" / name)
+    lock = json.loads((pyodide / LOCK).read_bytes())
+    lock["packages"] = {}  # of Pyodide's distribution the page loads none
+    (site / "pyodide" / LOCK).write_text(json.dumps(lock), encoding="utf-8")
     shutil.copyfile(pyodide / STDLIB, sources / STDLIB)
     write_compiled(sources, site, pyodide)
     for name in AS_THEY_ARE:
@@ -135,7 +149,8 @@ def build_tab(
     write_index(site)
     bundle_scripts(site, cache)
     write_service_worker(site)
-    look_for_own_leaks(site, course)
+    for folder in (sources, site):  # what is compiled has its source in one of them
+        look_for_own_leaks(folder, course)
     write_zip(site, built / f"{NAME}-tab.zip", site.name)
     return built
 
@@ -146,7 +161,7 @@ def leave_out_practice(record: Record) -> Record:
 
 
 def is_on_page(name: str) -> bool:
-    return not name.startswith(("notebooks/", "handouts/")) and name != "requirements.txt"
+    return not name.startswith(NOT_RUN)
 
 
 def look_for_own_leaks(site: Path, course: Course) -> None:
@@ -255,55 +270,41 @@ def write_compiled(sources: Path, site: Path, pyodide: Path) -> None:
     """Write the archives in `sources` into the page: compiled what it loads, and apart the rest."""
     words = [str(PARTS / "compile.mjs"), str(pyodide), str(PARTS / "compile.py"), str(sources)]
     run_tool(["node", *words], sources)
-    lab, later = split_lab(*map(read_archive, (sources / "lab.zip", sources / "lab.pyc.zip")))
-    stdlib, more = split_stdlib(
-        *map(read_archive, (sources / STDLIB, sources / "python_stdlib.pyc.zip"))
+    lab, compiled, stdlib, booted, loaded = (
+        read_archive(sources / f"{name}.zip")
+        for name in ("lab", "lab.pyc", "python_stdlib", "booted.pyc", "loaded.pyc")
     )
-    for path, files in (
-        (site / "lab.zip", lab),
-        (site / "more.zip", later | more),
-        (site / "pyodide" / STDLIB, stdlib),
-    ):
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-            for name, content in sorted(files.items()):
-                put_in(archive, name, content)
+    first = {n: each for n, each in lab.items() if not is_for_later(n)} | compiled
+    first |= {f"stdlib/{name}": each for name, each in loaded.items()}
+    done = {name.removesuffix("c") for name in compiled}
+    later = {name: each for name, each in lab.items() if name not in first and name not in done}
+    done = {name.removesuffix("c") for name in (*booted, *loaded)}
+    later |= {
+        f"stdlib/{name}": each
+        for name, each in stdlib.items()
+        if name not in done and not WITHOUT_USE.match(name)
+    }
+    write_archive(site / "pyodide" / STDLIB, booted)
+    for name, files in (("lab.zip", first), ("more.zip", later)):
+        write_archive(sources / SOLID, files, zipfile.ZIP_STORED)
+        solid = {SOLID: (sources / SOLID).read_bytes()}
+        write_archive(site / name, solid, zipfile.ZIP_LZMA)
+    (sources / SOLID).unlink()
 
 
 Files = dict[str, bytes]
 
 
-def split_lab(files: Files, compiled: Files) -> tuple[Files, Files]:
-    """Return what the page loads at first, and what it loads when people read.
-
-    A package of others has its compiled programs in place of their sources; ours have both.
-    """
-    first = {name: each for name, each in files.items() if not is_for_later(name)}
-    for name, content in compiled.items():
-        if name.startswith(OWN):
-            folder, _, file = name.rpartition("/")
-            version = PYTHON.replace(".", "")
-            first[f"{folder}/__pycache__/{file[:-4]}.cpython-{version}.pyc"] = content
-        else:
-            first[name] = content
-    done = {name.removesuffix("c") for name in compiled if not name.startswith(OWN)}
-    later = {name: files[name] for name in files.keys() - first.keys() - done}
-    return first, later
+def write_archive(target: Path, files: Files, method: int = zipfile.ZIP_DEFLATED) -> None:
+    with zipfile.ZipFile(target, "w") as archive:
+        for name, content in sorted(files.items()):
+            put_in(archive, name, content, method=method)
 
 
 def is_for_later(name: str) -> bool:
-    return name == RUNS or (name.startswith("site/") and name.endswith(".py"))
-
-
-def split_stdlib(files: Files, compiled: Files) -> tuple[Files, Files]:
-    """Return the same of Python's own modules; a package stays in one piece."""
-    loaded = {name.partition("/")[0].removesuffix(".pyc") for name in compiled}
-    first, later = dict(compiled), {}
-    for name, content in files.items():
-        if name.partition("/")[0].removesuffix(".py") not in loaded:
-            later[f"stdlib/{name}"] = content
-        elif f"{name}c" not in compiled:
-            first[name] = content
-    return first, later
+    """Return whether the page is shown before it has this file."""
+    ours = not name.startswith("lab/")
+    return (ours and name.endswith(".py")) or name in FOR_CHECKS
 
 
 def write_sheet(

@@ -45,9 +45,15 @@ def write_whole(content: bytes, path: Path) -> None:
         raise
 
 
-def put_in(archive: zipfile.ZipFile, name: str, content: bytes, mode: int = PLAIN) -> None:
+def put_in(
+    archive: zipfile.ZipFile,
+    name: str,
+    content: bytes,
+    mode: int = PLAIN,
+    method: int = zipfile.ZIP_DEFLATED,
+) -> None:
     """Put a file into an archive, so that the same files make the same archive on any day."""
     member = zipfile.ZipInfo(name, DAY_ONE)
-    member.compress_type = zipfile.ZIP_DEFLATED
+    member.compress_type = method
     member.external_attr = mode << 16
     archive.writestr(member, content)

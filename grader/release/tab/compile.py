@@ -1,26 +1,31 @@
 """Compile what the page loads: by the page's own Python, when the page is made.
 
-Each NAME.zip in /parts gets a NAME.pyc.zip beside it. It holds our own programs, and of others
-those that are loaded by now, without what describes them. The page does not look whether a file is
-newer.
+/parts/lab.zip gets lab.pyc.zip beside it, with what it loads in place of its sources; and
+python_stdlib.zip gets booted.pyc.zip, what Python loads by itself, and loaded.pyc.zip, what the
+page loads after that. Docstrings stay where they are titles of checks. The page does not look
+whether a file is newer.
 """
 
 import ast
 import importlib.util
+import lzma  # noqa: F401 - the page unpacks with it
 import shutil
 import sys
 import zipfile
 from importlib._bootstrap_external import _code_to_hash_pyc
 from pathlib import Path
 
-PLACES = {"lab": "/", "python_stdlib": "/lib/python314.zip/"}  # where the page has them
-OWN = ("kit/", "shims/")
+STDLIB = "/lib/python314.zip/"  # where the page has it
+TITLED = "kit/grader/checks/"
 DESCRIBED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def list_loaded():
+    return {getattr(each, "__file__", None) for each in [*sys.modules.values()]}
 
 
 def load_page():
     """Load all that the page loads before it answers."""
-    shutil.unpack_archive("/parts/lab.zip", "/")
     sys.path[:0] = ["/shims", "/kit", "/site"]
     importlib.invalidate_caches()
     import page
@@ -29,17 +34,18 @@ def load_page():
     page.warm()
 
 
-def compile_archive(path, loaded):
-    place = PLACES[path.stem]
+def compile_archive(path, place, loaded, target):
+    """Compile the programs of an archive whose files are among those that were loaded."""
     with (
         zipfile.ZipFile(path) as archive,
-        zipfile.ZipFile(path.with_suffix(".pyc.zip"), "w") as compiled,
+        zipfile.ZipFile(f"/parts/{target}.pyc.zip", "w") as compiled,
     ):
         for name in archive.namelist():
-            own = name.startswith(OWN)
-            if name.endswith(".py") and (own or place + name in loaded):
+            if name.endswith(".py") and place + name in loaded:
                 source = archive.read(name)
-                tree = source if own else strip(ast.parse(source))
+                tree = ast.parse(source)
+                if not name.startswith(TITLED):
+                    strip(tree)
                 code = compile(tree, place + name, "exec", dont_inherit=True)
                 mark = importlib.util.source_hash(source)
                 compiled.writestr(f"{name}c", _code_to_hash_pyc(code, mark, False))
@@ -50,10 +56,13 @@ def strip(tree):
     for node in ast.walk(tree):
         if isinstance(node, DESCRIBED) and len(node.body) > 1 and ast.get_docstring(node, False):
             del node.body[0]
-    return tree
 
 
+LAB, LIBRARY = Path("/parts/lab.zip"), Path("/parts/python_stdlib.zip")
+shutil.unpack_archive(LAB, "/")
+booted = list_loaded()
 load_page()
-loaded = {getattr(each, "__file__", None) for each in [*sys.modules.values()]}
-for each in ("lab", "python_stdlib"):
-    compile_archive(Path(f"/parts/{each}.zip"), loaded)
+loaded = list_loaded() - booted
+compile_archive(LAB, "/", loaded, "lab")
+compile_archive(LIBRARY, STDLIB, booted, "booted")
+compile_archive(LIBRARY, STDLIB, loaded, "loaded")

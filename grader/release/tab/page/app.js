@@ -62,6 +62,17 @@ function showFiles() {
   const names = Object.keys({ ...given, ...files }).filter((name) =>
     name.endsWith(".py") && (!name.includes("/") || (inside && name.startsWith(`${top}/`))));
   $("file").replaceChildren(...names.sort().map((name) => new Option(name)));
+  showLetters(names.filter((name) => name === todo.file || (inside && name.startsWith(`${top}/`))));
+}
+
+// Offer the letters that a program with these files listens to, for who has no keyboard.
+function showLetters(names) {
+  const bonus = todo.file.includes("/bonus/");
+  const text = names.filter((name) => bonus || !name.includes("/bonus/")).map(textOf).join();
+  const letters = new Set([...text.matchAll(/\bK_([a-z])\b/g)].map(([, letter]) => letter));
+  for (const button of document.querySelectorAll("[data-letter]")) {
+    button.hidden = !letters.has(button.dataset.key);
+  }
 }
 
 function step(by) {

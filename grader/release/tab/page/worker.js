@@ -2,6 +2,7 @@
 // it through shared memory alone: `signals` and the ring of `events`, see shared.js.
 import { loadPyodide } from "./pyodide/pyodide.mjs";
 import { ALLOWED_MS, EVENT, HEAD, REQUEST, SLOTS, STOP, TAIL } from "./shared.js";
+import { unpack } from "./unpack.mjs";
 
 const MOST_MEMORY = 1 << 30; // bytes
 let py, page, signals, ring, more;
@@ -55,13 +56,7 @@ async function start(message) {
   ({ signals, ring } = message);
   const lab = load("lab.zip"); // while Python starts
   py = await loadPyodide({ indexURL: "./pyodide/", env: { PYTHONHASHSEED: "0", HOME: "/tmp" } });
-  py.unpackArchive(await lab, "zip", { extractDir: "/" });
-  py.runPython(`
-import importlib, sys
-sys.path[:] = ["/shims", "/kit", "/site", *sys.path, "/stdlib"]
-importlib.invalidate_caches()
-import page
-`);
+  unpack(py, await lab);
   page = py.pyimport("page");
   page.start(bridge);
   py.setInterruptBuffer(new Uint8Array(signals.buffer, 0, 1));
@@ -71,8 +66,7 @@ import page
 
 // Load what is seldom needed, and then what the first check needs, while people read.
 async function loadMore() {
-  py.unpackArchive(await load("more.zip"), "zip", { extractDir: "/" });
-  py.runPython("importlib.invalidate_caches()");
+  unpack(py, await load("more.zip"));
   setTimeout(() => page.warm(), 0);
 }
 
