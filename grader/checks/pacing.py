@@ -17,6 +17,10 @@ ROUNDING = 1e-6  # ms
 TINY = 1e-5  # s: who counts in microseconds is right, and who keeps clear of rounding
 DRIFT = 1e-4  # of the time: STEP is 8333 or 8334 whole microseconds
 OFF_BEAT = [2]  # ms: no later sum is a whole number of steps, where rounding would decide
+BELOW_ZERO = (
+    "The accumulator falls below 0: the frame's time is added to it, and a step takes STEP from it "
+    "only while it holds as much."
+)
 ENDLESS = "The loop of steps does not end: each step must take STEP from the accumulator."
 SETTLE = [1, 1]  # ms: time for a program that is a frame behind
 LONGEST_FRAME = 58  # ms: of those that are meant to stay below the cap
@@ -218,6 +222,7 @@ def want_whole_steps(lab: Lab, world: Thing, accumulator: float, seconds: float)
         f"{1000 * due:.6g} ms, in whole steps and a rest shorter than a step",
         f"{steps} steps and a rest of {1000 * rest:.6g} ms: "
         f"{abs(1000 * beyond):.3g} ms too {'much' if beyond > 0 else 'little'}",
+        BELOW_ZERO * (rest < -TINY),
     )
 
 

@@ -156,7 +156,10 @@ def explain_unbound(match: Match, error: Error) -> str:
     if first >= error.line:
         given = show_arguments(error)
         return f"{name} has no value before line {error.line}: give it one first.{given}"
-    return f"{name} has no value here: line {first}, which gives it one, did not run."
+    return (
+        f"{name} has no value here: line {first}, which gives it one, did not run. Give it one "
+        "above that as well."
+    )
 
 
 def explain_debugger(match: Match, error: Error) -> str:
@@ -184,6 +187,12 @@ def explain_undefined(match: Match, error: Error) -> str:
         return f"{name} is in {file}: add `from .{module} import {name}` to {error.file}."
     if name in SPACE and "space" in error.parameters:
         return f"{name} belongs to the space: write space.{name}."
+    if name in MODULES:
+        return f"{name} is a module: add `{MODULES[name]}` to {error.file}."
+    if name in HOMES:
+        return f"{name} is in the module {HOMES[name]}: add `from {HOMES[name]} import {name}`."
+    if error.file == SCENE and (file := given_home(name, "")):
+        return f"{name} is in {file}, which {SCENE} does not use: it is pymunk's scene."
     known = {*error.values, *error.parameters, *error.around} - error.targets
     near = find_similar(name, sorted(known))
     if near:
@@ -199,7 +208,7 @@ def show_arguments(error: Error) -> str:
 
 def explain_module(match: Match, error: Error) -> str:
     module, name = match.groups()
-    known = dir(math) if module == "math" else pymunk_names()
+    known = {"math": dir(math), "pygame": PYGAME}.get(module, pymunk_names())
     near = find_similar(name.replace("disc", "circle"), known, NEAR)
     return f"{module} has no {name}." + (f" Is {near[0]} meant?" if near else "")
 
@@ -270,6 +279,28 @@ def explain_not_callable(match: Match, error: Error) -> str:
     return "A value stands before brackets as if it were a function. Is a * missing there?"
 
 
+def explain_class_attribute(match: Match, error: Error) -> str:
+    """Explain a function of the module pymunk that is looked for in one of its classes."""
+    name = match[2]
+    if name in pymunk_names():
+        return f"{name} is in the module pymunk: write pymunk.{name}."
+    return ""
+
+
+def explain_key(match: Match, error: Error) -> str:
+    """Explain a key that a dictionary lacks, by what the line does with its value."""
+    for node in error.nodes():
+        match node:
+            case ast.Attribute(ast.Subscript(ast.Name(name)), "append" | "add" | "extend"):
+                return (
+                    f"{name} has no list for this key yet: {name}.setdefault(key, []) begins one "
+                    "and returns it."
+                )
+            case ast.Subscript(ast.Name(name), ctx=ast.Load()):
+                return f"{name} has no such key: {name}.get(key, []) is empty there, with no error."
+    return "The dictionary has no such key: ask `if key in ...` first."
+
+
 def explain_arguments(match: Match, error: Error) -> str:
     """Show a function that was called with too few or too many arguments."""
     owner, _, name = match[1].rpartition(".")
@@ -317,6 +348,8 @@ def explain_tuple(match: Match, error: Error) -> str:
 
 def explain_pair(match: Match, error: Error) -> str:
     """Explain an error of pymunk's where it needs two numbers and got something else."""
+    if "cpVect" in match[0]:
+        return "pymunk takes no Vector2 here: write the two numbers as a pair, (x, y)."
     lines = error.text.splitlines()
     for call in error.calls():
         for joint in (call, *call.args):
@@ -411,6 +444,20 @@ PYMUNK = {  # what the lesson calls, with its arguments
 }
 
 
+PYGAME = ("K_LSHIFT", "K_RSHIFT", "KMOD_SHIFT", "KMOD_CTRL", "Vector2", "key", "event", "math")
+MODULES = {  # what a submission may import, and how
+    **{n: f"import {n}" for n in ("collections", "functools", "itertools", "math", "random")},
+    **{n: f"import {n}" for n in ("pygame", "pymunk", "numpy")},
+    "np": "import numpy as np",
+}
+HOMES = {  # functions and classes that students take from elsewhere, with their modules
+    **dict.fromkeys(("combinations", "product", "pairwise", "permutations"), "itertools"),
+    **dict.fromkeys(("defaultdict", "Counter", "deque"), "collections"),
+    "Vector2": "pygame",
+    "partial": "functools",
+}
+
+
 def pymunk_names() -> Collection[str]:
     return (*PYMUNK, "Circle", "Poly", "Space", "Vec2d")
 
@@ -452,7 +499,8 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
         "The lists of a space are only to be read: write space.add(...).",
     ),
     (r"^AttributeError: '([\w.]+)' object has no attribute '(\w+)'", explain_attribute),
-    (r"^AttributeError: module '(math|pymunk)' has no attribute '(\w+)'", explain_module),
+    (r"^AttributeError: module '(math|pymunk|pygame)' has no attribute '(\w+)'", explain_module),
+    (r"^AttributeError: type object '([\w.]+)' has no attribute '(\w+)'", explain_class_attribute),
     (r"^AttributeError: can't set attribute", PARTS),
     (
         r"^Exception: Unsupported type",
@@ -463,7 +511,8 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^TypeError: .*(NoneType|\bNone\b)", explain_none),
     (r"^TypeError: '(float|int)' object is not iterable", explain_not_iterable),
     (r"^TypeError: ([\w.<>]+)\(\) (missing|takes|got)", explain_arguments),
-    (r"^(TypeError: .*has no len|AssertionError)", explain_pair),
+    (r"^KeyError", explain_key),
+    (r"^(TypeError: .*(has no len|cpVect.*Vector2)|AssertionError)", explain_pair),
     (
         r"^TypeError: 'float' object cannot be interpreted as an integer",
         "A whole number is needed here, and // of two floats is a float: put int(...) around it.",

@@ -28,6 +28,12 @@ ROUNDED = (
     "Right to four digits and more, but not to all: is a number rounded, or float32 used for it?"
 )
 PRINTED_ERROR = re.compile(r"\b(\w+(?:Error|Exception): [^|]*)$")
+CALLED_BACK = {  # what to do about an error of such a function, by a part of the error
+    "takes ": "pymunk gives it three things: (arbiter, space, data).",
+    "missing ": "pymunk gives it three things: (arbiter, space, data).",
+    "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
+    "UnboundLocalError": "What it assigns is its own alone: count in data.",
+}
 NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -50,6 +56,7 @@ class RegionWords(NamedTuple):
     rebound: str = ""  # which argument gets another value
     loop: str = ""  # which loop of its code may never end
     unread: str = ""  # which name gets a value that nothing reads
+    swapped: str = ""  # which line has =+ for +=
 
 
 NOTHING_SHOWN = RegionWords()
@@ -124,6 +131,8 @@ def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
     """
     if evidence.left is None:
         return ""
+    if evidence.left.answers and check.id in evidence.trespasses:
+        return ""  # the line returns what this code has changed
     if evidence.left.is_all or (evidence.left.answers and check.state != "error"):
         return evidence.left.words
     told = explain_after(name_what_was_left, evidence, check)
@@ -139,7 +148,10 @@ def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
     """Name the error of a function that pymunk calls: pymunk prints it and goes on."""
     found = PRINTED_ERROR.search(check.printed or "") if check.state == "not yet" else None
     error = re.sub(r"\w+\.<locals>\.", "", found[1].strip()) if found else ""
-    return f"pymunk called a function of yours that raised an error: {error}" if error else ""
+    if not error:
+        return ""
+    told = next((words for part, words in CALLED_BACK.items() if part in error), "")
+    return f"pymunk called a function of yours that raised an error: {error} {told}".strip()
 
 
 def explain_names(evidence: Evidence, check: CheckResult) -> str:
@@ -147,11 +159,21 @@ def explain_names(evidence: Evidence, check: CheckResult) -> str:
     return evidence.hint(check)
 
 
+def name_swapped_sign(evidence: Evidence, check: CheckResult) -> str:
+    """Name a line that gives a name a new value where it seems to add to the old one."""
+    return evidence.region.swapped if check.state != "error" else ""
+
+
 def name_unread(evidence: Evidence, check: CheckResult) -> str:
     """Name a value that nothing reads, which may be why the answers are wrong as they are."""
     if not evidence.region.unread or check.state == "error":
         return ""
     return f"{explain_after(name_unread, evidence, check)} {evidence.region.unread}".strip()
+
+
+def name_kind(evidence: Evidence, check: CheckResult) -> str:
+    """Say what kind of thing came instead: no known mistake of other answers explains that."""
+    return check.meaning if check.meaning.endswith(f"; it is {check.got}.") else ""
 
 
 def name_mistake(evidence: Evidence, check: CheckResult) -> str:
@@ -224,7 +246,9 @@ EXPLAINERS: tuple[Explainer, ...] = (
     name_loop,
     name_printed_error,
     explain_names,
+    name_swapped_sign,
     name_unread,
+    name_kind,
     name_mistake,
     name_earlier_todos,
     name_trespass,

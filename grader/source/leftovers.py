@@ -4,6 +4,7 @@ The text alone shows it. Whether it is why a check fails, a run without it decid
 """
 
 import ast
+import re
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ from itertools import pairwise
 from grader.source.definitions import function_named, statements
 from grader.source.flaws import MAX_LINE
 from grader.source.regions import Region, read_regions
+
+SWAPPED_SIGN = re.compile(r"\s*[\w.]+\s*=([+-])\s")
 
 # Functions that only answer.
 ANSWERS = {
@@ -171,20 +174,44 @@ def find_rebound(text: str, todo: str, path: str) -> tuple[int, str] | None:
 
 
 def find_unread(text: str, todo: str, path: str) -> tuple[int, str] | None:
-    """Return the line of a region that gives a name a value which nothing reads, and the name."""
+    """Return the line of a region that gives a name a value which nothing reads, and the name.
+
+    A loop over a range may count with a name that nothing reads.
+    """
     region = region_of(text, todo)[0]
     function = function_named(statements(text), path)
     if region is None or function is None:
         return None
     names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
-    read = {node.id for node in names if isinstance(node.ctx, ast.Load)}
+    needed = {node.id for node in names if isinstance(node.ctx, ast.Load)} | counters(function)
     inside = range(region.start + 1, region.stop + 1)
     unread = (
         (node.lineno, node.id)
         for node in names
-        if isinstance(node.ctx, ast.Store) and node.id not in read and node.lineno in inside
+        if isinstance(node.ctx, ast.Store) and node.id not in needed and node.lineno in inside
     )
     return min((each for each in unread if not each[1].startswith("_")), default=None)
+
+
+def find_swapped_sign(text: str, todo: str) -> tuple[int, str, str] | None:
+    """Return the line of a region with =+ or =- for += or -=, what it has, and what is meant."""
+    region = region_of(text, todo)[0]
+    if region is None:
+        return None
+    for number, line in enumerate(region.lines, region.start + 2):
+        if found := SWAPPED_SIGN.match(line):
+            return number, f"={found[1]}", f"{found[1]}="
+    return None
+
+
+def counters(function: ast.FunctionDef) -> set[str]:
+    """Return the names that only count how often a loop has run."""
+    found = set()
+    for node in ast.walk(function):
+        match node:
+            case ast.For(ast.Name(counter), ast.Call(ast.Name("range"))):
+                found.add(counter)
+    return found
 
 
 def region_of(text: str, todo: str) -> tuple[Region | None, list[ast.stmt]]:

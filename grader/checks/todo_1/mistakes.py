@@ -328,3 +328,78 @@ known(
     "The closest point is always the top left corner: min and max have changed places.",
     lambda disc, rect: right(disc, Rect(rect.x - rect.hx, rect.y - rect.hy, 0.0, 0.0)),
 )
+known(
+    "clamp-is-turned-round",
+    "The closest point is always the bottom right corner: min and max have changed places.",
+    lambda disc, rect: right(disc, Rect(rect.x + rect.hx, rect.y + rect.hy, 0.0, 0.0)),
+)
+
+
+def overlap_turned_round(disc: Disc, rect: Rect) -> Answer:
+    answer = any_distance(disc, rect)
+    if is_inside(disc, rect):
+        raise Undecided  # nothing, or an offset of 0
+    return None if answer.depth > 0 else answer
+
+
+known(
+    "test-is-turned-round",
+    "None comes back where the two overlap, and a contact where they are apart: the test of the "
+    "distance is turned round.",
+    overlap_turned_round,
+)
+
+
+def distance_squared(disc: Disc, rect: Rect) -> Answer:
+    answer = any_distance(disc, rect)
+    if is_inside(disc, rect):
+        raise Undecided
+    squared = (disc.r - answer.depth) ** 2
+    return None if squared >= disc.r else answer._replace(depth=disc.r - squared)
+
+
+def compared_as_a_square(disc: Disc, rect: Rect) -> Answer:
+    answer = any_distance(disc, rect)
+    if is_inside(disc, rect):
+        raise Undecided
+    return None if (disc.r - answer.depth) ** 2 >= disc.r else answer
+
+
+def shortened(disc: Disc, rect: Rect) -> Answer:
+    """Return the contact with its offset divided by the square as well."""
+    touch = distance_squared(disc, rect)
+    if not isinstance(touch, Touch):
+        return touch
+    distance = math.sqrt(disc.r - touch.depth)
+    return with_normal(touch, touch.nx / distance, touch.ny / distance)
+
+
+known(
+    "distance-is-squared",
+    "The square of the distance is compared with the radius: length_squared() goes with r * r.",
+    shortened,
+    distance_squared,
+    compared_as_a_square,
+)
+
+
+def farther_way(disc: Disc, rect: Rect) -> Answer:
+    if not is_inside(disc, rect):
+        return right(disc, rect)
+    left, other, top, bottom = exact.ways_out(disc, rect)
+    level, upright = min(left, other, key=gap), min(top, bottom, key=gap)
+    if math.isclose(level.depth, upright.depth) or left.depth == other.depth:
+        raise Undecided
+    return max(level, upright, key=gap)
+
+
+def gap(touch: Touch) -> float:
+    return touch.depth
+
+
+known(
+    "inside-leaves-by-the-farthest-face",
+    "A centre inside leaves to the side where up or down is nearer, and the other way round: "
+    "compare the two gaps once more.",
+    farther_way,
+)

@@ -200,3 +200,15 @@ known(
     "The sum comes back as 1 / sum; the callers divide by it themselves.",
     lambda a, b, axis: 1 / exact.effective_mass(a, b, axis),
 )
+
+
+def arms_crossed(a: Lever, b: Lever, axis: Pair) -> float:
+    both = cross((a.rx, a.ry), (b.rx, b.ry)) ** 2
+    return masses(a, b) + both * (inverse(a.inertia) + inverse(b.inertia))
+
+
+known(
+    "arms-are-crossed",
+    "The two arms are crossed with each other; it is ra x axis, and rb x axis.",
+    arms_crossed,
+)

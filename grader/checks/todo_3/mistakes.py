@@ -320,3 +320,29 @@ known(
     "The ends are put in place; a pass changes velocities, and the step moves the bodies.",
     placed,
 )
+
+
+def by_whole_speed(rod: Rod) -> Ends:
+    (ax, ay), (bx, by) = rod.vel_a, rod.vel_b
+    return exact.pushed(rod, (rod.bias - math.hypot(bx - ax, by - ay)) / rod.k)
+
+
+known(
+    "speed-in-every-direction",
+    "The whole speed of B as seen from A counts; only its part along the axis does: a dot product.",
+    velocities(by_whole_speed),
+)
+
+
+def by_one_mass(rod: Rod, mass: float) -> Ends:
+    if not mass:
+        raise Undecided  # a division by 0
+    return exact.pushed(rod, (rod.bias - rod.speed) * mass)
+
+
+known(
+    "k-of-one-end",
+    "The impulse is divided by the inverse mass of one end; k is the sum of both.",
+    velocities(lambda rod: by_one_mass(rod, rod.mass_b)),
+    velocities(lambda rod: by_one_mass(rod, rod.mass_a)),
+)

@@ -216,6 +216,23 @@ known(
 )
 
 
+def limit_by_the_slip(mu: Pair, k: float, closing: float, slip: float) -> float:
+    if not (mu[0] and mu[1]):
+        raise Undecided
+    total, limit = 0.0, math.sqrt(mu[0] * mu[1]) * max(closing / k, 0.0)
+    for _ in range(PASSES):
+        now = slip + k * total
+        total = max(-limit * now, min(limit * now, total - now / k))
+    return total
+
+
+known(
+    "limit-grows-with-the-slip",
+    "The limit is multiplied by the slip; it is sqrt(mu_a mu_b) * jn, however fast a body slips.",
+    limit_by_the_slip,
+)
+
+
 def kept_as_wanted(applied: Rule) -> Model:
     """Return where the contact keeps the total that was wanted, and this much is applied of it.
 

@@ -25,7 +25,18 @@ from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
 NO_CAP = "A slow frame is simulated in full: add MAX_STEPS * STEP to the accumulator at the most."
-OTHER_STEPS = "Steps are not STEP long: call world.step(STEP), however long the frame is."
+OTHER_STEPS = "Steps are not STEP long: call step(STEP), however long the frame is."
+EARLY = (
+    "More is simulated than has passed: a step runs only while the accumulator holds a whole STEP."
+)
+LATE = (
+    "Time that has passed is not simulated: what is too little for a step waits in the accumulator "
+    "for the next frame."
+)
+CAUGHT_UP = (
+    "Time that the cap keeps out is simulated later: add MAX_STEPS * STEP to the accumulator at "
+    "the most."
+)
 STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
 
@@ -60,7 +71,7 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
     if any(each.sizes and not fixed(each.sizes) for each in paces.values()):
         return OTHER_STEPS
     shares = {rate: each.done / each.time for rate, each in paces.items()}
-    if min(shares.values()) <= 1.05:
+    if max(shares.values()) <= 1.05:
         return ""
     if shares[30] > 1.05 * shares[144]:
         return (
@@ -68,8 +79,8 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
             "frame, as many run as the accumulator holds, and their time leaves it."
         )
     return (
-        f"About {shares[144]:.2g} times as much is simulated as passes: a step is not STEP long, "
-        "or it takes too little out of the accumulator."
+        f"About {shares[144]:.2g} times as much is simulated as passes: each step takes STEP out "
+        "of the accumulator, and none runs besides those that it pays for."
     )
 
 
@@ -99,6 +110,7 @@ def want_in_step(lab: Lab, paced: Pace, frame: int | None) -> None:
         frame is None,
         "steps that follow the time: none early, and none late by more than a step",
         f"{sum(paced.steps[upto])} done when {sum(paced.lengths[upto]):.0f} ms have passed",
+        EARLY if sum(paced.steps[upto]) * paced.step > sum(paced.lengths[upto]) else LATE,
     )
 
 
@@ -140,6 +152,7 @@ def a_slow_frame_is_not_caught_up_later(lab: Lab) -> None:
         abs(steps - owed) <= 3,
         f"{owed:.0f} steps in the {sum(paced.lengths[after:]):.0f} ms after it, as usual",
         f"{steps} steps",
+        CAUGHT_UP * (steps > owed),
     )
 
 

@@ -305,6 +305,24 @@ known(
     pair_swapped,
 )
 
+known(
+    "a-step-more-each-frame",
+    "Each frame runs one step more than the accumulator pays for: does one stand outside the loop?",
+    lambda frames: counted([1 + steps for steps in accumulated(frames, capped)]),
+)
+known(
+    "a-step-less-each-frame",
+    "Of the steps that are taken out of the accumulator one does not run: range(1, n) counts from "
+    "1 to n - 1, and range(n) n times.",
+    lambda frames: counted([max(steps - 1, 0) for steps in accumulated(frames, capped)]),
+)
+known(
+    "no-step-runs",
+    "No step runs, however much time passes: is step(STEP) called, and before its time is taken "
+    "out of the accumulator?",
+    lambda frames: counted([0 for _ in frames[:-1]]),
+)
+
 truth("said", lambda ran: ran)
 
 mistake(

@@ -120,6 +120,11 @@ known_7b(
     lambda radius, mass: mass * radius / 2,
 )
 known_7b(
+    "inverse-of-the-moment",
+    "That is 1 / I, as the mini engine keeps it; pymunk wants the moment I itself.",
+    lambda radius, mass: 1 / exact.disc_moment(mass, radius),
+)
+known_7b(
     "mass-for-moment",
     "That is the mass; how hard a ball is to turn also depends on how far out its mass is.",
     lambda radius, mass: mass,
@@ -194,6 +199,12 @@ known_7c(
     held_by(pin(PIVOT, on_bob=BOB)),
     held_by(pin(PIVOT, on_bob=PIVOT)),
     held_by(pin((0.0, 0.0), on_bob=BOB)),
+)
+known_7c(
+    "far-anchor-counted-twice",
+    "The body at the far end is at (700, 90) already, and the anchor leads as far again from "
+    "there: its own centre is (0, 0).",
+    held_by(pin((2 * PIVOT[0], 2 * PIVOT[1]))),
 )
 known_7c(
     "anchors-the-wrong-way-round",

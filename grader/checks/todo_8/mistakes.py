@@ -172,6 +172,47 @@ known_8a(
 )
 
 
+def moved_alone(x: float, v: float, dt: float, force: Force) -> State:
+    _, v = right_semi_implicit(x, v, dt, force)
+    return v * dt, v
+
+
+known_8a(
+    "position-is-replaced",
+    "The new x is the way alone: add v * dt to the x there was.",
+    moved_alone,
+)
+known_8a(
+    "changes-alone-are-returned",
+    "What comes back are the changes alone: return x and v with their changes added.",
+    lambda x, v, dt, force: ((v + polynomial(force)(x) * dt) * dt, polynomial(force)(x) * dt),
+)
+
+
+def bent_as_well(x: float, v: float, dt: float, force: Force) -> State:
+    end, new_v = right_semi_implicit(x, v, dt, force)
+    return end + polynomial(force)(x) * dt**2 / 2, new_v
+
+
+known_8a(
+    "parabola-with-the-new-velocity",
+    "x gets the acceleration twice: by the new v and by the parabola's term. Leave out the term.",
+    bent_as_well,
+)
+
+
+def velocity_by_square(x: float, v: float, dt: float, force: Force) -> State:
+    v += polynomial(force)(x) * dt**2
+    return x + v * dt, v
+
+
+known_8a(
+    "velocity-by-the-square-of-the-step",
+    "v changes by accel(x) * dt²; it is accel(x) * dt, without the square.",
+    velocity_by_square,
+)
+
+
 # ---------------------------------------------------------------- 8b
 
 
@@ -275,6 +316,71 @@ known_8c(
     "midpoint-method",
     "This is the midpoint method: it stops after the second of the four samples.",
     midpoint,
+)
+
+
+def kicked(kick: Callable[[float, float, float], float]) -> Callable[..., State]:
+    """Move x rightly; kick(a at the start, a at the end, dt) gives the change of v."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        accel = polynomial(force)
+        end = parabola(x, v, dt, accel)
+        return end, v + kick(accel(x), accel(end), dt)
+
+    return model
+
+
+known_8b(
+    "old-half-alone",
+    "v gets half of the old acceleration; the half of the one at the new x is missing.",
+    kicked(lambda old, new, dt: old * dt / 2),
+)
+known_8b(
+    "new-half-alone",
+    "v gets half of the acceleration at the new x; the half of the old one is missing.",
+    kicked(lambda old, new, dt: new * dt / 2),
+)
+known_8b(
+    "mean-without-brackets",
+    "Only one of the two accelerations is halved or multiplied by dt: put brackets around their "
+    "sum, (old + new) / 2 * dt.",
+    kicked(lambda old, new, dt: old + new / 2 * dt),
+    kicked(lambda old, new, dt: (old + new / 2) * dt),
+    kicked(lambda old, new, dt: old + new * dt / 2),
+    kicked(lambda old, new, dt: old / 2 + new * dt),
+    kicked(lambda old, new, dt: old / 2 + new * dt / 2),
+    kicked(lambda old, new, dt: (old / 2 + new) * dt),
+)
+known_8b(
+    "mean-by-the-square-of-the-step",
+    "v changes by the mean * dt²; it is the mean * dt, without the square.",
+    kicked(lambda old, new, dt: (old + new) / 2 * dt**2),
+)
+
+
+def acceleration_returned(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    end = parabola(x, v, dt, accel)
+    return end, accel(end)
+
+
+known_8b(
+    "acceleration-for-velocity",
+    "The acceleration is returned in the place of v.",
+    acceleration_returned,
+)
+
+
+def old_acceleration_of_v(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    end = x + v * dt + accel(v) * dt**2 / 2
+    return end, v + (accel(v) + accel(end)) / 2 * dt
+
+
+known_8b(
+    "acceleration-of-the-velocity",
+    "accel is asked about v; the acceleration depends on the position: accel(x).",
+    old_acceleration_of_v,
 )
 
 
@@ -633,6 +739,14 @@ OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
     "second-sample-counts-once": (
         "The second sample, k2, counts once; it counts twice, like the third: 1, 2, 2, 1.",
         ((1 / 6, 1 / 6, 2 / 6, 1 / 6), (1 / 5, 1 / 5, 2 / 5, 1 / 5)),
+    ),
+    "divided-by-another-number": (
+        "The weighted sum is divided by another number than 6, which is what 1, 2, 2, 1 add up to.",
+        tuple((1 / n, 2 / n, 2 / n, 1 / n) for n in (2, 3, 4, 5, 8)),
+    ),
+    "one-middle-sample-stands-twice": (
+        "One of the two samples in the middle counts for both of them: k2 and k3 count 2 each.",
+        ((1 / 6, 4 / 6, 0.0, 1 / 6), (1 / 6, 0.0, 4 / 6, 1 / 6)),
     ),
     "last-sample-is-missing": (
         "Only three samples count; the fourth, k4, at the end of the step, is missing.",

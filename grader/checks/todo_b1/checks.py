@@ -26,6 +26,7 @@ ANOTHER_HIT = "when another one is hit, far away"
 FLOOR_GONE, CARRIED_AWAY = "when its floor is gone", "when the ball below is gone"
 ONE_OF_TWO_GONE = "when one of the two boxes it lies on is gone"
 IN_TURN = "after its neighbours have come to rest one after another, and 3 s"
+STATIC = "as a floor that is static"
 CHEAP = "a pile that sleeps costs next to nothing"
 
 STEPS = (1 / 60, 1 / 120, 1 / 165, 1 / 480)  # s, steps in which gravity adds 2 to 16 px/s
@@ -99,6 +100,7 @@ def a_ball_at_rest_sleeps_after_half_a_second(lab: Lab) -> None:
         run(lab, world, lab.about(0.3, 0.05), dt)
         want(lab, True, lying, AT_REST)
         static = not asleep(lab, ground)
+        lab.saw("sleep", (STATIC,), not static)
         lab.want(static, "a floor that is static and never asleep", "a floor asleep")
         before = lab.state(lying)
         lab.want(

@@ -23,12 +23,13 @@ from grader.checks.todo_b1.checks import (
     ONE_OF_TWO_GONE,
     ROLLING,
     SPINNING,
+    STATIC,
 )
 from grader.judge.misconceptions import Undecided, mistake, truth
 
 HELD, ANEW = (ON_A_ROD, ON_A_SPRING), (AFTER_A_PUSH, AFTER_THE_AIR)
 HIT, LEFT = (AFTER_A_HIT, AFTER_A_SPIN), (FLOOR_GONE, CARRIED_AWAY, ONE_OF_TWO_GONE)
-AWAKE = (AT_FIRST, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
+AWAKE = (AT_FIRST, STATIC, FLYING, ROLLING, SPINNING, *HELD, *ANEW, *HIT, *LEFT)
 ASLEEP = (AT_REST, LONG_AT_REST, CREEPING, ANOTHER_HIT, IN_TURN, CHEAP)
 RIGHT = dict.fromkeys(AWAKE, False) | dict.fromkeys(ASLEEP, True)
 
@@ -56,7 +57,7 @@ known(
 known(
     "sleeps-at-the-top-of-a-throw",
     "A body that touches nothing cannot rest, however slow it is.",
-    wrong_at(FLYING),
+    wrong_at(FLYING, unsure=(AFTER_THE_AIR,)),
 )
 known(
     "sleeps-while-it-spins",
@@ -85,7 +86,8 @@ known(
 )
 known(
     "floats-when-its-support-leaves",
-    "A sleeper stays in the air when what it lay on has gone: see has_left().",
+    "A sleeper stays in the air when what it lay on has gone: see has_left(), which is asked about "
+    "each body of body.support; fall_asleep() fills that.",
     wrong_at(FLOOR_GONE, CARRIED_AWAY, unsure=(ONE_OF_TWO_GONE,)),
 )
 known(
@@ -98,4 +100,20 @@ known(
     "A neighbour that is awake wakes it, though it lies still: a pile in which bodies come to rest "
     "one after another never sleeps. Only a body that moves wakes another one.",
     wrong_at(IN_TURN),
+)
+known(
+    "never-wakes",
+    "Nothing wakes a sleeper: wake() is for one that something faster than WAKING touches, or that "
+    "has lost a body of its support.",
+    wrong_at(*HIT, *LEFT),
+)
+known(
+    "a-static-body-sleeps",
+    "A static body falls asleep as well: only what can move sleeps, see world.moving_bodies().",
+    wrong_at(STATIC, unsure={*RIGHT} - {STATIC}),
+)
+known(
+    "sleeps-at-once",
+    "It sleeps at once: a body falls asleep only when its still_for is above SLEEP_AFTER.",
+    wrong_at(AT_FIRST, unsure={*RIGHT} - {AT_FIRST}),
 )

@@ -1,10 +1,11 @@
 """Known mistakes in TODO B2, as models of what one step of a spring does to its ends."""
 
+import math
 from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Spring
-from grader.judge.misconceptions import mistake, truth
+from grader.judge.misconceptions import Undecided, mistake, truth
 
 Ends = tuple[Pair, Pair]  # velocities of A and B, px/s
 
@@ -93,6 +94,46 @@ known(
     "forgets-the-masses",
     "Both ends get the same change of speed; each takes it by inv_mass.",
     without_masses,
+)
+
+
+def times_masses(spring: Spring) -> Ends:
+    rod = spring.rod
+    change = (spring.stiffness * spring.stretch + brake(spring)) * rod.dt  # kg px/s
+    (ax, ay), (bx, by), (x, y) = rod.vel_a, rod.vel_b, rod.axis
+    if not (rod.mass_a and rod.mass_b):
+        raise Undecided  # a division by 0
+    a, b = change * rod.mass_a, change * rod.mass_b
+    return (ax + a * x, ay + a * y), (bx - b * x, by - b * y)
+
+
+known(
+    "divides-by-the-inverse-mass",
+    "inv_mass is 1/m already: an end takes the impulse times it.",
+    times_masses,
+)
+known(
+    "offset-for-the-axis",
+    "The force grows with the distance once more: its direction is axis, 1 long, and not offset.",
+    lambda s: pulled(s, (s.stiffness * s.stretch + brake(s)) * math.hypot(*s.rod.offset)),
+)
+known(
+    "pulls-when-squeezed",
+    "It pulls however long it is: the stretch has a sign, below 0 for a squeezed spring.",
+    lambda s: pulled(s, s.stiffness * abs(s.stretch) + brake(s)),
+)
+
+
+def whole_speed(spring: Spring) -> float:
+    (ax, ay), (bx, by) = spring.rod.vel_a, spring.rod.vel_b
+    return math.hypot(bx - ax, by - ay)
+
+
+known(
+    "damps-by-the-whole-speed",
+    "The damping takes the whole speed of B as seen from A; it is for the part along the axis, "
+    "which has a sign: a dot product.",
+    lambda s: pulled(s, s.stiffness * s.stretch + s.damping * whole_speed(s)),
 )
 known(
     "moves-only-a",

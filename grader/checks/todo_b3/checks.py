@@ -79,7 +79,7 @@ def want_no_other(lab: Lab, right: Contacts, found: Contacts) -> None:
         not more,
         wanted,
         f"{more} more",
-        "A pair that shares several cells counts once all the same.",
+        "Each pair comes once, however many cells it shares, and no body with itself.",
     )
 
 

@@ -57,6 +57,11 @@ def cells_of_the_corners(bounds: Bounds) -> Cells:
     return set(product((left, right), (top, bottom)))
 
 
+def cells_of_two_corners(bounds: Bounds) -> Cells:
+    left, top, right, bottom = map(number, bounds)
+    return {(left, top), (right, bottom)}
+
+
 known(
     "forgets-the-last-cell",
     "The last cell of each body is left out: a range ends before its second number.",
@@ -76,6 +81,7 @@ known(
     "only-the-cells-of-the-corners",
     "A large body lies in all cells from corner to corner, not in those of the corners alone.",
     grid(cells_of_the_corners),
+    grid(cells_of_two_corners),
 )
 
 
@@ -106,6 +112,31 @@ known(
     "only-the-nearest",
     "A body can touch several others; it is not enough to look at the nearest.",
     nearest,
+)
+
+
+def with_selves(balls: Sequence[Disc], boxes: Sequence[Rect], touching: Pairs) -> Pairs:
+    """Return each contact twice, and one of each ball with itself."""
+    return sorted([*touching, *touching, *((n, n) for n in range(len(balls)))])
+
+
+known(
+    "a-pair-in-both-orders",
+    "Each pair comes twice, as (a, b) and as (b, a): combinations(group, 2) yields each once, and "
+    "no body with itself.",
+    with_selves,
+    lambda balls, boxes, touching: sorted([*touching, *touching]),
+)
+known(
+    "boxes-are-left-out",
+    "No box is in any pair: balls touch boxes as well.",
+    lambda balls, boxes, touching: [pair for pair in touching if max(pair) < len(balls)],
+)
+known(
+    "no-pair-that-touches",
+    "No two bodies that touch are found: are what is returned pairs of bodies, and those of all "
+    "cells?",
+    lambda balls, boxes, touching: [],
 )
 
 # Last, for it says nothing about contacts that are lost: another may tell more.

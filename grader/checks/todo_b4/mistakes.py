@@ -38,7 +38,7 @@ known_others(
 )
 known_hits(
     "counts-nothing",
-    "No hit of a peg is counted: is begin handed to the space, for BALL and PEG?",
+    "No hit of a peg is counted: are begin itself and data handed to the space, for BALL and PEG?",
     always(0),
 )
 

@@ -52,17 +52,19 @@ def want_all_shares(lab: Lab, body: Thing, before: Place, now: Place) -> None:
     answers = [drawn(lab, body, share) for share in asked]
     for share, answer in zip(asked, answers, strict=True):
         lab.saw("between", (before, now, share), answer[:2])
-    for share, answer in zip(asked, answers, strict=True):
-        lab.ran(f"between(body, {share:g}) after a step from {before[:2]} to {now[:2]}")
-        want_part_of_the_way(lab, answer, before, now, share)
+    lab.ran(f"between(body, {asked[0]:g}) after a step from {before[:2]} to {now[:2]}")
     was = lab.items(lab.get(body, "before"), "Body.before")
     kept = (*lab.pair(was[0], "Body.before"), lab.number(was[1], "Body.before"))
     lab.want(
         math.dist(kept, before) < CLOSE,
         f"body.before as it was, at {say_place(before[:2], 3)}",
         f"it is at {say_place(kept[:2], 3)}",
-        "between says where to draw. body.before is for the next frame, too.",
+        "between says where to draw. body.before is for the next frame, too: compute with +, as += "
+        "changes a vector in place.",
     )
+    for share, answer in zip(asked, answers, strict=True):
+        lab.ran(f"between(body, {share:g}) after a step from {before[:2]} to {now[:2]}")
+        want_part_of_the_way(lab, answer, before, now, share)
     found = lab.state(body)
     lab.want(
         math.dist((*found.pos, found.angle), now) < CLOSE,

@@ -4,6 +4,7 @@ from functools import partial
 
 from grader.checks import exact
 from grader.checks.exact import Pair, Place
+from grader.judge.lab import STEP
 from grader.judge.misconceptions import mistake, truth
 
 
@@ -43,4 +44,20 @@ known(
     "always-half-way",
     "The body is drawn half-way, whatever the share.",
     lambda before, now, share: place(before, now, 0.5),
+)
+known(
+    "way-without-its-begin",
+    "That is the part of the way alone: add it to where the body was before the step.",
+    lambda before, now, share: (share * (now[0] - before[0]), share * (now[1] - before[1])),
+)
+known(
+    "way-turned-round",
+    "The body is drawn as far behind the old place as it should be ahead of it: the way is now "
+    "minus before.",
+    lambda before, now, share: place(before, now, -share),
+)
+known(
+    "share-divided-by-the-step",
+    "share is a share of a step already, from 0 to 1: do not divide it by STEP.",
+    lambda before, now, share: place(before, now, share / STEP),
 )

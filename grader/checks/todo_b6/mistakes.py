@@ -55,3 +55,14 @@ known(
     "The two cases are the wrong way round: a ball is heavy without Shift.",
     heavy_where(lambda keys: LEFT not in keys and RIGHT not in keys),
 )
+known(
+    "shift-does-not-count",
+    "Shift makes no ball heavy: get_mods() & KMOD_SHIFT tells whether it is held now. Events are "
+    "gone once the window has read them.",
+    heavy_where(lambda keys: False),
+)
+known(
+    "control-for-shift",
+    "Ctrl makes a ball heavy, and Shift does not: KMOD_SHIFT is the mask for Shift.",
+    heavy_where(lambda keys: any("ctrl" in key for key in keys)),
+)
