@@ -17,6 +17,7 @@ from grader.judge.failures import REBOUND
 from grader.judge.submission import handed_out, load_given
 from grader.source.definitions import statements
 from grader.source.given import given_pieces, imported_names
+from grader.source.regions import read_regions
 from grader.text import listed
 
 RAISED = re.compile(r"(?P<error>\w+(?:: .*)?) \(in (?P<file>.+?), line (?P<line>\d+): ", re.DOTALL)
@@ -208,6 +209,11 @@ def show_arguments(error: Error) -> str:
 
 def explain_module(match: Match, error: Error) -> str:
     module, name = match.groups()
+    if module == "pygame" and (key := re.fullmatch(r"K_(SHIFT|CTRL|ALT|META)", name)):
+        left, right, both = f"K_L{key[1]}", f"K_R{key[1]}", f"KMOD_{key[1]}"
+        return (
+            f"pygame has no {name}: it has {left} and {right}, and get_mods() & {both} is for both."
+        )
     known = {"math": dir(math), "pygame": PYGAME}.get(module, pymunk_names())
     near = find_similar(name.replace("disc", "circle"), known, NEAR)
     return f"{module} has no {name}." + (f" Is {near[0]} meant?" if near else "")
@@ -284,6 +290,18 @@ def explain_class_attribute(match: Match, error: Error) -> str:
     name = match[2]
     if name in pymunk_names():
         return f"{name} is in the module pymunk: write pymunk.{name}."
+    return ""
+
+
+def explain_zero(match: Match, error: Error) -> str:
+    """Explain a division by what a TODO gave to the code around it, which is 0."""
+    inside = (each for each in read_regions(error.text)[0] if each.id == error.todo)
+    if any(each.start < error.line - 1 < each.stop for each in inside):
+        return ""  # the answers tell more
+    for node in error.nodes():
+        match node:
+            case ast.AugAssign(op=ast.Div(), value=ast.Name(name)):
+                return f"{name} is 0 there: line {error.line} divides by it."
     return ""
 
 
@@ -512,6 +530,7 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^TypeError: '(float|int)' object is not iterable", explain_not_iterable),
     (r"^TypeError: ([\w.<>]+)\(\) (missing|takes|got)", explain_arguments),
     (r"^KeyError", explain_key),
+    (r"^ZeroDivisionError", explain_zero),
     (r"^(TypeError: .*(has no len|cpVect.*Vector2)|AssertionError)", explain_pair),
     (
         r"^TypeError: 'float' object cannot be interpreted as an integer",

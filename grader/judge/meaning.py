@@ -150,8 +150,8 @@ def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
     error = re.sub(r"\w+\.<locals>\.", "", found[1].strip()) if found else ""
     if not error:
         return ""
-    told = next((words for part, words in CALLED_BACK.items() if part in error), "")
-    return f"pymunk called a function of yours that raised an error: {error} {told}".strip()
+    told = next((f". {words}" for part, words in CALLED_BACK.items() if part in error), "")
+    return f"pymunk called a function of yours that raised an error: {error}{told}"
 
 
 def explain_names(evidence: Evidence, check: CheckResult) -> str:

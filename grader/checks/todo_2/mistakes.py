@@ -64,12 +64,12 @@ known(
 )
 known(
     "second-body-forgotten",
-    "Only the first body's spin term is in the sum; both bodies turn.",
+    "The second body's spin term is left out; both bodies turn.",
     lambda a, b, axis: masses(a, b) + spin_term(a, axis),
 )
 known(
     "first-body-forgotten",
-    "Only the second body's spin term is in the sum; both bodies turn.",
+    "The first body's spin term is left out; both bodies turn.",
     lambda a, b, axis: masses(a, b) + spin_term(b, axis),
 )
 known(

@@ -759,3 +759,38 @@ for sample_name, (sample_words, sources) in OTHER_SAMPLES.items():
     known_8c(sample_name, sample_words, weighed(sources, RIGHT_WEIGHTS))
 for weight_name, (weight_words, many) in OTHER_WEIGHTS.items():
     known_8c(weight_name, weight_words, *(weighed(USUAL, weights) for weights in many))
+
+
+def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
+    """Return where the samples are taken when the acceleration leads there."""
+    accel, places = polynomial(force), [x]
+    for share in (0.5, 0.5, 1.0):
+        places.append(x + share * dt * accel(places[-1]))
+    return tuple(dict.fromkeys(places))
+
+
+def each_from_the_last(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
+    """Return where the samples are taken when each goes on from the place of the one before."""
+    accel, places, slope = polynomial(force), [x], v
+    for share in (0.5, 0.5, 1.0):
+        slope, place = v + share * dt * accel(places[-1]), places[-1] + share * dt * slope
+        places.append(place)
+    return tuple(dict.fromkeys(places))
+
+
+mistake(
+    "8c",
+    SAMPLES,
+    "acceleration-leads-to-the-places",
+    "The place of a sample is moved by the acceleration of the one before; it is moved by its "
+    "velocity.",
+    led_by_acceleration,
+)
+mistake(
+    "8c",
+    SAMPLES,
+    "each-sample-from-the-last-place",
+    "Each sample goes on from the place of the one before; all of them start from x, where the "
+    "step begins.",
+    each_from_the_last,
+)

@@ -29,6 +29,9 @@ STATES = (  # velocity in px/s, spin in rad/s, mass in kg, restitution, friction
 )
 BY_HAND = (4.28125, 8.40625)  # px; where the body is put after the last of these
 SHARES = (0.625, 0.25, 1.0, 0.0, 0.53125, 0.03125)
+OFF_THE_WAY = (
+    "That is not between body.before and body.pos: these two places and share are all it takes."
+)
 RATE, FALLING = 144, 0.3  # frames a second; s, after which balls are fast enough to be seen to move
 
 
@@ -78,7 +81,17 @@ def want_part_of_the_way(lab: Lab, found: Place, before: Place, now: Place, shar
     """The right place. The angle may also be the one before or now: only the spoke shows it."""
     right = exact.part_of_the_way(before, now, share)
     near = math.dist(found[:2], right[:2]) < CLOSE
-    want_told(lab, near, say_place, right[:2], found[:2], expected="the place {}")
+    way = math.dist(before[:2], found[:2]) + math.dist(found[:2], now[:2])
+    off = way > math.dist(before[:2], now[:2]) + CLOSE
+    want_told(
+        lab,
+        near,
+        say_place,
+        right[:2],
+        found[:2],
+        expected="the place {}",
+        meaning=OFF_THE_WAY * off,
+    )
     good = any(abs(turned(found[2] - each[2])) < CLOSE for each in (before, right, now))
     want_told(lab, good, say_angle, right[2], found[2], digits=4, expected="the angle {}")
 

@@ -64,5 +64,5 @@ known(
 known(
     "control-for-shift",
     "Ctrl makes a ball heavy, and Shift does not: KMOD_SHIFT is the mask for Shift.",
-    heavy_where(lambda keys: any("ctrl" in key for key in keys)),
+    always([HEAVY if "ctrl" in keys else 1.0 for keys, _ in CLICKS[:-1]] + [1.0]),  # as in its frame
 )
