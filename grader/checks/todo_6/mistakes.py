@@ -305,10 +305,16 @@ known(
     pair_swapped,
 )
 
+def one_more(frames: Frames) -> Answer:
+    if max(frames) <= 34:
+        raise Undecided  # steps may be slow there: more of them make the last frames longer
+    return counted([1 + steps for steps in accumulated(frames, capped)])
+
+
 known(
     "a-step-more-each-frame",
     "Each frame runs one step more than the accumulator pays for: does one stand outside the loop?",
-    lambda frames: counted([1 + steps for steps in accumulated(frames, capped)]),
+    one_more,
 )
 known(
     "a-step-less-each-frame",

@@ -64,5 +64,6 @@ known(
 known(
     "control-for-shift",
     "Ctrl makes a ball heavy, and Shift does not: KMOD_SHIFT is the mask for Shift.",
-    always([HEAVY if "ctrl" in keys else 1.0 for keys, _ in CLICKS[:-1]] + [1.0]),  # as in its frame
+    # The last click comes in the frame of the one before it.
+    always([HEAVY if "ctrl" in keys else 1.0 for keys, _ in CLICKS[:-1]] + [1.0]),
 )
