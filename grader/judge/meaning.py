@@ -131,7 +131,7 @@ def name_what_was_left(evidence: Evidence, check: CheckResult) -> str:
     """
     if evidence.left is None:
         return ""
-    if evidence.left.answers and check.id in evidence.trespasses:
+    if evidence.left.answers and evidence.trespasses.get(check.id):
         return ""  # the line returns what this code has changed
     if evidence.left.is_all or (evidence.left.answers and check.state != "error"):
         return evidence.left.words

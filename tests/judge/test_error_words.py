@@ -99,6 +99,9 @@ def add_pendulum(space):
     space.on_collision(1, 2, begin=begin())
     total.clamp(1)
     print(self.axis)
+    best /= total
+    cells[total].append(best)
+    found = cells[best]
     return None ** 2 + total
 """
 
@@ -116,6 +119,26 @@ def add_pendulum(space):
         ("AttributeError: 'Box' object has no attribute 'width'", 5, "It has half"),
         ("AttributeError: 'float' object has no attribute 'clamp'", 16, "write max(low, min("),
         ("AttributeError: 'pygame.math.Vector2' object has no attribute 'clamp'", 16, "of x and y"),
+        ("AttributeError: module 'pygame' has no attribute 'K_SHIFT'", 5, "KMOD_SHIFT is for both"),
+        (
+            "AttributeError: type object 'Body' has no attribute 'moment_for_box'",
+            5,
+            "pymunk.moment",
+        ),
+        ("NameError: name 'pygame' is not defined", 5, "add `import pygame` to pymunk_scene.py"),
+        ("NameError: name 'np' is not defined", 5, "add `import numpy as np`"),
+        ("NameError: name 'defaultdict' is not defined", 5, "from collections import defaultdict"),
+        ("NameError: name 'World' is not defined", 5, "World is in mini_engine/world.py"),
+        ("KeyError: (0, 1)", 19, "cells.setdefault(key, [])"),
+        ("KeyError: 3", 20, "cells.get(key, [])"),
+        ("KeyError: 3", 5, "if key in"),
+        ("ZeroDivisionError: float division by zero", 18, "total is 0 there: line 18"),
+        (
+            "TypeError: initializer for ctype 'struct cpVect' must be a list, not "
+            "pygame.math.Vector2",
+            5,
+            "as a pair",
+        ),
         ("AttributeError: can't set attribute", 5, "give the whole a new pair"),
         ("AttributeError: 'NoneType' object has no attribute 'x'", 7, "use normalize()"),
         ("TypeError: unsupported operand type(s) for *: 'NoneType' and 'float'", 7, "normalize_ip"),

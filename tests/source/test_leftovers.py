@@ -7,6 +7,7 @@ from grader.source.leftovers import (
     find_leftover,
     find_loop,
     find_rebound,
+    find_swapped_sign,
     find_unread,
 )
 
@@ -95,3 +96,14 @@ def test_code_nested_beyond_all_measure_is_read_all_the_same():
     left = find_leftover(text, "6", STUB)
     assert (left and left.text) == "steps = 1" and find_loop(text, "6") == (4, "while x:")
     assert find_dead_end(text, "6", "work") is None
+
+
+def test_a_loop_over_a_range_may_count_with_a_name_that_nothing_reads():
+    assert find_unread(function("for i in range(3):", "    x += 1"), "6", "work") is None
+    found = find_unread(function("x = any(x for each in x)"), "6", "work")
+    assert found == (3, "each")
+
+
+def test_a_plus_behind_the_sign_is_found():
+    assert find_swapped_sign(function("y = 1", "x =+ y"), "6") == (4, "=+", "+=")
+    assert find_swapped_sign(function("x = +y", "x =-y", "x == + y"), "6") is None

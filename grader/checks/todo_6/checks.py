@@ -34,8 +34,8 @@ LATE = (
     "for the next frame."
 )
 CAUGHT_UP = (
-    "Time that the cap keeps out is simulated later: add MAX_STEPS * STEP to the accumulator at "
-    "the most."
+    "The time of a slow frame beyond the cap is simulated later: add MAX_STEPS * STEP to the "
+    "accumulator at the most."
 )
 STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not

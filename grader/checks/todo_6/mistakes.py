@@ -305,6 +305,7 @@ known(
     pair_swapped,
 )
 
+
 def one_more(frames: Frames) -> Answer:
     if max(frames) <= 34:
         raise Undecided  # steps may be slow there: more of them make the last frames longer

@@ -99,7 +99,7 @@ known(
     "an-awake-neighbour-wakes",
     "A neighbour that is awake wakes it, though it lies still: a pile in which bodies come to rest "
     "one after another never sleeps. Only a body that moves wakes another one.",
-    wrong_at(IN_TURN),
+    wrong_at(IN_TURN, unsure=(AT_REST, CHEAP, *LEFT)),
 )
 known(
     "never-wakes",
