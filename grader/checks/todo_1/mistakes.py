@@ -337,8 +337,8 @@ known(
 
 def overlap_turned_round(disc: Disc, rect: Rect) -> Answer:
     answer = any_distance(disc, rect)
-    if is_inside(disc, rect):
-        raise Undecided  # nothing, or an offset of 0
+    if is_inside(disc, rect) or math.isclose(answer.depth, 0.0, abs_tol=1e-9):
+        raise Undecided  # either way
     return None if answer.depth > 0 else answer
 
 
