@@ -193,7 +193,7 @@ def explain_undefined(match: Match, error: Error) -> str:
     if name in HOMES:
         return f"{name} is in the module {HOMES[name]}: add `from {HOMES[name]} import {name}`."
     if error.file == SCENE and (file := given_home(name, "")):
-        return f"{name} is in {file}, which {SCENE} does not use: it is pymunk's scene."
+        return f"{name} is in {file}, the mini engine: {SCENE} uses pymunk instead."
     known = {*error.values, *error.parameters, *error.around} - error.targets
     near = find_similar(name, sorted(known))
     if near:
