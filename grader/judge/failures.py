@@ -18,6 +18,7 @@ REBOUND = (
 IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is return or = missing?"
 UNREAD = "Line {line} gives `{name}` a value, and nothing reads it."
 SWAPPED = "Line {line} has {got}, which keeps nothing of the old value: write {meant}."
+RETURNS = "Line {line} returns in the first round of its loop: is it indented too far?"
 LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."
 ENDLESS = "it used up its"  # how the words of a check begin that ran out of processor time
 MOST_NAMES = 3  # in one sentence

@@ -16,7 +16,17 @@ from grader.judge.blame import Blame, Blamed, Key
 from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
-from grader.judge.failures import IDLE, LOOP, REBOUND, SWAPPED, UNREAD, Broke, Failing, NotYet
+from grader.judge.failures import (
+    IDLE,
+    LOOP,
+    REBOUND,
+    RETURNS,
+    SWAPPED,
+    UNREAD,
+    Broke,
+    Failing,
+    NotYet,
+)
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
 from grader.judge.meaning import NOTHING_SHOWN, Evidence, Left, RegionWords, explain
@@ -36,6 +46,7 @@ from grader.source.leftovers import (
     find_leftover,
     find_loop,
     find_rebound,
+    find_return_in_loop,
     find_swapped_sign,
     find_unread,
 )
@@ -318,6 +329,7 @@ class Grading:
             return NOTHING_SHOWN
         text = read_source(self.submission.folder / where.file)
         rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
+        returns = find_return_in_loop(text, todo.id)
         unread, swapped = find_unread(text, todo.id, path), find_swapped_sign(text, todo.id)
         return RegionWords(
             self.outside_of_region.get(todo.id, ""),
@@ -325,6 +337,7 @@ class Grading:
             LOOP.format(line=loop[0], text=loop[1]) if loop else "",
             UNREAD.format(line=unread[0], name=unread[1]) if unread else "",
             SWAPPED.format(line=swapped[0], got=swapped[1], meant=swapped[2]) if swapped else "",
+            RETURNS.format(line=returns) if returns else "",
         )
 
     def keeps_points(self, todo: Todo) -> bool:

@@ -57,6 +57,7 @@ class RegionWords(NamedTuple):
     loop: str = ""  # which loop of its code may never end
     unread: str = ""  # which name gets a value that nothing reads
     swapped: str = ""  # which line has =+ for +=
+    returns: str = ""  # which line returns in the first round of its loop
 
 
 NOTHING_SHOWN = RegionWords()
@@ -171,6 +172,15 @@ def name_unread(evidence: Evidence, check: CheckResult) -> str:
     return f"{explain_after(name_unread, evidence, check)} {evidence.region.unread}".strip()
 
 
+def name_return_in_loop(evidence: Evidence, check: CheckResult) -> str:
+    """Name a return that no second round of its loop outlives, with what the answers are like."""
+    if not evidence.region.returns or check.state == "error":
+        return ""
+    return (
+        f"{explain_after(name_return_in_loop, evidence, check)} {evidence.region.returns}".strip()
+    )
+
+
 def name_kind(evidence: Evidence, check: CheckResult) -> str:
     """Say what kind of thing came instead: no known mistake of other answers explains that."""
     return check.meaning if check.meaning.endswith(f"; it is {check.got}.") else ""
@@ -248,6 +258,7 @@ EXPLAINERS: tuple[Explainer, ...] = (
     explain_names,
     name_swapped_sign,
     name_unread,
+    name_return_in_loop,
     name_kind,
     name_mistake,
     name_earlier_todos,

@@ -130,6 +130,14 @@ def find_loop(text: str, todo: str) -> tuple[int, str] | None:
     return line, show(text.splitlines()[line - 1])
 
 
+def find_return_in_loop(text: str, todo: str) -> int | None:
+    """Return the line of a return that ends a loop of a region in its first round."""
+    region, own = region_of(text, todo)
+    loops = (n for n in ast.walk(ast.Module(own, [])) if isinstance(n, ast.For | ast.While))
+    lines = [node.body[-1].lineno for node in loops if isinstance(node.body[-1], ast.Return)]
+    return region.start + 1 + min(lines) if region and lines else None
+
+
 def find_idle(text: str, todo: str) -> tuple[int, str] | None:
     """Return the first line of a region whose value nothing keeps, and that does nothing else."""
     region, own = region_of(text, todo)

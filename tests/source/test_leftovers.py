@@ -7,6 +7,7 @@ from grader.source.leftovers import (
     find_leftover,
     find_loop,
     find_rebound,
+    find_return_in_loop,
     find_swapped_sign,
     find_unread,
 )
@@ -107,3 +108,10 @@ def test_a_loop_over_a_range_may_count_with_a_name_that_nothing_reads():
 def test_a_plus_behind_the_sign_is_found():
     assert find_swapped_sign(function("y = 1", "x =+ y"), "6") == (4, "=+", "+=")
     assert find_swapped_sign(function("x = +y", "x =-y", "x == + y"), "6") is None
+
+
+def test_a_return_that_ends_its_loop_is_found():
+    lines = ("for each in x:", "    found = each", "    return found")
+    assert find_return_in_loop(function(*lines), "6") == 5
+    lines = ("for each in x:", "    if each:", "        return each")
+    assert find_return_in_loop(function(*lines), "6") is None
