@@ -212,3 +212,12 @@ known(
     "The two arms are crossed with each other; it is ra x axis, and rb x axis.",
     arms_crossed,
 )
+known(
+    "mass-counts-twice",
+    "The inverse inertia is multiplied by the inverse mass as well; the mass is in it already.",
+    with_term(
+        lambda lever, axis: (
+            lever_cross(lever, axis) ** 2 * inverse(lever.inertia) * inverse(lever.mass)
+        )
+    ),
+)

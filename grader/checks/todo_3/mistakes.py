@@ -346,3 +346,9 @@ known(
     velocities(lambda rod: by_one_mass(rod, rod.mass_b)),
     velocities(lambda rod: by_one_mass(rod, rod.mass_a)),
 )
+known(
+    "distance-for-speed",
+    "The distance between the ends stands for their speed: it is the velocities' part along the "
+    "axis.",
+    velocities(lambda rod: exact.pushed(rod, (rod.bias - math.hypot(*rod.offset)) / rod.k)),
+)

@@ -303,3 +303,8 @@ for limit_name, limit_of in LIMITS.items():
             f"{meaning_of(limit_name)} And: {meaning_of(rule_name)}",
             with_limit_and_rule(limit_of, rule),
         )
+known(
+    "jn-counts-twice",
+    "The limit has jn twice: friction_limit(c) has it already.",
+    with_limit(lambda mu, jn: math.sqrt(mu[0] * mu[1]) * jn**2),
+)

@@ -125,6 +125,11 @@ known_7b(
     lambda radius, mass: 1 / exact.disc_moment(mass, radius),
 )
 known_7b(
+    "half-the-radius",
+    "That is the moment of a ball half as wide; the outer radius is radius.",
+    lambda radius, mass: exact.disc_moment(mass, radius / 2),
+)
+known_7b(
     "mass-for-moment",
     "That is the mass; how hard a ball is to turn also depends on how far out its mass is.",
     lambda radius, mass: mass,

@@ -794,3 +794,43 @@ mistake(
     "step begins.",
     each_from_the_last,
 )
+
+
+# ---------------------------------------------------------------- a factor too much
+
+
+FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the opposite of", -1.0))
+for name, words, factor in FACTORS:
+    known_8a(
+        f"{name}-the-way",
+        f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
+        semi_implicit_with(lambda a, dt: a * dt, lambda v, dt, factor=factor: factor * v * dt),
+    )
+    if factor != 2.0:  # twice as much is half too little
+        known_8b(
+            f"{name}-the-bend",
+            f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
+            verlet_with(
+                lambda a, dt, factor=factor: factor * a * dt**2 / 2,
+                lambda old, new, dt: (old + new) / 2 * dt,
+            ),
+        )
+        known_8b(
+            f"{name}-the-mean",
+            f"v changes by {words} the mean of both accelerations * dt; it is that mean * dt.",
+            kicked(lambda old, new, dt, factor=factor: factor * (old + new) / 2 * dt),
+        )
+
+
+def sum_without_dt(x: float, v: float, dt: float, force: Force) -> State:
+    samples = sampled(x, v, dt, force, USUAL)[0]
+    for weight, (dx, dv) in zip(RIGHT_WEIGHTS, samples, strict=True):
+        x, v = x + weight * dx, v + weight * dv
+    return x, v
+
+
+known_8c(
+    "sum-without-the-step",
+    "The mean of the samples is added as it is; a step of dt seconds adds it times dt.",
+    sum_without_dt,
+)

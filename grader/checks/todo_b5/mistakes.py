@@ -61,3 +61,8 @@ known(
     "share is a share of a step already, from 0 to 1: do not divide it by STEP.",
     lambda before, now, share: place(before, now, share / STEP),
 )
+known(
+    "share-is-squared",
+    "The share counts twice: the body is drawn share times the way from before to now.",
+    lambda before, now, share: place(before, now, share * share),
+)
