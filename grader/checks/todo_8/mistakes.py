@@ -799,26 +799,35 @@ mistake(
 # ---------------------------------------------------------------- a factor too much
 
 
+def times(factor: float) -> Callable[[float, float], float]:
+    return lambda v, dt: factor * v * dt
+
+
+def bent(factor: float) -> Callable[[float, float], float]:
+    return lambda a, dt: factor * a * dt**2 / 2
+
+
+def mean_times(factor: float) -> Callable[[float, float, float], float]:
+    return lambda old, new, dt: factor * (old + new) / 2 * dt
+
+
 FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the opposite of", -1.0))
 for name, words, factor in FACTORS:
     known_8a(
         f"{name}-the-way",
         f"x moves by {words} v * dt; it moves by v * dt, with the new v.",
-        semi_implicit_with(lambda a, dt: a * dt, lambda v, dt, factor=factor: factor * v * dt),
+        semi_implicit_with(times(1.0), times(factor)),
     )
     if factor != 2.0:  # twice as much is half too little
         known_8b(
             f"{name}-the-bend",
             f"x bends by {words} a * dt² / 2; it bends by a * dt² / 2, with the old a.",
-            verlet_with(
-                lambda a, dt, factor=factor: factor * a * dt**2 / 2,
-                lambda old, new, dt: (old + new) / 2 * dt,
-            ),
+            verlet_with(bent(factor), mean_times(1.0)),
         )
         known_8b(
             f"{name}-the-mean",
             f"v changes by {words} the mean of both accelerations * dt; it is that mean * dt.",
-            kicked(lambda old, new, dt, factor=factor: factor * (old + new) / 2 * dt),
+            kicked(mean_times(factor)),
         )
 
 
