@@ -73,7 +73,7 @@ class RulesetAttr(ctypes.Structure):
 class PathBeneathAttr(ctypes.Structure):
     """struct landlock_path_beneath_attr: the rights on one file or folder and all below it."""
 
-    _pack_ = 1
+    _pack_, _layout_ = 1, "ms"  # Python 3.14 asks for the second where there is the first
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
