@@ -9,7 +9,8 @@ ours = {"PATH", "HOME", "TMPDIR", "TEMP", "TMP", "LANG", "TZ", "LC_CTYPE", "PYTH
 ours |= {"SDL_VIDEODRIVER", "SDL_AUDIODRIVER", "PYGAME_HIDE_SUPPORT_PROMPT"}
 ours |= {"OPENBLAS_NUM_THREADS"}
 told = [each for each in os.environ if each not in ours]
-told += [each for each in (*sys.argv, *sys.orig_argv) if "grade" in each or "seed" in each]
+arguments = {*sys.argv, *sys.orig_argv} - {__file__}  # where its own copy lies, it may know
+told += [each for each in arguments if "grade" in each or "seed" in each]
 for name in ("cmdline", "environ", "mountinfo"):
     try:
         told.append(Path(f"/proc/{os.getppid()}/{name}").read_text())
