@@ -10,7 +10,7 @@ PROJECT = """\
 [project]
 name = "physics-lab"
 version = "1"
-requires-python = ">=3.11,<3.14"
+requires-python = ">=3.11,<3.15"
 dependencies = ["physics-grader"]
 
 [tool.uv]

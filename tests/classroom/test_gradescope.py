@@ -268,7 +268,7 @@ def test_a_machine_without_a_fitting_python_is_refused(top: Path, tmp_path: Path
         text=True,
     )
     assert done.returncode == 1
-    assert "needs one of Python 3.13 3.12 3.11: choose a newer base image" in done.stderr
+    assert "needs one of Python 3.14 3.13 3.12 3.11: choose a newer base image" in done.stderr
 
 
 @pytest.mark.soak

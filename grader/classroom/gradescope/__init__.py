@@ -20,7 +20,7 @@ from grader.source.regions import python_files
 
 HERE = Path(__file__).parent
 SCRIPTS = ("setup.sh", "run_autograder")
-NEWEST_FIRST = ("3.13", "3.12", "3.11")  # the Pythons that the kit is tested on
+NEWEST_FIRST = ("3.14", "3.13", "3.12", "3.11")  # the Pythons that the kit is tested on
 MACHINES = ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64")
 
 
