@@ -4,6 +4,7 @@ The shares of the parts are in marks.toml. Names and identifiers are written as 
 so that a spreadsheet would run them.
 """
 
+import re
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
@@ -17,7 +18,7 @@ from msgspec import Meta, Struct
 from grader.classroom.book import NOTHING, Outcome
 from grader.classroom.owners import Owners, find_owners
 from grader.errors import Stop
-from grader.intake.lms import MarkColumn, Marked
+from grader.intake.lms import Lms, MarkColumn, Marked
 from grader.intake.names import list_names
 from grader.intake.roster import Roster, Row
 from grader.intake.systems import find_system
@@ -26,6 +27,8 @@ from grader.text import clean, format_csv
 
 USUAL_TOTAL = 100  # of marks, where a course does not say what they are out of
 ENGINE = "engine"  # the part that the checks grade; it is also the notebook of that name
+SHEET = "questions"  # about the student's own program
+WITH_ID = re.compile(r" \(\d+\)$")  # of a title in Canvas
 
 
 class Marking(Struct, frozen=True, forbid_unknown_fields=True):
@@ -132,12 +135,37 @@ class Scores:
     marking: Marking
     so_far: bool = False  # what waits for a person counts as 0
     others_known: bool = False  # who is not in the class list is nobody in it
+    of_sheets: bool = False  # an assignment beside the class list's own, for each student alone
+
+    @property
+    def missing(self) -> str:
+        """Return what to say of a student who has no part."""
+        return "no answers to a sheet" if self.of_sheets else "nothing handed in"
 
     @property
     def absent(self) -> list[str]:
-        """Return the students who have points and handed in nothing."""
+        """Return the students whose points their group does not share."""
         by_name = self.parts.items()
+        if self.of_sheets:
+            return [*self.parts]
         return [name for name, parts in by_name if not any(p.handed_in for p in parts.values())]
+
+
+def score_sheets(
+    totals: Iterable[tuple[str, int, int, int]], course: Course, decimals: int
+) -> Scores:
+    """Return the points of the sheets of questions, in a column of their own.
+
+    Each total is a student, points, the maximum, and the number of answers not marked yet. Sheets
+    differ in their maximum, so that a mark is the share of it, out of a whole sheet's points.
+    """
+    parts = {
+        student: {SHEET: Part(points, most, bool(waiting))}
+        for student, points, most, waiting in totals
+    }
+    title = f"{WITH_ID.sub('', course.title)} {SHEET}"
+    marking = Marking(title, {SHEET: 1}, course.questions.most_points, decimals, "")
+    return Scores(parts, marking, of_sheets=True)
 
 
 def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
@@ -160,9 +188,11 @@ def make_marks(roster: Roster, key: str, scores: Scores) -> Marks:
             "a column Called, or with --others-known that it is nobody's here"
         )
     lms = find_system(roster)
+    if scores.of_sheets:
+        lms = lms.for_other_assignments()
     if above := [row[key] for row, mark, _ in made.rows if is_above(mark, marking.total)]:
         made.notes.append(lms.warn_above(list_names(above), marking.total))
-    worth = read_total(roster, marking.title)
+    worth = read_total(roster, marking.title, lms)
     if worth is not None and worth != marking.total:
         words = f"{roster.path} counts to {worth:g} there, these marks to {marking.total:g}"
         made.notes.append(words)
@@ -195,8 +225,8 @@ def mark_row(
     if owners.strangers and not scores.others_known:
         made.unowned.append(student)
         return "", ""
-    made.notes.append(f"{student}: nothing handed in")
-    return str(scores.marking.absent), "nothing handed in"
+    made.notes.append(f"{student}: {scores.missing}")
+    return str(scores.marking.absent), scores.missing
 
 
 def summarize(parts: Parts, marking: Marking) -> str:
@@ -213,10 +243,10 @@ def summarize(parts: Parts, marking: Marking) -> str:
     )
 
 
-def read_total(roster: Roster, title: str) -> float | None:
+def read_total(roster: Roster, title: str, lms: Lms | None = None) -> float | None:
     """Return what full marks are in the gradebook; None where it does not say."""
     try:
-        total = find_system(roster).find_total(roster, title)
+        total = (lms or find_system(roster)).find_total(roster, title)
         return float(total.replace(",", ".")) if total else None  # as another country writes it
     except ValueError:
         return None

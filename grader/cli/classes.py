@@ -25,6 +25,7 @@ from grader.text import plural
 if TYPE_CHECKING:
     from grader.classroom.folder import ClassFolder
     from grader.classroom.grading import ClassOptions
+    from grader.questions.marking import Marking
 
 app = typer.Typer()
 class_app = typer.Typer(help="A class, in a folder that remembers it.", no_args_is_help=True)
@@ -290,10 +291,28 @@ def questions_command(
     if mark is not None:
         if practice:
             raise Stop("--practice would be ignored with --mark, which makes no sheets")
-        mark_class(mark, out, TALLY)
+        mark_class(mark, out, TALLY, lambda marked: write_sheet_marks(known, marked, out))
     results, submissions = known.find_results(), known.find_submissions()
     from grader.questions.making import Making
 
     options = Options(shipped_reference(), isolation, course=known.course)
     making = Making(out, options, None, practice, results, TALLY)
     make_sheets(making, submissions, known.list_people())
+
+
+def write_sheet_marks(known: "ClassFolder", marked: "Marking", out: Path) -> list[str]:
+    """Write the points of the sheets as a column of the gradebook; return what to say of it."""
+    if known.roster is None:
+        return []
+    from grader.classroom.marks import load_marking, make_marks, score_sheets
+    from grader.intake.systems import read_roster
+
+    listed = read_roster(known.roster)
+    counted = [each for each in marked.totals if each.student not in marked.silent]
+    scores = score_sheets(counted, known.course, load_marking(known.marks, known.course).decimals)
+    made = make_marks(listed, listed.choose_key(known.settings.key), scores)
+    (out / "marks.csv").write_bytes(made.text.encode(made.encoding))
+    title, total = scores.marking.title, scores.marking.total
+    column = f"column {title!r}, out of {total:g}"
+    count = f"{made.given} of {len(listed.rows)} marks are in {out / 'marks.csv'}, {column}"
+    return [*made.notes, count]

@@ -1,5 +1,6 @@
 """Define the command `questions`: sheets about students' programs, and marks for the answers."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -25,6 +26,7 @@ from grader.text import plural
 if TYPE_CHECKING:
     from grader.intake.roster import ClassList
     from grader.questions.making import Making
+    from grader.questions.marking import Marking
 
 TALLY = KIT / "build" / "questions" / "tally.json"
 
@@ -125,8 +127,16 @@ def refuse_when_marking(context: typer.Context, path: Path | None) -> None:
         raise Stop(f"{path} would be ignored with --mark, which needs the keys in --out alone")
 
 
-def mark_class(answers: Path, out: Path, tally: Path) -> NoReturn:
-    """Mark a table of answers, and count them with those of other classes."""
+def mark_class(
+    answers: Path,
+    out: Path,
+    tally: Path,
+    write_gradebook: "Callable[[Marking], list[str]]" = lambda _: [],
+) -> NoReturn:
+    """Mark a table of answers, and count them with those of other classes.
+
+    `write_gradebook` returns what to tell of the gradebook that it made.
+    """
     from grader.questions.marking import mark_answers, read_keys, write_points
     from grader.questions.tally import add_class, write_bank
 
@@ -138,4 +148,5 @@ def mark_class(answers: Path, out: Path, tally: Path) -> NoReturn:
     open_answers = [f"{each.student}, question {each.number}: {each.note}" for each in waiting]
     print_notes([*marked.notes, *open_answers])
     print_note(f"{' and '.join(map(str, tables))} are written")
+    print_notes(write_gradebook(marked))
     raise typer.Exit(1 if waiting or marked.notes else 0)

@@ -110,9 +110,14 @@ class Lms:
         table = [[*(roster.titles.get(name, name) for name in own), "Grade", "Feedback"]]
         return [*table, *([*pick(row, own), mark, words] for row, mark, words in marks.rows)]
 
+    def for_other_assignments(self) -> "Lms":
+        """Return how marks go back of an assignment that is not the class list's own."""
+        return self
+
     def find_total(self, roster: Roster, title: str) -> str:
         """Return what full marks are in the gradebook; empty where it does not say."""
-        columns = (name for name in roster.columns if name.startswith(title))
+        head = re.compile(rf"{re.escape(title)}(?: Points Grade)? [\[<]")
+        columns = (name for name in roster.columns if head.match(name))
         return next((match[1] for name in columns if (match := TOTAL.search(name))), "")
 
     def warn_above(self, names: str, total: float) -> str:

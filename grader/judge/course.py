@@ -93,6 +93,17 @@ class Asked(Struct, frozen=True, forbid_unknown_fields=True):
         """Return the points of one question of a kind."""
         return self.points.get(kind, WORTH[kind])
 
+    @property
+    def most_points(self) -> int:
+        """Return the points of a sheet with every question that may be on it."""
+        counts: dict[Kind, int] = {
+            "number": self.number,
+            "film": self.film,
+            "line": self.line,
+            "why": self.why,
+        }
+        return sum(count * self.worth(kind) for kind, count in counts.items())
+
 
 WORTH: dict[Kind, int] = {"number": 2, "film": 4, "line": 3, "why": 3}
 

@@ -6,9 +6,10 @@ An answer that cannot be read is never a silent 0: it has no points, and a note 
 import csv
 import io
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 
@@ -22,7 +23,7 @@ from grader.questions.question import (
     grade_answer,
 )
 from grader.report.files import write_whole
-from grader.text import escape_formula, format_csv
+from grader.text import escape_formula, format_csv, plural
 
 COLUMNS = ("student", "question", "answer")
 BY_HAND = "points"  # a column that may be left out: those that a person gave
@@ -57,26 +58,45 @@ class Mark:
         return self.points == self.question.points
 
 
+class Total(NamedTuple):
+    """The points of one sheet, its maximum, and the number of answers not marked yet."""
+
+    student: str
+    points: int
+    max_points: int
+    waiting: int
+
+
 @dataclass(frozen=True)
 class Marking:
     marks: list[Mark]
     notes: list[str]  # lines that are nobody's answer
+    silent: list[str]  # students with a sheet and no answer in the table
+
+    @property
+    def totals(self) -> list[Total]:
+        """Return everybody's points, by student; nobody without a question has any."""
+        by_student: dict[str, list[Mark]] = defaultdict(list)
+        for each in self.marks:
+            by_student[each.student].append(each)
+        return [sum_points(marks) for marks in by_student.values()]
 
 
 def mark_answers(table: Path, keys: Path) -> Marking:
     """Mark a table of answers with the keys in a folder; raises CannotGrade where there is none."""
-    sheets = {fold(sheet.student): sheet for sheet in read_keys(keys)}
+    sheets = read_keys(keys)
     if not sheets:
         raise CannotGrade(f"there are no keys in {keys}: name the folder of the sheets with --out")
     given, notes = sort_answers(read_answers(table), sheets)
     marks = [
-        mark_question(sheet.student, number, question, given.get((name, number)))
-        for name, sheet in sheets.items()
+        mark_question(sheet.student, number, question, given.get((sheet.student, number)))
+        for sheet in sheets
         for number, question in enumerate(sheet.questions, 1)
     ]
     heard = {name for name, _ in given}
-    silent = [sheet.student for name, sheet in sheets.items() if name not in heard]
-    return Marking(marks, [*notes, *(f"no answer of {name} is in the table" for name in silent)])
+    silent = [each.student for each in sheets if each.questions and each.student not in heard]
+    notes += [f"no answer of {name} is in the table" for name in silent]
+    return Marking(marks, notes, silent)
 
 
 def read_keys(folder: Path) -> list[Sheet]:
@@ -112,25 +132,41 @@ def read_answers(table: Path) -> list[GivenAnswer]:
 
 
 def sort_answers(
-    lines: Iterable[GivenAnswer], sheets: Mapping[str, Sheet]
+    lines: Iterable[GivenAnswer], sheets: Iterable[Sheet]
 ) -> tuple[dict[tuple[str, int], GivenAnswer], list[str]]:
     """Return the answers by student and number, and a note on each line that fits no sheet."""
-    found: dict[tuple[str, int], GivenAnswer] = {}
+    named, found = index_names(sheets), dict[tuple[str, int], GivenAnswer]()
     notes = []
     for each in lines:
-        sheet = sheets.get(fold(each.student))
+        owners = named.get(fold(each.student), [])
         digits = each.question.removeprefix("q").removeprefix("Q").rstrip(".")
         number = int(digits) if digits.isdecimal() and len(digits) < 4 else 0
-        if sheet is None:
-            notes.append(f"line {each.line}: there is no sheet of {each.student!r}")
-        elif not 1 <= number <= len(sheet.questions):
-            there = f"{each.student} has questions 1 to {len(sheet.questions)}"
-            notes.append(f"line {each.line}: {there}, and no {each.question!r}")
-        elif (fold(each.student), number) in found:
+        if len(owners) != 1:
+            names = " or ".join(owner.student for owner in owners)
+            words = f"write {names}" if owners else "there is no sheet of that name"
+            notes.append(f"line {each.line}: {each.student!r}: {words}")
+        elif not 1 <= number <= len(owners[0].questions):
+            there = describe_numbers(owners[0])
+            notes.append(f"line {each.line}: {each.student} has {there}, and no {each.question!r}")
+        elif (owners[0].student, number) in found:
             notes.append(f"line {each.line}: {each.student} answered question {number} above")
         else:
-            found[fold(each.student), number] = each
+            found[owners[0].student, number] = each
     return found, notes
+
+
+def index_names(sheets: Iterable[Sheet]) -> dict[str, list[Sheet]]:
+    """Return the sheets by what a person may call their student: a full name may be two's."""
+    named: dict[str, list[Sheet]] = {}
+    for sheet in sheets:
+        for name in {fold(each) for each in (sheet.student, sheet.label, sheet.full_name)} - {""}:
+            named.setdefault(name, []).append(sheet)
+    return named
+
+
+def describe_numbers(sheet: Sheet) -> str:
+    count = len(sheet.questions)
+    return f"questions 1 to {count}" if count > 1 else plural(count, "question")
 
 
 def mark_question(student: str, number: int, question: Question, given: GivenAnswer | None) -> Mark:
@@ -177,19 +213,17 @@ def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:
         for each in marked.marks
     ]
     write_whole(encode_table([titles, *rows]), answers)
-    by_student: dict[str, list[Mark]] = defaultdict(list)
-    for each in marked.marks:
-        by_student[each.student].append(each)
     head = ("student", "points", "out of", "open")
-    write_whole(encode_table([head, *map(sum_points, by_student.values())]), totals)
+    write_whole(encode_table([head, *marked.totals]), totals)
     return answers, totals
 
 
-def sum_points(marks: Sequence[Mark]) -> tuple[str, int, int, int]:
-    """Return a student's points, the maximum, and the number of answers not marked yet."""
+def sum_points(marks: Sequence[Mark]) -> Total:
+    """Return the total of one student's marks."""
     points = sum(each.points or 0 for each in marks)
     waiting = sum(each.points is None for each in marks)
-    return marks[0].student, points, sum(each.question.points for each in marks), waiting
+    most = sum(each.question.points for each in marks)
+    return Total(marks[0].student, points, most, waiting)
 
 
 def is_number(cell: str) -> bool:

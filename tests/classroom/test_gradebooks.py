@@ -1,5 +1,7 @@
 """Marks on their way into each gradebook, and who is who there."""
 
+import csv
+import io
 from pathlib import Path
 
 import gradebooks
@@ -7,8 +9,9 @@ import pytest
 from command_line import run_grader
 
 from grader.classroom.book import NOTHING, Book, Outcome
-from grader.classroom.marks import Marking, Scores, make_marks, make_parts
+from grader.classroom.marks import Marking, Scores, make_marks, make_parts, score_sheets
 from grader.intake.systems import read_roster
+from grader.judge.course import Course
 
 TITLE = "Physics engine"
 CANVAS = f"""\
@@ -95,6 +98,28 @@ def test_each_gradebook_reads_its_marks_back(tmp_path, text, key, read):
     if text is WORKSHEET:
         assert told[BEN][1] == "engine not graded (the archive is broken)"
         assert "broken" in told[CEM][1] and told[DORA][1] == "nothing handed in"
+
+
+@pytest.mark.parametrize(
+    "text, key, column",
+    [
+        (CANVAS, "", f"{TITLE} questions"),
+        (WORKSHEET, "@x.edu", "Grade"),
+        (BLACKBOARD, "", f"{TITLE} questions"),
+        (BRIGHTSPACE, "", f"{TITLE} questions Points Grade"),
+    ],
+    ids=["Canvas", "Moodle", "Blackboard", "Brightspace"],
+)
+def test_sheets_of_questions_have_a_column_of_their_own(tmp_path, text, key, column):
+    """And no worksheet, whose grades would be those of the assignment."""
+    (tmp_path / "list.csv").write_text(text, encoding="utf-8")
+    roster = read_roster(tmp_path / "list.csv")
+    totals = [(f"ann{key}", 13, 17, 0), (f"ann2{key}", 3, 19, 1), (f"ben{key}", 19, 19, 0)]
+    file = make_marks(roster, roster.choose_key(), score_sheets(totals, Course(title=TITLE), 1))
+    rows = list(csv.DictReader(io.StringIO(file.text.lstrip("\ufeff")), delimiter=roster.delimiter))
+    marks = [row[column] for row in rows if "Possible" not in str(row)]
+    assert marks[-5:] == ["14.5", "", "19.0", "", ""]
+    assert "Maximum Grade" not in rows[0] and not any("counts to" in each for each in file.notes)
 
 
 @pytest.mark.parametrize("text", [CANVAS, WORKSHEET], ids=["Canvas", "Moodle"])

@@ -24,6 +24,7 @@ from whole_bank import bank
 
 from grader.bank.members import Member
 from grader.bank.verify import shared_worker
+from grader.cli import questions as cli
 from grader.judge.course import Asked, WrongCourse, read_course
 from grader.judge.failures import Broke
 from grader.judge.grade import Options, shipped_reference
@@ -425,6 +426,53 @@ def test_what_a_person_marks_waits_for_one(handed_back: Path, whole_sheet: Sheet
 def test_who_is_not_in_the_table_is_named(handed_back: Path):
     found = marked(handed_back, "student,question,answer\n")
     assert found.notes == ["no answer of ada is in the table"]
+
+
+def sheet_of(student: str, full_name: str, *questions: Question) -> Sheet:
+    return Sheet(student, "1", questions, full_name=full_name)
+
+
+ONE = Question("steps", "number", ("6",), "How many?", 2, answer="15")
+
+
+def test_a_table_may_have_full_names(tmp_path: Path):
+    """As they stand on the sheets; of two students with one name, none is guessed."""
+    twins = [sheet_of("s1", "Ann Lee", ONE), sheet_of("s2", "Ann Lee", ONE)]
+    for each in (*twins, sheet_of("s3", "Ben Öz", ONE), sheet_of("s4", "Cem Roe")):
+        write_whole(msgspec.json.encode(each), tmp_path / "keys" / f"{each.student}.json")
+    rows = ["ben öz,1,15", "Ann Lee,1,15", "Ann Lee (s2),1,15", "Cem Roe,1,3", "Dora,1,3"]
+    found = marked(tmp_path, "\n".join(["student,question,answer", *rows]))
+    assert [each.points for each in found.marks] == [0, 2, 2]
+    assert found.notes == [
+        "line 3: 'Ann Lee': write s1 or s2",
+        "line 5: Cem Roe has 0 questions, and no '1'",
+        "line 6: 'Dora': there is no sheet of that name",
+        "no answer of s1 is in the table",  # and nobody asked Cem anything
+    ]
+
+
+def test_the_points_of_a_class_go_into_its_gradebook(tmp_path: Path, monkeypatch):
+    """Out of a whole sheet, for each student alone, and none where there is nothing to mark."""
+    monkeypatch.setattr(cli, "TALLY", tmp_path / "tally.json")
+    four = Question("impulse", "number", ("1",), "How large?", 4, answer="3")
+    sheets = [sheet_of("ann", "Ann Lee", ONE, four), sheet_of("ben", "", ONE), sheet_of("cem", "")]
+    for each in (*sheets, sheet_of("dora", "", ONE)):
+        write_whole(msgspec.json.encode(each), tmp_path / f"lab/questions/keys/{each.student}.json")
+    students = [f'"{name}, X",{n},{name},A,G' for n, name in enumerate(["ann", "ben", "cem"])]
+    rows = ["Student,ID,SIS Login ID,Section,Group", *students, '"dora, X",9,dora,A,G', ""]
+    (tmp_path / "list.csv").write_text("\n".join(rows))
+    (tmp_path / "course.toml").write_text('title = "Lab (77)"\n')
+    run_grader(
+        *("class", "new", str(tmp_path / "lab"), "--roster", str(tmp_path / "list.csv")),
+        *("--course", str(tmp_path / "course.toml")),
+    )
+    table = tmp_path / "answers.csv"
+    table.write_text("student,question,answer\nann,1,15\nann,2,5\nben,1,15\n")
+    run = run_grader("class", "questions", str(tmp_path / "lab"), "--mark", str(table))
+    assert run.exit_code == 1
+    assert "2 of 4 marks are in" in run.output and "'Lab questions', out of 19" in run.output
+    _, *lines = (tmp_path / "lab" / "questions" / "marks.csv").read_text().splitlines()
+    assert [line.rpartition(",")[2] for line in lines] == ["6.3", "19.0", "", ""]
 
 
 def test_a_formula_in_an_answer_stays_a_text_in_a_spreadsheet(handed_back: Path):
