@@ -21,7 +21,7 @@ from grader.classroom.adjustments import write_time
 from grader.classroom.comments import Remark
 from grader.intake.names import sort_key
 from grader.judge.course import FULL, Course
-from grader.judge.result import Result, is_bonus
+from grader.judge.result import Result, TodoResult, is_bonus
 from grader.report.files import write_whole
 from grader.text import format_csv
 
@@ -202,14 +202,31 @@ def make_outcome(name: str, result: bytes, seconds: float, key: str) -> Outcome:
 
 
 def compare_results(old: Result, new: Result) -> Iterator[str]:
-    """Yield the checks that give other points than before, a line each."""
-    before = {(todo.id, check.id): check for todo in old.todos for check in todo.checks}
+    """Yield the TODOs that are worth other points than before, and the checks that give others."""
+    before = {todo.id: todo for todo in old.todos}
     for todo in new.todos:
-        for check in todo.checks:
-            was = before.get((todo.id, check.id))
-            if was is not None and was.points != check.points:
-                points = f"{was.points} → {check.points} of {check.max_points}"
-                yield f"TODO {todo.id}, {check.title}: {points}"
+        was = before.pop(todo.id, None)
+        if was is None:
+            yield f"TODO {todo.id} is new: {todo.points} of {todo.max_points}"
+        else:
+            yield from compare_todos(was, todo)
+    for todo in before.values():
+        yield f"TODO {todo.id} is not asked any more: it had {todo.points} of {todo.max_points}"
+
+
+def compare_todos(old: TodoResult, new: TodoResult) -> Iterator[str]:
+    """Yield what changed; of checks that are only worth other points, their TODO says so once."""
+    if old.max_points != new.max_points:
+        points = f"{old.points} of {old.max_points} → {new.points} of {new.max_points}"
+        yield f"TODO {new.id} has other points in the course: {points}"
+    before = {check.id: check for check in old.checks}
+    for check in new.checks:
+        was = before.get(check.id)
+        if was is None or (was.max_points != check.max_points and was.state == check.state):
+            continue
+        if was.points != check.points:
+            points = f"{was.points} → {check.points} of {check.max_points}"
+            yield f"TODO {new.id}, {check.title}: {points}"
 
 
 def list_broken(result: Result) -> list[str]:

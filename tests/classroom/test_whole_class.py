@@ -23,12 +23,14 @@ from whole_bank import bank
 
 from grader.classroom import grading
 from grader.classroom.batch import Run
+from grader.classroom.book import compare_results
 from grader.classroom.grading import ClassOptions, run_class
 from grader.intake import archives, repack
 from grader.intake.systems import BY_NAME
 from grader.judge.children import start_worker
 from grader.judge.course import Course
 from grader.judge.grade import KIT, Options, grade, shipped_reference
+from grader.judge.result import CheckResult, Result, TodoResult
 from grader.judge.submission import plain_files
 from grader.report.files import read_result
 
@@ -131,6 +133,29 @@ def test_people_are_listed_by_their_names_as_people_sort_and_all_of_them(tmp_pat
     )  # fmt: skip
     assert "these marks count to 50, and the students' pages count to 10" in other.output
     assert "#a10,2.5,#" in (tmp_path / "m.csv").read_text(encoding="utf-8")
+
+
+def result_with(**points: tuple[int, int]) -> Result:
+    """Return a result of TODOs with so many points, of a check that passed and one that did not."""
+
+    def check(name: str, got: int, most: int) -> CheckResult:
+        return CheckResult(name, name, "unit", "passed" if got else "not yet", got, most)
+
+    def todo(name: str, got: int, most: int) -> TodoResult:
+        checks = [check("right", got, got), check("wrong", 0, most - got)]
+        return TodoResult(name, "", "not yet", got, most, None, checks)
+
+    return Result(1, "", 0, 0, 0, [], [todo(name, *each) for name, each in points.items()])
+
+
+def test_other_points_in_the_course_are_said_once_for_each_todo():
+    old = result_with(a=(5, 8), b=(2, 4), c=(1, 2))
+    assert list(compare_results(old, result_with(a=(10, 16), b=(0, 4), d=(3, 6)))) == [
+        "TODO a has other points in the course: 5 of 8 → 10 of 16",
+        "TODO b, right: 2 → 0 of 0",
+        "TODO d is new: 3 of 6",
+        "TODO c is not asked any more: it had 1 of 2",
+    ]
 
 
 def test_grading_again_shows_what_changed_and_keeps_what_was(tmp_path, in_one_process):
