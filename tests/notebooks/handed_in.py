@@ -1,8 +1,12 @@
 """Notebooks as students hand them in, made from the source's."""
 
 import json
+import os
 import re
 import shutil
+import subprocess
+import sys
+from pathlib import Path
 
 from grader.judge.grade import KIT
 
@@ -10,6 +14,7 @@ SOURCE = KIT / "solution" / "notebooks"
 RELEASED = KIT / "starter" / "notebooks"
 NAMES = sorted(path.stem for path in SOURCE.glob("*.ipynb"))
 STUBS = {"code": "# Write your code here.", "markdown": "*Write your answer here.*"}
+SCRIPTS = Path(sys.executable).parent
 MARKERS = ("### BEGIN SOLUTION", "### END SOLUTION")
 
 
@@ -65,6 +70,22 @@ def answered(name):
             lines = source(right[cell["id"]]).splitlines(keepends=True)
             cell["source"] = [line for line in lines if not line.strip().startswith(MARKERS)]
     return notebook
+
+
+def answers():
+    return {name: answered(name) for name in NAMES}
+
+
+def activated():
+    """The variables of a terminal in which the environment is active."""
+    path = os.pathsep.join([str(SCRIPTS), os.environ["PATH"]])
+    return {**os.environ, "PATH": path}
+
+
+def run(course, *arguments):
+    """One of nbgrader's commands, as a person would type it in the course folder."""
+    command = [str(SCRIPTS / "nbgrader"), *arguments]
+    return subprocess.run(command, cwd=course, env=activated(), capture_output=True, text=True)
 
 
 def hand_in(folder, tree, notebooks):

@@ -5,11 +5,7 @@ Needs nbgrader beside the grader; takes some minutes.
 
 import csv
 import json
-import os
 import shutil
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 from command_line import run_grader
@@ -18,10 +14,12 @@ from handed_in import (
     RELEASED,
     SOURCE,
     answered,
+    answers,
     hand_in,
     kind,
     read,
     replace_in,
+    run,
     source,
     write,
 )
@@ -57,10 +55,6 @@ def edit(path, old, new):
     text = path.read_text(encoding="utf-8")
     assert text.count(old) == 1
     path.write_text(text.replace(old, new), encoding="utf-8")
-
-
-def answers():
-    return {name: answered(name) for name in NAMES}
 
 
 def with_noise(notebook, cell_id, before):
@@ -111,15 +105,6 @@ def make_class(folder):
     hand_in(folder / "hana", "solution", answers())
     (folder / "hana" / "notebooks" / "quiz.ipynb").write_text("{ not json", encoding="utf-8")
     return folder
-
-
-def run(course, *arguments):
-    """One of nbgrader's commands, as a person would type it in the course folder."""
-    scripts = Path(sys.executable).parent
-    path = os.pathsep.join([str(scripts), os.environ["PATH"]])
-    command = [str(scripts / "nbgrader"), *arguments]
-    environment = {**os.environ, "PATH": path}
-    return subprocess.run(command, cwd=course, env=environment, capture_output=True, text=True)
 
 
 def bridge(course, *results):

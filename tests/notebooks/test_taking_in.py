@@ -99,6 +99,31 @@ def test_notebooks_may_lie_beside_the_engine_as_nbgrader_releases_them(course, c
     assert (course / "submitted" / "anna" / ASSIGNMENT / "quiz.ipynb").exists()
 
 
+def test_notebooks_may_lie_beside_a_folder_of_programs(course, classroom):
+    """Also where the programs are put together because of their names."""
+    for student, names in {"anna": (), "ben": ("integrators.py",)}.items():
+        tree = untouched(classroom / student / "lab3")
+        (tree / "notebooks").rename(tree.parent / "my notebooks")
+        (tree.parent / "my notebooks" / "quiz.ipynb").rename(tree.parent / "quiz.ipynb")
+        for name in names:
+            (tree / name).rename(tree / name.replace(".py", " (1).py"))
+    found = taken(classroom, course)
+    for student in ("anna", "ben"):
+        assert found[student].words == "5 notebooks"
+        submitted = course / "submitted" / student / ASSIGNMENT
+        assert sorted(path.stem for path in submitted.glob("*.ipynb")) == NAMES
+        assert (submitted / "integrators.py").is_file()
+
+
+def test_of_two_notebooks_that_are_as_near_nobody_takes_one(course, classroom):
+    tree = untouched(classroom / "anna" / "lab3")
+    (tree / "notebooks").rename(tree.parent / "new")
+    (tree.parent / "old").mkdir()
+    (tree.parent / "old" / "quiz.ipynb").write_text("{}")
+    found = taken(classroom, course)["anna"]
+    assert not found.taken and "new/quiz.ipynb and old/quiz.ipynb are" in found.words
+
+
 def test_python_files_alone_are_taken_too(course, classroom):
     hand_in(classroom / "farid", "starter", {})
     assert taken(classroom, course)["farid"].words == "no notebook"

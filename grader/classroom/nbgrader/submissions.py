@@ -17,7 +17,7 @@ from grader.classroom.fingerprint import make_key
 from grader.errors import Stop
 from grader.intake.found import Found, Intake
 from grader.intake.listing import open_class
-from grader.intake.packing import lay_out
+from grader.intake.packing import lay_out, open_found
 from grader.judge.grade import KIT, Options
 from grader.judge.outer import READING, call_alone
 from grader.judge.plain import copy_plain, open_plain, size_of
@@ -41,7 +41,7 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
     """Copy each student's folder to where nbgrader looks for it.
 
     No links and nothing hidden is copied. A notebook may lie in the folder `notebooks`, as in the
-    starter, or beside the engine. A submission that changed will be autograded anew.
+    starter, beside the engine, or anywhere else. A submission that changed is autograded anew.
     """
     if not (course / "source" / ASSIGNMENT).is_dir():
         make = f"python -m grader nbgrader course {course}"
@@ -57,20 +57,23 @@ def collect_submissions(folder: Path, course: Path) -> Iterator[Taken]:
 def take_found(found: Found, course: Path) -> Taken:
     """Take one submission, or say why it cannot be taken."""
     try:
-        with lay_out(found) as (path, _):
-            return take_submission(found.name, path, course)
+        with open_found(found) as (folder, _, _), lay_out(found) as (path, _):
+            return take_submission(found.name, path, folder, course)
     except Stop as error:
         return Taken(found.name, str(error), False)
 
 
-def take_submission(student: str, path: Path, course: Path) -> Taken:
-    """Lay one student's files where nbgrader looks for them, if they are not there already."""
+def take_submission(student: str, path: Path, folder: Path, course: Path) -> Taken:
+    """Lay one student's files where nbgrader looks for them, if they are not there already.
+
+    `path` has the programs as the lab lays them; `folder` has all that was handed in.
+    """
     if not NAME.fullmatch(student):
         return Taken(student, "nbgrader cannot work with this name: rename it", False)
     target = course / "submitted" / student / ASSIGNMENT
     with tempfile.TemporaryDirectory() as temporary:
         copy = Path(temporary) / ASSIGNMENT
-        notebooks = copy_files(path, copy)
+        notebooks = copy_files(path, folder, copy)
         if target.exists() and read_files(copy) == read_files(target):
             return Taken(student, "unchanged")
         shutil.rmtree(target, ignore_errors=True)
@@ -79,22 +82,43 @@ def take_submission(student: str, path: Path, course: Path) -> Taken:
     return Taken(student, f"{notebooks} notebooks" if notebooks else "no notebook")
 
 
-def copy_files(path: Path, target: Path) -> int:
-    """Copy a submission as nbgrader wants it, notebooks on top; return how many there are."""
+def copy_files(path: Path, folder: Path, target: Path) -> int:
+    """Copy a submission as nbgrader wants it, notebooks on top; return how many there are.
+
+    A notebook that does not lie with the programs is looked for in all that was handed in.
+    """
     target.mkdir()
     wanted = {path.name for path in (KIT / "solution" / NOTEBOOKS).glob("*.ipynb")}
     for source in plain_files(path):
         inside = source.relative_to(path)
         if inside.name in wanted and inside.parts[:-1] in ((), (NOTEBOOKS,)):
             inside = Path(inside.name)
-        (target / inside).parent.mkdir(parents=True, exist_ok=True)
-        try:
-            file = open_plain(path, source.relative_to(path))
-        except OSError as error:
-            raise Stop(unreadable(error, path)) from error
-        with file:
-            copy_plain(file, target / inside, size_of(file))
+        copy_one(path, source, target / inside)
+    for name in sorted(name for name in wanted if not (target / name).exists()):
+        if notebook := find_notebook(folder, name):
+            copy_one(folder, notebook, target / name)
     return sum((target / name).exists() for name in wanted)
+
+
+def copy_one(top: Path, source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        file = open_plain(top, source.relative_to(top))
+    except OSError as error:
+        raise Stop(unreadable(error, top)) from error
+    with file:
+        copy_plain(file, target, size_of(file))
+
+
+def find_notebook(folder: Path, name: str) -> Path | None:
+    """Return the notebook nearest to the top; raises Stop where two are as near, and differ."""
+    paths = [path for path in plain_files(folder) if path.name == name]
+    depth = min((len(path.parts) for path in paths), default=0)
+    nearest = [path for path in paths if len(path.parts) == depth]
+    if len({path.read_bytes() for path in nearest}) > 1:
+        names = " and ".join(path.relative_to(folder).as_posix() for path in sorted(nearest))
+        raise Stop(f"{names} are the same notebook with other content: leave one")
+    return min(nearest, default=None)
 
 
 def read_files(top: Path) -> dict[Path, bytes]:
