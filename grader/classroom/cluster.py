@@ -5,6 +5,7 @@ need this very grader. Nothing is lost with a worker: Dask gives what it had und
 another one.
 """
 
+import asyncio
 import atexit
 import logging
 import shutil
@@ -91,16 +92,38 @@ def connect(address: str, options: Options) -> Iterator[Cluster]:
         from distributed import Client
     except ImportError as error:
         raise Stop("--cluster needs Dask: python -m pip install dask distributed") from error
+    find_scheduler(address)
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
             address, timeout=CONNECT_SECONDS, set_as_default=False
         )
     except (OSError, ValueError) as error:
-        raise Stop(f"there is no Dask scheduler at {address} ({error})") from error
+        raise Stop(describe_silence(address, error)) from error
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # we say it in a sentence
     with client:
         check_workers(client, address)
         yield Cluster(client, options)
+
+
+def find_scheduler(address: str) -> None:
+    """Stop unless a scheduler answers: a client that finds none takes a minute to give up."""
+    from distributed import Security, rpc
+
+    async def ask() -> None:
+        how = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
+        async with rpc(address, connection_args=how) as scheduler:  # type: ignore[no-untyped-call]
+            await scheduler.identity()
+
+    try:
+        asyncio.run(asyncio.wait_for(ask(), CONNECT_SECONDS))
+    except Exception as error:  # whatever answers there, and however
+        raise Stop(describe_silence(address, error)) from error
+
+
+def describe_silence(address: str, error: Exception) -> str:
+    why = " ".join(str(error).split())[:200] or f"no answer in {CONNECT_SECONDS} s"
+    check = "check the address that it printed, and that this machine may reach it"
+    return f"there is no Dask scheduler at {address} ({why}): {check}"
 
 
 def check_workers(client: Any, address: str) -> None:

@@ -1,8 +1,10 @@
 """Grading a class on a Dask cluster: two worker processes of this machine."""
 
 import os
+import re
 import shutil
 import signal
+import socket
 import threading
 import time
 from collections.abc import Iterator
@@ -88,6 +90,25 @@ def test_no_scheduler_is_a_sentence(classroom, monkeypatch):
 
 
 @pytest.mark.soak
+@pytest.mark.parametrize("address", ["somewhere", "tcp://", "http://127.0.0.1:80", "tls://[::1]:9"])
+def test_an_address_that_is_none_is_a_sentence_at_once(address: str, monkeypatch):
+    monkeypatch.setattr(distributed, "Client", lambda *_, **__: pytest.fail("a client was made"))
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
+    with (
+        pytest.raises(Stop, match=f"there is no Dask scheduler at {re.escape(address)} "),
+        cluster.connect(address, Options()),
+    ):
+        pass
+
+
+def test_what_never_answers_is_no_scheduler(monkeypatch):
+    monkeypatch.setattr(cluster, "CONNECT_SECONDS", 1)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        with pytest.raises(Stop, match="no answer in 1 s"), cluster.connect(address, Options()):
+            pass
+
+
 def test_workers_with_another_grader_are_refused(workers, classroom):
     with distributed.Client(workers, set_as_default=False) as client:
         client.run(setattr, fingerprint, "fingerprint", partial(str, "another"))
