@@ -177,5 +177,7 @@ def choose_examples(text: str, course: Course) -> str:
     for example, bonus in ((EXAMPLE, False), (BONUS_EXAMPLE, True)):
         ids = [todo.id for todo in course.rubric.todos if todo.function and todo.bonus == bonus]
         if ids and example not in ids:
-            text = re.sub(rf"(TODO[= ]|--todo ){example}\b", rf"\g<1>{ids[0]}", text)
+            text = re.sub(
+                rf"(TODO[= ]|--todo |grader (?:check|hint) ){example}\b", rf"\g<1>{ids[0]}", text
+            )
     return text
