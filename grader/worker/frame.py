@@ -7,7 +7,6 @@ what may change is the judge's to say.
 import math
 import sys
 from collections.abc import Iterable
-from contextlib import suppress
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -68,12 +67,14 @@ class Frame:
             if not isinstance(argument, int | float | str | None):
                 found[-number, ""] = numbers_in(argument)
         for name, places in self.constants:
-            found[0, name] = tuple(names.get(name) for names in places)
+            found[0, name] = tuple([names.get(name) for names in places])
         return found
 
     def changes(self) -> list[Change]:
         """Return the changes: ref is minus its number for an argument, and 0 for a constant."""
         after = self.state()
+        if after == self.before:  # as nearly always
+            return []
         return [
             Change(ref, name)
             for (ref, name), before in self.before.items()
@@ -112,8 +113,10 @@ def numbers_in(value: Any) -> Numbers:
     if type(value) in PAIRS:
         return tuple(value)
     for meaning in (float, id):  # a pair of numbers, a list or view of bodies
-        with suppress(TypeError, ValueError):
+        try:
             return tuple(map(meaning, value))
+        except (TypeError, ValueError):
+            continue
     return (id(value),)
 
 

@@ -118,7 +118,9 @@ class Subject:
 
         The lab sheet fixes names, and leaves students free to move them between files.
         """
-        whole = importlib.import_module(module)
+        whole = sys.modules.get(module)
+        if whole is None:
+            whole = importlib.import_module(module)
         if name in vars(whole):
             return whole
         parts = [part for key, part in sys.modules.items() if key.startswith(f"{module}.")]

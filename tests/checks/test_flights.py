@@ -41,10 +41,10 @@ def test_it_neither_hangs_nor_turns_nor_jumps(vx: float, vy: float):
 
 
 def test_what_is_near_something_is_not_judged():
-    assert is_clear(ball(450, 100), [])
-    assert not is_clear(ball(200, 225), [])  # above the ledge
-    assert not is_clear(ball(450, 100), [ball(490, 100)])
-    assert not is_clear(ball(840, 120), [])  # where the bob swings
+    assert is_clear(ball(450, 100), [], [])
+    assert not is_clear(ball(200, 225), [], [])  # above the ledge
+    assert not is_clear(ball(450, 100), [ball(490, 100)], [0.0])
+    assert not is_clear(ball(840, 120), [], [])  # where the bob swings
 
 
 def test_a_run_begins_with_the_balls_of_the_scene_which_may_change_their_places_in_the_list():

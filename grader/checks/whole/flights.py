@@ -25,6 +25,18 @@ FASTEST = 3000.0  # px/s: three times what a fall through the whole window gives
 MAX_PAIRS = 2_000_000  # of bodies that are compared in a run; the scene's have a tenth
 
 
+def outline(part: Part) -> tuple[float, float, float, float, float]:
+    """Return half the width and height of a static part, its middle and its radius, px.
+
+    A disc is a point with a radius, and a box has none.
+    """
+    width, height, radius = (0.0, 0.0, *part.shape) if len(part.shape) == 1 else (*part.shape, 0.0)
+    return width, height, *part.pos, radius
+
+
+OUTLINES = [outline(part) for part in FIXED]
+
+
 def moments(row: Sequence[float]) -> list[Moment]:
     """Return the bodies that can move, from one row of a trail."""
     return [Moment(*row[start : start + 6]) for start in range(0, len(row), 6)]
@@ -45,9 +57,10 @@ def want_free_flights(lab: Lab, trail: Sequence[Sequence[float]]) -> None:
             "none near it",
         )
     for number, (before, after) in enumerate(pairwise(rows), 2):
+        speeds = [each.speed for each in before]
         for which, each in enumerate(before):
             likeliest_first = [*after[which:], *after[:which]]
-            if is_clear(each, before):
+            if is_clear(each, before, speeds):
                 want_a_flight(lab, each, likeliest_first, number)
             else:
                 want_no_jump(lab, each, likeliest_first, number)
@@ -101,27 +114,23 @@ def flew(before: Moment, after: Moment) -> bool:
     return aside <= ASIDE and math.hypot(*moved) <= (LOST * before.speed + GRAVITY * STEP) * STEP
 
 
-def is_clear(each: Moment, row: Sequence[Moment]) -> bool:
+def is_clear(each: Moment, row: Sequence[Moment], speeds: Sequence[float]) -> bool:
     """Return whether a body is a ball that can meet nothing in this step or the next.
 
-    The bob never is, nor is what comes near it.
+    The bob never is, nor is what comes near it. `speeds` are those of the bodies in `row`.
     """
-    place = each.x, each.y
+    x, y = each.x, each.y
     way = 2 * STEP * (each.speed + GRAVITY * STEP) + CLEAR
-    return (
-        math.dist(place, HOOK) > ROD + BALL + LARGEST + way
-        and all(distance(place, part) > BALL + way for part in FIXED)
-        and all(
-            math.dist(place, (other.x, other.y)) > BALL + LARGEST + way + 2 * STEP * other.speed
-            for other in row
-            if other is not each
-        )
-    )
-
-
-def distance(place: Pair, part: Part) -> float:
-    """From a place to the surface of a static part, px; 0 inside."""
-    x, y = abs(place[0] - part.pos[0]), abs(place[1] - part.pos[1])
-    if len(part.shape) == 1:
-        return max(math.hypot(x, y) - part.shape[0], 0.0)
-    return math.hypot(max(x - part.shape[0], 0.0), max(y - part.shape[1], 0.0))
+    if math.dist((x, y), HOOK) <= ROD + BALL + LARGEST + way:
+        return False
+    for half_width, half_height, middle_x, middle_y, radius in OUTLINES:
+        aside = max(abs(x - middle_x) - half_width, 0.0)
+        along = max(abs(y - middle_y) - half_height, 0.0)
+        if max(math.hypot(aside, along) - radius, 0.0) <= BALL + way:
+            return False
+    for other, speed in zip(row, speeds, strict=True):
+        if other is not each:
+            apart = math.dist((x, y), (other.x, other.y))
+            if apart <= BALL + LARGEST + way + 2 * STEP * speed:
+                return False
+    return True

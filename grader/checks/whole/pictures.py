@@ -7,6 +7,7 @@ be a frame late, or between two steps.
 
 import math
 import zlib
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
@@ -83,7 +84,7 @@ def covered(discs: Iterable[Disc]) -> bytearray:
     """Return for each pixel of the window whether one of the discs may have coloured it."""
     width, height = SIZE
     pixels = bytearray(width * height)
-    for x, y, radius in (circle for disc in discs for circle in disc.circles()):
+    for x, y, radius in dict.fromkeys(circle for disc in discs for circle in disc.circles()):
         for row in range(max(math.ceil(y - radius), 0), min(math.floor(y + radius) + 1, height)):
             half = math.sqrt(radius**2 - (row - y) ** 2)
             begin, end = max(math.floor(x - half), 0), min(math.ceil(x + half) + 1, width)
@@ -203,7 +204,10 @@ def turned(one: Picture, other: Picture) -> Iterator[tuple[list[tuple[int, ...]]
 
 def is_plain(ring: list[tuple[int, ...]]) -> bool:
     """Return whether nearly all of a ring has one colour, that of its disc."""
-    most = max(sum(not differ(one, other) for other in ring) for one in ring)
+    counts = Counter(ring)
+    most = max(
+        sum(count for other, count in counts.items() if not differ(one, other)) for one in counts
+    )
     return most >= PLAIN * len(ring)
 
 
@@ -221,4 +225,7 @@ def is_clear(point: Pair) -> bool:
 
 
 def differ(one: Sequence[int], other: Sequence[int]) -> bool:
-    return any(abs(a - b) > APART for a, b in zip(one, other, strict=True))
+    (red, green, blue), (red_too, green_too, blue_too) = one, other
+    return (
+        abs(red - red_too) > APART or abs(green - green_too) > APART or abs(blue - blue_too) > APART
+    )
