@@ -134,7 +134,12 @@ def find_return_in_loop(text: str, todo: str) -> int | None:
     """Return the line of a return that ends a loop of a region in its first round."""
     region, own = region_of(text, todo)
     loops = (n for n in ast.walk(ast.Module(own, [])) if isinstance(n, ast.For | ast.While))
-    lines = [node.body[-1].lineno for node in loops if isinstance(node.body[-1], ast.Return)]
+    lines = [
+        loop.body[-1].lineno
+        for loop in loops
+        if isinstance(loop.body[-1], ast.Return)
+        and not any(isinstance(node, ast.Continue) for node in ast.walk(loop))
+    ]
     return region.start + 1 + min(lines) if region and lines else None
 
 

@@ -1,5 +1,6 @@
 """The lab as a page: static files, used in a browser as a student would, and graded alike."""
 
+import gzip
 import http.server
 import io
 import itertools
@@ -49,6 +50,7 @@ from grader.source.regions import read_source, regions_in
 SOAK = pytest.mark.soak
 CFFI = CACHE / "cffi.zip"  # optional: a wheel of cffi for Pyodide, and pymunk is tried too
 PYMUNK = ("7a", "7b", "7c", "7d")
+MOST_LOADED = 9 * 10**6  # bytes, compressed as a server would
 SAMPLE = 200  # members that the long run compares; `make test` has those of FEW
 FEW = {"2-masses-forgotten": "2", "8a-explicit-euler-again": "8a"}
 CONTROL = "\ue009"  # the key, to a browser
@@ -512,6 +514,13 @@ def test_no_file_of_the_page_gives_the_solution_away(site: Path):
         assert not [name for name in list_unpacked(site / packed) if "mistakes" in name]
     found = find_leaks(site, find_secrets(KIT, FULL))
     assert {each.file for each in found if not each.file.startswith(tab_page.PUBLISHED)} == set()
+
+
+@SOAK
+def test_what_a_browser_loads_is_nine_megabytes_at_most(site: Path):
+    files = [path.read_bytes() for path in site.rglob("*") if path.is_file()]
+    assert sum(len(gzip.compress(each, 9)) for each in files) <= MOST_LOADED
+    assert f"{MOST_LOADED // 10**6} MB" in (site / "README.md").read_text(encoding="utf-8")
 
 
 @SOAK
