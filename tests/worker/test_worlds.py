@@ -1,7 +1,7 @@
 """What goes through where a machine lacks walls, as the table of the security page says.
 
 The hostile bank is graded where namespaces are refused, where there is no Landlock and where there
-is neither, by whoever runs this: the table has a column for root, one for others.
+is neither, by whoever runs this, root or an ordinary user.
 """
 
 import json
@@ -28,7 +28,6 @@ pytestmark = [
 ]
 
 PAGE = KIT / "handouts" / "instructor" / "security.md"
-COLUMN = 1 if os.geteuid() == 0 else 2
 WORLDS = {  # as the table calls them, and what is refused there
     "no namespaces": "namespaces",
     "no Landlock": "landlock",
@@ -40,7 +39,7 @@ def on_the_page(world: str) -> set[str]:
     """Return the members that go through there, as the page says."""
     lines = PAGE.read_text(encoding="utf-8").splitlines()
     (row,) = (line for line in lines if line.startswith(f"| {world} |"))
-    return set(re.findall(r"`([\w-]+)`", row.split("|")[COLUMN + 1]))
+    return set(re.findall(r"`([\w-]+)`", row.split("|")[2]))
 
 
 @pytest.mark.parametrize("world", WORLDS)
