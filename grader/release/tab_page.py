@@ -81,7 +81,7 @@ NOT_RUN = (  # here: of what is handed out, what no button runs
 )
 WITHOUT_USE = re.compile(  # where there is no network, no process and no terminal
     r"(_pyrepl|curses|dbm|ensurepip|http|idlelib|multiprocessing|pydoc_data|sqlite3|tkinter|"
-    r"turtledemo|urllib|venv|wsgiref|xml|xmlrpc)/|(_pyio|bdb|cProfile|doctest|ftplib|imaplib|"
+    r"turtledemo|venv|wsgiref|xml|xmlrpc)/|(_pyio|bdb|cProfile|doctest|ftplib|imaplib|"
     r"mailbox|netrc|pdb|pickletools|poplib|profile|pstats|pydoc|smtplib|socketserver|turtle|"
     r"webbrowser)\.py$"
 )

@@ -71,6 +71,7 @@ for (const name of fs.readdirSync(folder).sort()) {
   page.lay_out(JSON.stringify(files));
   console.log(page.grade_as_json(JSON.stringify(todos)));
 }
+py.runPython("import grader.player.replay");  // which the page loads when a check has failed
 process.exit(0);
 """
 BY_PROCESSES = """
@@ -286,6 +287,14 @@ def test_other_files_and_the_lesson_are_at_hand(tab: Tab):
     with tab.context.expect_page() as opening:
         tab.page.click("#text a[href='lesson.html#contacts']")
     assert opening.value.locator("#contacts").is_visible()
+
+
+@SOAK
+def test_letters_of_a_program_have_buttons(tab: Tab):
+    shown = "[...document.querySelectorAll('[data-letter]:not([hidden])')].map(b => b.dataset.key)"
+    for todo, letters in (("5", ""), ("B1", "sgk"), ("B4", "b")):
+        tab.choose(todo)
+        assert "".join(tab.page.evaluate(shown)) == letters
 
 
 @SOAK

@@ -34,6 +34,7 @@ function save() {
 }
 
 function choose(id) {
+  if (todo && !python.busy) hideResult();
   todo = lab.todos.find((each) => each.id === id) ?? lab.todos[0];
   $("todo").value = todo.id;
   $("title").textContent = `TODO ${todo.id}: ${todo.title}`;
@@ -46,6 +47,13 @@ function choose(id) {
   open(todo.file);
   $("task").scrollTop = 0;
   save();
+}
+
+// Take away what another TODO's program and check have left.
+function hideResult() {
+  for (const name of ["found", "replay", "screen"]) $(name).hidden = true;
+  $("printed").textContent = "";
+  say("");
 }
 
 // Open a file: that of the TODO at its region, another one whole.

@@ -1,4 +1,5 @@
 // The editor: a whole file, of which the function around one TODO is shown and the rest is folded.
+import { autocompletion } from "@codemirror/autocomplete";
 import { indentWithTab } from "@codemirror/commands";
 import { python } from "@codemirror/lang-python";
 import { HighlightStyle, codeFolding, foldEffect, indentUnit, syntaxHighlighting, unfoldAll }
@@ -27,7 +28,8 @@ export class Editor {
     this.view.setState(EditorState.create({
       doc: text,
       extensions: [
-        basicSetup, python(), indentUnit.of("    "), codeFolding(), EditorView.lineWrapping,
+        basicSetup, autocompletion({ activateOnTyping: false }), python(), indentUnit.of("    "), codeFolding(),
+        EditorView.lineWrapping,
         keymap.of([indentWithTab]), syntaxHighlighting(colours),
         EditorView.contentAttributes.of({
           tabindex: "0", "aria-label": `Code of TODO ${id}. Escape, then Tab leaves it.`,
