@@ -59,6 +59,46 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
     )
 
 
+# ---------------------------------------------------------------- how steps are put together
+
+
+def semi_implicit_with(
+    kick: Callable[[float, float], float], drift: Callable[[float, float], float]
+) -> Callable[[float, float, float, Force], State]:
+    """v changes by kick(a, dt), then x by drift(v, dt)."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        v += kick(polynomial(force)(x), dt)
+        return x + drift(v, dt), v
+
+    return model
+
+
+def verlet_with(
+    bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
+) -> Callable[[float, float, float, Force], State]:
+    """x bends by bend(a, dt); v changes by kick(a at the start, a at the end, dt)."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        accel = polynomial(force)
+        end = x + v * dt + bend(accel(x), dt)
+        return end, v + kick(accel(x), accel(end), dt)
+
+    return model
+
+
+def times(factor: float) -> Callable[[float, float], float]:
+    return lambda v, dt: factor * v * dt
+
+
+def bent(factor: float) -> Callable[[float, float], float]:
+    return lambda a, dt: factor * a * dt**2 / 2
+
+
+def mean_times(factor: float) -> Callable[[float, float, float], float]:
+    return lambda old, new, dt: factor * (old + new) / 2 * dt
+
+
 # ---------------------------------------------------------------- 8a
 
 
@@ -100,15 +140,10 @@ known_8b(
 )
 
 
-def velocity_without_dt(x: float, v: float, dt: float, force: Force) -> State:
-    v += polynomial(force)(x)
-    return x + v * dt, v
-
-
 known_8a(
     "velocity-without-the-step",
     "The whole acceleration is added to v; a step of dt seconds adds accel(x) * dt.",
-    velocity_without_dt,
+    semi_implicit_with(lambda a, dt: a, times(1.0)),
 )
 known_8a(
     "old-velocity-returned",
@@ -201,15 +236,10 @@ known_8a(
 )
 
 
-def velocity_by_square(x: float, v: float, dt: float, force: Force) -> State:
-    v += polynomial(force)(x) * dt**2
-    return x + v * dt, v
-
-
 known_8a(
     "velocity-by-the-square-of-the-step",
     "v changes by accel(x) * dt²; it is accel(x) * dt, without the square.",
-    velocity_by_square,
+    semi_implicit_with(lambda a, dt: a * dt**2, times(1.0)),
 )
 
 
@@ -220,68 +250,55 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
     return x + v * dt + accel(x) * dt**2 / 2
 
 
-def old_acceleration_twice(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    return parabola(x, v, dt, accel), v + accel(x) * dt
+BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
+    "half-is-missing-in-x": (
+        "x gets a * dt² of the acceleration; on a parabola it is half of that.",
+        lambda a, dt: a * dt**2,
+    ),
+    "straight-line-in-x": (
+        "x moves along a straight line, x + v * dt; the acceleration bends the way.",
+        lambda a, dt: 0.0,
+    ),
+    "square-is-missing-in-x": (
+        "x gets half of a * dt; the square is missing: half of a * dt².",
+        lambda a, dt: a * dt / 2,
+    ),
+}
+KICKS: dict[str, tuple[str, Callable[[float, float, float], float]]] = {
+    "sum-instead-of-mean": (
+        "v gets the sum of both accelerations; it needs their mean, half of that.",
+        lambda begin, end, dt: (begin + end) * dt,
+    ),
+    "old-acceleration-twice": (
+        "Both accelerations are the one at the old x; the second belongs to the new x.",
+        lambda begin, end, dt: begin * dt,
+    ),
+    "new-acceleration-only": (
+        "v uses the acceleration at the new x only; it needs the mean of both ends.",
+        lambda begin, end, dt: end * dt,
+    ),
+    "step-is-missing-in-v": (
+        "v gets the mean acceleration itself; in a step of dt seconds it changes by mean * dt.",
+        lambda begin, end, dt: (begin + end) / 2,
+    ),
+}
 
 
-known_8b(
-    "old-acceleration-twice",
-    "Both accelerations are the one at the old x; the second belongs to the new x.",
-    old_acceleration_twice,
-)
+def known_bend(name: str) -> None:
+    words, bend = BENDS[name]
+    known_8b(name, words, verlet_with(bend, mean_times(1.0)))
 
 
-def new_acceleration_only(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    x = parabola(x, v, dt, accel)
-    return x, v + accel(x) * dt
+def known_kick(name: str) -> None:
+    words, kick = KICKS[name]
+    known_8b(name, words, verlet_with(bent(1.0), kick))
 
 
-known_8b(
-    "new-acceleration-only",
-    "v uses the acceleration at the new x only; it needs the mean of both ends.",
-    new_acceleration_only,
-)
-
-
-def sum_instead_of_mean(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = parabola(x, v, dt, accel)
-    return end, v + (accel(x) + accel(end)) * dt
-
-
-known_8b(
-    "sum-instead-of-mean",
-    "v gets the sum of both accelerations; it needs their mean, half of that.",
-    sum_instead_of_mean,
-)
-
-
-def half_missing(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = x + v * dt + accel(x) * dt**2
-    return end, v + (accel(x) + accel(end)) * dt / 2
-
-
-known_8b(
-    "half-is-missing-in-x",
-    "x gets a * dt² of the acceleration; on a parabola it is half of that.",
-    half_missing,
-)
-
-
-def straight_line(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    end = x + v * dt
-    return end, v + (accel(x) + accel(end)) * dt / 2
-
-
-known_8b(
-    "straight-line-in-x",
-    "x moves along a straight line, x + v * dt; the acceleration bends the way.",
-    straight_line,
-)
+known_kick("old-acceleration-twice")
+known_kick("new-acceleration-only")
+known_kick("sum-instead-of-mean")
+known_bend("half-is-missing-in-x")
+known_bend("straight-line-in-x")
 known_8b(
     "semi-implicit-euler-again",
     "This is semi-implicit Euler: it never asks for the acceleration at the new x.",
@@ -319,42 +336,31 @@ known_8c(
 )
 
 
-def kicked(kick: Callable[[float, float, float], float]) -> Callable[..., State]:
-    """Move x rightly; kick(a at the start, a at the end, dt) gives the change of v."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        accel = polynomial(force)
-        end = parabola(x, v, dt, accel)
-        return end, v + kick(accel(x), accel(end), dt)
-
-    return model
-
-
 known_8b(
     "old-half-alone",
     "v gets half of the old acceleration; the half of the one at the new x is missing.",
-    kicked(lambda old, new, dt: old * dt / 2),
+    verlet_with(bent(1.0), lambda old, new, dt: old * dt / 2),
 )
 known_8b(
     "new-half-alone",
     "v gets half of the acceleration at the new x; the half of the old one is missing.",
-    kicked(lambda old, new, dt: new * dt / 2),
+    verlet_with(bent(1.0), lambda old, new, dt: new * dt / 2),
 )
 known_8b(
     "mean-without-brackets",
     "Only one of the two accelerations is halved or multiplied by dt: put brackets around their "
     "sum, (old + new) / 2 * dt.",
-    kicked(lambda old, new, dt: old + new / 2 * dt),
-    kicked(lambda old, new, dt: (old + new / 2) * dt),
-    kicked(lambda old, new, dt: old + new * dt / 2),
-    kicked(lambda old, new, dt: old / 2 + new * dt),
-    kicked(lambda old, new, dt: old / 2 + new * dt / 2),
-    kicked(lambda old, new, dt: (old / 2 + new) * dt),
+    verlet_with(bent(1.0), lambda old, new, dt: old + new / 2 * dt),
+    verlet_with(bent(1.0), lambda old, new, dt: (old + new / 2) * dt),
+    verlet_with(bent(1.0), lambda old, new, dt: old + new * dt / 2),
+    verlet_with(bent(1.0), lambda old, new, dt: old / 2 + new * dt),
+    verlet_with(bent(1.0), lambda old, new, dt: old / 2 + new * dt / 2),
+    verlet_with(bent(1.0), lambda old, new, dt: (old / 2 + new) * dt),
 )
 known_8b(
     "mean-by-the-square-of-the-step",
     "v changes by the mean * dt²; it is the mean * dt, without the square.",
-    kicked(lambda old, new, dt: (old + new) / 2 * dt**2),
+    verlet_with(bent(1.0), lambda old, new, dt: (old + new) / 2 * dt**2),
 )
 
 
@@ -522,18 +528,6 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
     )
 
 
-def semi_implicit_with(
-    kick: Callable[[float, float], float], drift: Callable[[float, float], float]
-) -> Callable[[float, float, float, Force], State]:
-    """v changes by kick(a, dt), then x by drift(v, dt)."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        v += kick(polynomial(force)(x), dt)
-        return x + drift(v, dt), v
-
-    return model
-
-
 known_8a(
     "moves-a-whole-second",
     "x moves by v; in a step of dt seconds it moves by v * dt.",
@@ -551,61 +545,8 @@ known_8a(
 )
 
 
-def verlet_with(
-    bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
-) -> Callable[[float, float, float, Force], State]:
-    """x bends by bend(a, dt); v changes by kick(a at the start, a at the end, dt)."""
-
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        accel = polynomial(force)
-        end = x + v * dt + bend(accel(x), dt)
-        return end, v + kick(accel(x), accel(end), dt)
-
-    return model
-
-
-BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
-    "half-is-missing-in-x": (
-        "x gets a * dt² of the acceleration; on a parabola it is half of that.",
-        lambda a, dt: a * dt**2,
-    ),
-    "straight-line-in-x": (
-        "x moves along a straight line, x + v * dt; the acceleration bends the way.",
-        lambda a, dt: 0.0,
-    ),
-    "square-is-missing-in-x": (
-        "x gets half of a * dt; the square is missing: half of a * dt².",
-        lambda a, dt: a * dt / 2,
-    ),
-}
-KICKS: dict[str, tuple[str, Callable[[float, float, float], float]]] = {
-    "sum-instead-of-mean": (
-        "v gets the sum of both accelerations; it needs their mean, half of that.",
-        lambda begin, end, dt: (begin + end) * dt,
-    ),
-    "old-acceleration-twice": (
-        "Both accelerations are the one at the old x; the second belongs to the new x.",
-        lambda begin, end, dt: begin * dt,
-    ),
-    "new-acceleration-only": (
-        "v uses the acceleration at the new x only; it needs the mean of both ends.",
-        lambda begin, end, dt: end * dt,
-    ),
-    "step-is-missing-in-v": (
-        "v gets the mean acceleration itself; in a step of dt seconds it changes by mean * dt.",
-        lambda begin, end, dt: (begin + end) / 2,
-    ),
-}
-known_8b(
-    "square-is-missing-in-x",
-    BENDS["square-is-missing-in-x"][0],
-    verlet_with(BENDS["square-is-missing-in-x"][1], lambda begin, end, dt: (begin + end) / 2 * dt),
-)
-known_8b(
-    "step-is-missing-in-v",
-    KICKS["step-is-missing-in-v"][0],
-    verlet_with(lambda a, dt: a * dt**2 / 2, KICKS["step-is-missing-in-v"][1]),
-)
+known_bend("square-is-missing-in-x")
+known_kick("step-is-missing-in-v")
 for bend_name, (bend_words, bend) in BENDS.items():
     for kick_name, (kick_words, kick) in KICKS.items():
         both = verlet_with(bend, kick)
@@ -798,19 +739,6 @@ mistake(
 
 # ---------------------------------------------------------------- a factor too much
 
-
-def times(factor: float) -> Callable[[float, float], float]:
-    return lambda v, dt: factor * v * dt
-
-
-def bent(factor: float) -> Callable[[float, float], float]:
-    return lambda a, dt: factor * a * dt**2 / 2
-
-
-def mean_times(factor: float) -> Callable[[float, float, float], float]:
-    return lambda old, new, dt: factor * (old + new) / 2 * dt
-
-
 FACTORS = (("half", "half of", 0.5), ("twice", "twice", 2.0), ("opposite", "the opposite of", -1.0))
 for name, words, factor in FACTORS:
     known_8a(
@@ -827,7 +755,7 @@ for name, words, factor in FACTORS:
         known_8b(
             f"{name}-the-mean",
             f"v changes by {words} the mean of both accelerations * dt; it is that mean * dt.",
-            kicked(mean_times(factor)),
+            verlet_with(bent(1.0), mean_times(factor)),
         )
 
 
