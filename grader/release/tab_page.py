@@ -37,7 +37,7 @@ from grader.release.build import (
 from grader.release.formulas import typeset
 from grader.release.handed_out import make_students_tree
 from grader.release.handouts import find_sections, make_handouts
-from grader.release.leaks import find_leaks, find_secrets
+from grader.release.leaks import Secret, find_leaks, find_secrets
 from grader.release.pages import (
     SITE_ONLY,
     find_figures,
@@ -134,6 +134,8 @@ def build_tab(
     sources = work / "sources"
     sources.mkdir()
     write_lab(sources / "lab.zip", copy, files, cache, cffi)
+    secrets = find_secrets(KIT, course)
+    look_for_own_leaks(sources, secrets)  # of what the page has compiled
     write_sheet(site, copy, files, course, cffi is not None)
     pyodide = cache / "node_modules" / "pyodide"
     (site / "pyodide").mkdir()
@@ -149,8 +151,7 @@ def build_tab(
     write_index(site)
     bundle_scripts(site, cache)
     write_service_worker(site)
-    for folder in (sources, site):  # what is compiled has its source in one of them
-        look_for_own_leaks(folder, course)
+    look_for_own_leaks(site, secrets)
     write_zip(site, built / f"{NAME}-tab.zip", site.name)
     return built
 
@@ -164,9 +165,9 @@ def is_on_page(name: str) -> bool:
     return not name.startswith(NOT_RUN)
 
 
-def look_for_own_leaks(site: Path, course: Course) -> None:
+def look_for_own_leaks(folder: Path, secrets: list[Secret]) -> None:
     """Raise Refused if a file gives the solution away, unless a package says the same to all."""
-    found = find_leaks(site, find_secrets(KIT, course))
+    found = find_leaks(folder, secrets)
     own = [str(each) for each in found if not each.file.startswith(PUBLISHED)]
     if own:
         raise Refused("\n".join(["the page would give the solution away:", *own]))
