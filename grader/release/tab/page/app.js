@@ -67,10 +67,11 @@ function open(name) {
 // Offer the files of the TODO's program, and those beside it.
 function showFiles() {
   const [top, inside] = todo.file.split("/");
+  const isProgram = (name) => name === todo.file || (inside && name.startsWith(`${top}/`));
   const names = Object.keys({ ...given, ...files }).filter((name) =>
-    name.endsWith(".py") && (!name.includes("/") || (inside && name.startsWith(`${top}/`))));
+    name.endsWith(".py") && (!name.includes("/") || isProgram(name)));
   $("file").replaceChildren(...names.sort().map((name) => new Option(name)));
-  showLetters(names.filter((name) => name === todo.file || (inside && name.startsWith(`${top}/`))));
+  showLetters(names.filter(isProgram));
 }
 
 // Offer the letters that a program with these files listens to, for who has no keyboard.
