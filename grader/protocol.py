@@ -269,7 +269,6 @@ class Simulate(Struct, frozen=True, tag="simulate"):
     watch: list[int]
     every: int = 1
     contacts: bool = False
-    priced: bool = False  # count the opcodes that run in all these steps
 
 
 class Integrate(Struct, frozen=True, tag="integrate"):
@@ -381,7 +380,6 @@ class ContactRow(Struct, frozen=True, array_like=True):
 class Simulated(Struct, frozen=True, tag="simulated"):
     frames: Annotated[list[Row], STATES]  # x, y, vx, vy, angle, omega of each watched body
     contacts: Annotated[list[Annotated[list[ContactRow], PRESENT]], STATES] = []
-    opcodes: int = 0  # that ran, where they were to be counted
 
 
 class Photo(Struct, frozen=True, array_like=True):

@@ -316,14 +316,10 @@ class Lab(Decoder):
         dt: float = STEP,
         every: int = 1,
         contacts: bool = False,
-        priced: bool = False,
     ) -> "Run":
-        """Step the world and record the watched bodies after each `every` steps.
-
-        `priced`: count the opcodes that all these steps run.
-        """
+        """Step the world and record the watched bodies after each `every` steps."""
         watched = [body.ref for body in watch]
-        request = Simulate(world.ref, dt, steps, watched, every, contacts, priced)
+        request = Simulate(world.ref, dt, steps, watched, every, contacts)
         reply = self._reply(request)
         if not isinstance(reply, Simulated):
             self.fail("a run of the simulation", "something else")
@@ -526,7 +522,6 @@ class Run:
     def __init__(self, simulated: Simulated, seconds_per_frame: float) -> None:
         self.frames = simulated.frames
         self.contacts = simulated.contacts
-        self.opcodes = simulated.opcodes
         self.seconds_per_frame = seconds_per_frame
 
     def body(self, number: int) -> list["Moment"]:

@@ -167,6 +167,9 @@ class Program:
                         called = defined.module, name
                     case ast.Attribute(attr=name):
                         called = defined.module, f"{owner}.{name}" if owner else name
+                    case ast.Constant(value=str(name)):  # of globals(), setattr and the like
+                        found.add(name)
+                        continue
                     case _:
                         continue
                 found.add(name)

@@ -1,13 +1,11 @@
-"""Counts the lines or opcodes of a submission that run: work that is the same on every machine.
+"""Counts the lines of a submission that run: work that is the same on every machine.
 
 What is counted runs in this process, so it can reach the count. It is noticed when it ends the
 count, leaves the work to another thread or hides a function. Who finds the number itself and writes
-another one there, or says of its code that it is a library's, is not noticed here. So a check that
-must know asks for so much, too, that the processor seconds tell, which the kernel counts.
+another one there is not noticed.
 """
 
 import sys
-import sysconfig
 from collections.abc import Callable, Iterator
 from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
@@ -29,23 +27,24 @@ ENDS = {  # told by an audit hook
     "sys.monitoring.register_callback",
     "_thread.start_new_thread",
 }
+IMPORTING = "_frozen_importlib"
 ELSEWHERE = 0.005  # s of work in other threads, of which there are none
 
 
 class LineCounter:
-    """Counts while it is entered, in every function but the libraries' and the detours.
+    """Counts while it is entered, in every function but the detours and Python's own importing.
 
     Lines are the same work whatever function they are in: calls of a function by name would say
-    nothing about a submission that has written the same into the caller.
+    nothing about a submission that has written the same into the caller. So lines of a library
+    count too, and nobody gains by the name of a file.
     """
 
     watched = False  # an audit hook is for good, and only for who is counted
-    what = "lines"
 
     def __init__(self) -> None:
         self.counted = self.begun = self.over = 0
         self.trouble = ""
-        self.hook: Trace = self.trace
+        self.hook: Trace = self.trace  # one object, to know it again
 
     def __enter__(self) -> "LineCounter":
         if not LineCounter.watched:
@@ -61,7 +60,7 @@ class LineCounter:
         counting.clear()
         sys.settrace(None)
         if not held or self.begun != self.over:
-            self.trouble = self.trouble or f"its {self.what} were hidden"
+            self.trouble = self.trouble or "its lines were hidden"
         if seconds_elsewhere() - self.elsewhere > ELSEWHERE:
             self.trouble = self.trouble or "another thread worked"
 
@@ -69,14 +68,14 @@ class LineCounter:
         """Return how many there were; raises ContractError where the count was interfered with."""
         if self.trouble:
             raise ContractError(
-                f"while the {self.what} that run were counted, {self.trouble}: so nobody knows how "
-                "many they are"
+                f"while the lines that run were counted, {self.trouble}: so nobody knows how many "
+                "they are"
             )
         return self.counted
 
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
         """Python calls this whenever a function begins; what it returns hears of each line."""
-        if frame.f_code in DETOURS or frame.f_code.co_filename.startswith(LIBRARIES):
+        if frame.f_code in UNCOUNTED:
             return None
         self.begun += 1
         return self.count_line
@@ -85,54 +84,6 @@ class LineCounter:
         self.counted += event == "line"
         self.over += event == "return"
         return self.count_line
-
-
-class OpcodeCounter(LineCounter):
-    """Counts opcodes instead, in every function but `ours`; those of libraries count as well.
-
-    An opcode is one instruction of Python's machine: finer than a line, into which much can be put.
-    """
-
-    what = "opcodes"
-
-    def __init__(self, ours: frozenset[CodeType]) -> None:
-        super().__init__()
-        self.ours = ours | DETOURS
-        self.so_far, self.local = opcode_hook(self)
-
-    def __enter__(self) -> "OpcodeCounter":
-        sys._getframe().f_trace_opcodes = True  # or Python 3.12 tells of no opcode at all
-        super().__enter__()
-        return self
-
-    def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
-        if frame.f_code in self.ours:
-            return None
-        self.begun += 1
-        frame.f_trace_opcodes, frame.f_trace_lines = True, False
-        return self.local
-
-    def answer(self) -> int:
-        self.counted = self.so_far()
-        return super().answer()
-
-
-def opcode_hook(counter: OpcodeCounter) -> tuple[Callable[[], int], Trace]:
-    """Return how many opcodes there were, and what hears of each: no attribute is looked up for
-    one.
-    """
-    count = 0
-
-    def hear(frame: FrameType, event: str, _: object) -> None:  # so it is called again
-        nonlocal count
-        if event == "opcode":
-            count += 1
-        elif event == "return":
-            counter.over += 1
-            if not frame.f_trace_opcodes:
-                counter.trouble = counter.trouble or "its opcodes were hidden"
-
-    return lambda: count, hear
 
 
 counting: list[LineCounter] = []  # one at most
@@ -165,11 +116,10 @@ def codes_of(*modules: ModuleType) -> frozenset[CodeType]:
     return frozenset(
         code
         for thing in things
-        if isinstance(thing, FunctionType) and thing.__module__.startswith("grader.")
+        if isinstance(thing, FunctionType) and thing.__module__.startswith(("grader.", IMPORTING))
         for code in codes_in(thing.__code__)
     )
 
 
-LIBRARIES = (*(sysconfig.get_path(each) for each in ("stdlib", "purelib", "platlib")), "<frozen ")
-# Our own, to what stands in for a function; and the end of the count.
-DETOURS = codes_of(standin) | {LineCounter.__exit__.__code__}
+# What stands in for a function of the submission, importing, and the end of the count.
+UNCOUNTED = codes_of(standin, sys.modules[IMPORTING]) | {LineCounter.__exit__.__code__}

@@ -6,10 +6,8 @@ A run is the same on every machine: it is counted in frames and steps, and its c
 import inspect
 import math
 import os
-import sys
 import zlib
 from collections.abc import Callable
-from contextlib import nullcontext
 from functools import partial
 from types import FunctionType
 from typing import Any, Literal
@@ -34,9 +32,6 @@ from grader.protocol import (
     SpaceBody,
     cut,
 )
-from grader.worker import recorder as recorders
-from grader.worker import subject as subjects
-from grader.worker.lines import OpcodeCounter, codes_of
 from grader.worker.output import Output
 from grader.worker.recorder import Recorder, lesson_state
 from grader.worker.scripted import PlayOver, ScriptedClock
@@ -299,25 +294,23 @@ def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulat
     watched = [subject.objects[ref] for ref in request.watch]
     frames: list[list[float]] = []
     contacts: list[list[ContactRow]] = []
-    counter = OpcodeCounter(OURS) if request.priced else None
     recorder.expect(request.steps)
-    with counter or nullcontext():
-        for number in range(1, request.steps + 1):
-            world.step(request.dt)
-            recorder.record(number * request.dt, number)
-            if number % request.every:
-                continue
-            row: list[float] = []
-            for body in watched:
-                if isinstance(body, pymunk.Body):
-                    state: SpaceBody = subject.space_body(body)
-                    row += [*state.pos, *state.vel, state.angle, state.omega]
-                else:
-                    row += lesson_state(body)
-            frames.append(row)
-            if request.contacts:
-                contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
-    return Simulated(frames, contacts, counter.answer() if counter else 0)
+    for number in range(1, request.steps + 1):
+        world.step(request.dt)
+        recorder.record(number * request.dt, number)
+        if number % request.every:
+            continue
+        row: list[float] = []
+        for body in watched:
+            if isinstance(body, pymunk.Body):
+                state: SpaceBody = subject.space_body(body)
+                row += [*state.pos, *state.vel, state.angle, state.omega]
+            else:
+                row += lesson_state(body)
+        frames.append(row)
+        if request.contacts:
+            contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
+    return Simulated(frames, contacts)
 
 
 def contact_row(subject: Subject, contact: Any) -> ContactRow:
@@ -338,8 +331,3 @@ def contact_row(subject: Subject, contact: Any) -> ContactRow:
         field_number(contact, "jt"),
         math.sqrt(max(friction, 0.0)) * jn,
     )
-
-
-OURS = codes_of(
-    recorders, subjects, sys.modules[__name__]
-)  # what reads a world, beside what steps it

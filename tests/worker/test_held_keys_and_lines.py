@@ -154,7 +154,7 @@ def test_lines_are_counted_in_whatever_function_they_are(lab: Lab):
     assert twice - once == 30  # the loop's own line, the call and what is called
     once, twice = (lab.work(box, "together", count) for count in (10, 20))
     assert twice - once == 20
-    assert lab.work(box, "nothing") == 1
+    assert lab.work(box, "nothing") > 1  # a library's lines, too
     assert lab.work(box, "later", 5) == 11
 
 

@@ -21,9 +21,7 @@ BALLS = 200
 STATES = 8  # balls of a scene that may be of any weight, and move
 PLACES = [(0.0, 0.0), (900.0, 600.0), (-40_000.0, 500_000.0)]  # px; where a scene is
 WHOLE_CELLS = 4800.0  # px: many cells of each size that AT_THE_RIM asks about
-MANY = 4500  # to compare these pair by pair takes many seconds, and to look at cells a part of one
 A_HAIR = 1 / 64  # px
-MOST_TOLD = 1000  # contacts come with an answer
 GROWTH = 3.0  # of the work with twice the balls: looking at all pairs it is 4, else 2 and a little
 
 
@@ -203,13 +201,6 @@ def two_hundred_balls_are_not_compared_pair_by_pair(lab: Lab) -> None:
         f"about twice as much work for twice the balls, at most {GROWTH:g} times",
         f"{min(growths):.2f} times as many lines of your code that ran",
     )
-    lab.ran(f"find_contacts with {MANY} balls in a row like that, in 2 s of processor time")
-    world, bodies = crowd(lab, row(MANY, 45.0, x), [])
-    found = touching(lab, world, bodies, grid=True)
-    in_row: Contacts = Counter((ball, ball + 1) for ball in range(0, MANY - 1, 2))
-    told = in_row & found  # in an order of their own
-    untold = list((in_row - told).items())[: MOST_TOLD - told.total()]
-    want_no_other(lab, told + Counter(dict(untold)), found)
 
 
 def work(lab: Lab, balls: list[Disc]) -> int:

@@ -25,8 +25,10 @@ HANDED_OUT = Path("/handed-out")
 MOST_OUTPUT = 20_000  # characters that a program may print in a run
 MOST_BYTES = 20_000_000  # of a zip that is brought in
 COLUMNS = range(40, 81)
-NO_NUMPY = "named 'numpy'"  # in what Python says of it
-ALONE = "numpy is not in this page. Use Python's own numbers here, or work on a computer."
+LACKED = {  # what the page says, by what Python says of it
+    "named 'numpy'": "numpy is not in this page. Use Python's own numbers, or work on a computer.",
+    "can't start new thread": "This page has no threads. Do without them, or work on a computer.",
+}
 
 bridge = None
 
@@ -144,7 +146,12 @@ def describe(error):
         if trace.tb_next is None:
             break
     text = "".join(traceback.format_exception(error)).replace(f"{LAB}/", "")
-    return f"{text}\n{ALONE}" if NO_NUMPY in text else text
+    return "\n".join([text, *list_lacked(text)])
+
+
+def list_lacked(text):
+    """Return what the page lacks, of all that this text of errors asks for."""
+    return [words for sign, words in LACKED.items() if sign in text]
 
 
 # ---------------------------------------------------------------- check
@@ -199,8 +206,7 @@ def check(only, columns):
     result = grade_lab(json.loads(only))
     console = Console(file=io.StringIO(), width=min(max(columns, COLUMNS[0]), COLUMNS[-1]))
     notes = [note.partition(" Undo it:")[0] for note in list_notes(LAB, result)]
-    if any(NO_NUMPY in each.got for todo in result.todos for each in todo.checks):
-        notes.append(ALONE)
+    notes += list_lacked("\n".join(each.got for todo in result.todos for each in todo.checks))
     lines = make_screen(console).lay_out(result, (), notes)
     todos = [[each.id, each.state, each.points, each.max_points] for each in result.todos]
     titles = {(t.id, c.id): f"TODO {t.id}: {c.title}" for t in result.todos for c in t.checks}
