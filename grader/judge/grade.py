@@ -4,7 +4,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +29,15 @@ from grader.judge.failures import (
 )
 from grader.judge.isolation import Isolation, load_everything
 from grader.judge.lab import Lab, Observation
-from grader.judge.meaning import NOTHING_SHOWN, Evidence, Left, RegionWords, explain
+from grader.judge.meaning import (
+    NOTHING_SHOWN,
+    Evidence,
+    Left,
+    RegionWords,
+    explain,
+    is_unexplained,
+)
+from grader.judge.mending import Mend, find_mend
 from grader.judge.names import Names
 from grader.judge.passed import PassedPrograms
 from grader.judge.reference import Reference
@@ -57,6 +65,7 @@ if TYPE_CHECKING:
     from grader.judge.loop import CheckLoop
 
 KIT = Path(__file__).parents[2]
+MEND_SECONDS = 2.5  # of a processor, for one TODO
 
 
 @dataclass(frozen=True)
@@ -467,10 +476,33 @@ class Grading:
             self.read_region(todo) if ran else NOTHING_SHOWN,
             self.submission.remarks.get(todo.id, ""),
         )
+        unexplained = [c.id for c in checks if c.id in ran and is_unexplained(evidence, c)]
+        if unexplained and self.options.trusted:
+            evidence = replace(evidence, mend=self.find_mend(todo, loop, unexplained))
         told = explain(evidence, checks, ran)
         points = sum(check.points for check in told)
         named = mistake.id if mistake is not None else None
         return TodoResult(todo.id, todo.title, state_of(told), points, todo.max_points, named, told)
+
+    def find_mend(self, todo: Todo, loop: "CheckLoop", failed: Sequence[str]) -> Mend | None:
+        """Return the line of a TODO in which one change makes these checks pass."""
+        where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
+        if where is None or not path:
+            return None
+        until = loop.budget.words_cpu + MEND_SECONDS
+
+        copy = self.sandbox.changed({})
+
+        def passes(changed: str) -> bool:
+            copy.write(where.file, changed)
+            return loop.are_mended(todo, failed, copy.open_child)
+
+        return find_mend(
+            read_source(self.submission.folder / where.file),
+            (where.file, todo.id, path),
+            passes,
+            lambda: loop.budget.has_more and loop.budget.words_cpu < until,
+        )
 
     def find_earlier(
         self, todo: Todo, loop: "CheckLoop", unfinished: set[str]

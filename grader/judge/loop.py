@@ -1,7 +1,7 @@
 """Run the checks that the rubric names against one submission, and judge them in order."""
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -15,7 +15,7 @@ from typing import Any
 from hypothesis.errors import Flaky
 from msgspec import UNSET, structs
 
-from grader.judge.budget import Budget, for_words
+from grader.judge.budget import LITTLE_CPU, Budget, for_words
 from grader.judge.children import Child
 from grader.judge.drawing import Example, kept_examples
 from grader.judge.failures import REMEMBERS, Broke, Failing, NotYet, secret_of
@@ -34,6 +34,7 @@ DIGITS = re.compile(r"[-\d.e]+")  # what differs between two examples of one que
 LACKING = re.compile(r"^ImportError: cannot import name .* from '[\w.]+' \((?P<file>[\w/]+\.py)\)")
 INSTEAD = "The handed-out code stood in for it, so that the rest could be checked."
 UNREAD = 3  # files of which is told that they were too long to look into
+COST = {"unit": 0, "scene": 1, "property": 2}  # kinds of checks, the longest last
 SURVEY = 2  # s of processor time, for that
 GIVEN_PRINTS = ("Fixed steps:", "Pendulum length", "Bodies:", "Box stack")  # as they end
 MOST_PRINTED, MAX_PRINTED = 3, 60  # lines of what a submission printed, and letters of each
@@ -71,6 +72,7 @@ class Way:
     `isolated`: with the reference in the other TODOs' places. `right`: on the reference itself.
     `surveys`: on to its end where it fails, at no cost of the time that decides about marks.
     `watched`: noting what the submission remembers. `opener`: in children that others open.
+    `mends`: to see whether a change mends it, in a short time that decides about no mark.
     """
 
     isolated: bool = False
@@ -78,6 +80,7 @@ class Way:
     surveys: bool = False
     watched: bool = False
     opener: Opener | None = None
+    mends: bool = False
 
 
 ALONE, ISOLATED = Way(), Way(isolated=True)
@@ -401,6 +404,26 @@ class CheckLoop:
                 lab.observations = alone.observations
             return lab
 
+    def are_mended(self, todo: Todo, failed: Collection[str], open_child: Opener) -> bool:
+        """Return whether failed checks of a TODO pass in other children, which have little time,
+        and those that have passed still do.
+        """
+        jobs = [
+            job
+            for job in jobs_of(todo)
+            if job.check.id in failed or self.results[job.key].state == "passed"
+        ]
+        jobs.sort(key=lambda job: (job.check.id not in failed, COST[job.check.kind]))
+        return all(self._passes(job, open_child) for job in jobs)
+
+    def _passes(self, job: Job, open_child: Opener) -> bool:
+        """Ask first, and alone, what has failed of a check: most changes mend nothing."""
+        way = Way(isolated=True, opener=for_words(open_child), mends=True)
+        failing = self.failing.get(job.key)
+        with kept_examples(job.function, self.seed):
+            first = failing is None or self._ask(job, failing.again, way).failure is None
+            return first and self._ask(job, job.function, way).failure is None
+
     def _ask(self, job: Job, example: Example, way: Way) -> Lab:
         """Return a lab in which the check ran."""
         secret = secret_of(self.seed, job.todo, job.check)
@@ -424,7 +447,7 @@ class CheckLoop:
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
             lab.remembers = lab.connection.remembered()
-        if way.surveys:
+        if way.surveys or way.mends:
             self.budget.charge_for_words(lab.connection)
         elif not way.right:
             self.budget.charge(job.todo.id, lab.connection)
@@ -437,6 +460,8 @@ class CheckLoop:
             return self.open_right(job.check.cpu_seconds)
         if way.surveys:
             return for_words(self.open_child)(SURVEY)
+        if way.mends and way.opener is not None:
+            return way.opener(LITTLE_CPU)
         seconds = self.budget.cpu_for(job.todo.id, job.check.cpu_seconds)
         child = (way.opener or self.open_child)(seconds)
         child.rest_seconds = self.budget.rest_for(job.todo.id)

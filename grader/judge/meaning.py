@@ -13,6 +13,7 @@ from grader.judge.blame import Blamed
 from grader.judge.diagnosis import Diagnosis
 from grader.judge.failures import ENDLESS, KEPT, MOST_NAMES, REMEMBERS, TRESPASS
 from grader.judge.lab import Observation
+from grader.judge.mending import Mend
 from grader.judge.misconceptions import Mistake
 from grader.judge.result import CheckResult, Where
 from grader.judge.rubric import Todo
@@ -79,6 +80,7 @@ class Evidence:
     left: Left | None = None
     region: RegionWords = NOTHING_SHOWN
     remark: str = ""  # why no code of the TODO counts
+    mend: Mend | None = None  # which line to change, if anything is known of it
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
@@ -94,6 +96,13 @@ def explain(
     return [explain_check(known, c) if c.failed and c.id in failed else c for c in checks]
 
 
+def is_unexplained(evidence: Evidence, check: CheckResult) -> bool:
+    """Return whether nothing names the reason of a wrong answer."""
+    before = EXPLAINERS[: EXPLAINERS.index(point_to_line)]
+    wrong = check.state == "not yet" and check.meaning != REMEMBERS
+    return wrong and not any(explainer(evidence, check) for explainer in before)
+
+
 def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
     told = (explainer(evidence, check) for explainer in EXPLAINERS)
     meaning = next(filter(None, told), check.meaning)
@@ -102,6 +111,8 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
         where = evidence.blamed[check.id].place(check)
     elif evidence.left is not None and evidence.left.is_all:
         where = evidence.left.where
+    elif evidence.mend is not None and check.state == "not yet":
+        where = Where(evidence.mend.file, evidence.mend.line)
     return msgspec.structs.replace(check, meaning=meaning, where=where)
 
 
@@ -214,6 +225,13 @@ def name_rounding(evidence: Evidence, check: CheckResult) -> str:
     return ROUNDED if near else ""
 
 
+def point_to_line(evidence: Evidence, check: CheckResult) -> str:
+    """Name the line in which one change mends all of the TODO, with what its answers are like."""
+    if evidence.mend is None or check.state != "not yet":
+        return ""
+    return f"{evidence.mend.in_words} {describe_answers(evidence, check)}".strip()
+
+
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:
     """Name an argument that gets another value, where nothing else is known."""
     return evidence.region.rebound
@@ -265,6 +283,7 @@ EXPLAINERS: tuple[Explainer, ...] = (
     name_trespass,
     name_rounding,
     point_out_of_region,
+    point_to_line,
     describe_answers,
     name_rebound,
     repeat_remark,

@@ -71,14 +71,19 @@ class Sandbox:
         """
         tree = Path(tempfile.mkdtemp(dir=self.work)) / "tree"
         shutil.copytree(self.tree, tree)
+        copy = replace(self, tree=tree, used=[])
         for name, text in texts.items():
-            path = tree / name
-            later = path.stat().st_mtime + LATER
-            path.chmod(0o644)
-            path.write_bytes(encoded(text))
-            os.utime(path, (later, later))
-            path.chmod(0o444)
-        return replace(self, tree=tree, used=[])
+            copy.write(name, text)
+        return copy
+
+    def write(self, name: str, text: str) -> None:
+        """Give a file of this copy other text, for all children that are opened from now on."""
+        path = self.tree / name
+        later = path.stat().st_mtime + LATER
+        path.chmod(0o644)
+        path.write_bytes(encoded(text))
+        os.utime(path, (later, later))
+        path.chmod(0o444)
 
     def beside(self, count: int) -> list["Sandbox"]:
         """Return others of the same tree, so many at the most, that work at the same time."""

@@ -1,0 +1,257 @@
+"""Find the line in which one small change makes a failed check pass.
+
+Nothing about the task need be known for that: a line is told, and of what kind the change is, never
+the change itself. Only for one's own work, since it may take as long as all the checks together.
+"""
+
+import ast
+import builtins
+import textwrap
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+
+from grader.source.definitions import function_named, statements
+from grader.source.operators import (
+    Offer,
+    Place,
+    change_arithmetic,
+    change_comparison,
+    change_condition,
+    change_constant,
+    change_update,
+    names_in,
+    related_names,
+    swap_arguments,
+    unwrap,
+    walk_places,
+)
+from grader.source.regions import Region, regions_in
+
+MOST_TRIED = 150  # changes
+ALIKE = (  # attributes that are easily taken for one another
+    ("x", "y"),
+    ("a", "b"),
+    ("pos", "vel"),
+    ("angle", "omega"),
+    ("inv_mass", "inv_inertia", "mass"),
+    ("jn", "jt"),
+    ("friction", "restitution"),
+    ("linear_damping", "angular_damping"),
+)
+SUMS = ast.Add | ast.Sub | ast.Mult | ast.Div
+ATOMS = ast.Constant | ast.Tuple | ast.List | ast.Compare | ast.BoolOp | ast.Lambda
+
+Change = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A region with one thing changed: in which line of it, and how, in words."""
+
+    line: int  # from 1
+    how: str
+    code: str
+
+
+@dataclass(frozen=True)
+class Mend:
+    """The line of a file in which a change makes checks pass, and how, in words."""
+
+    file: str
+    line: int
+    how: str
+
+    @property
+    def in_words(self) -> str:
+        return f"{self.how} line {self.line}, this passes: look there."
+
+
+def find_mend(
+    text: str,
+    about: tuple[str, str, str],
+    passes: Callable[[str], bool],
+    has_time: Callable[[], bool],
+) -> Mend | None:
+    """Return the line of a file in which a change makes checks pass, or None if none is found.
+
+    `about`: the file's name, the TODO and the path of its function. `passes` is told the file's
+    text with a change, and whether another one is tried is asked of `has_time`.
+    """
+    file, todo, path = about
+    function = function_named(statements(text), path)
+    regions = [each for each in regions_in(text) if each.id == todo]
+    if function is None or len(regions) != 1:
+        return None
+    (region,) = regions
+    parameters = frozenset(each.arg for each in function.args.args)
+    for variant in islice(make_variants(region, parameters), MOST_TRIED):
+        changed = put_into(text, region, variant.code)
+        if not has_time():
+            return None
+        if passes(changed):
+            return Mend(file, region.start + 1 + variant.line, variant.how)
+    return None
+
+
+def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
+    """Yield the region with one thing changed, likely changes first; none if Python refuses it.
+
+    `names` are those of the function's parameters.
+    """
+    code = textwrap.dedent("\n".join(region.lines))
+    try:
+        tree = ast.parse(code)
+    except SyntaxError:
+        return
+    own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and n.islower())
+    seen = {ast.unparse(tree)}
+    ends = set(find_ends(tree))
+    places = [
+        each
+        for each in walk_places(tree)
+        if isinstance(each.node, ast.expr | ast.stmt) and each.node.lineno not in ends
+    ]
+    for how, change in KINDS:
+        for place in places:
+            node = place.node
+            if not isinstance(getattr(node, "ctx", ast.Load()), ast.Load):
+                continue
+            for offer in change(node, own):
+                text = unparse_with(tree, place, offer)
+                if text not in seen:
+                    seen.add(text)
+                    yield Variant(node.lineno, how, text)
+
+
+def find_ends(tree: ast.AST) -> Iterator[int]:
+    """Yield the lines that decide when a `while` ends; one that never ends takes long to try."""
+    for loop in ast.walk(tree):
+        if not isinstance(loop, ast.While):
+            continue
+        yield loop.lineno
+        asked = {ast.unparse(node) for node in ast.walk(loop.test)}
+        for node in ast.walk(loop):
+            match node:
+                case ast.Assign(targets):
+                    changed = [ast.unparse(each) for each in targets]
+                case ast.AugAssign(target):
+                    changed = [ast.unparse(target)]
+                case _:
+                    continue
+            if asked.intersection(changed):
+                yield node.lineno
+
+
+def unparse_with(tree: ast.AST, place: Place, offer: Offer) -> str:
+    restore = place.put(offer)
+    try:
+        return ast.unparse(ast.fix_missing_locations(tree))
+    finally:
+        restore()
+
+
+def put_into(text: str, region: Region, code: str) -> str:
+    """Return a file's text with other code in the region."""
+    lines = text.split("\n")
+    indents = [len(each) - len(each.lstrip()) for each in region.lines if each.strip()]
+    new = textwrap.indent(code, " " * min(indents, default=0)).split("\n")
+    return "\n".join([*lines[: region.start + 1], *new, *lines[region.stop :]])
+
+
+# ---------------------------------------------------------------- the changes, likely ones first
+
+
+def change_sign(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `-x` for `x`."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS | ast.UnaryOp):
+        yield ast.UnaryOp(ast.USub(), node)
+
+
+def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `x` or `y` for `x + y`, `x and y`, `x if z else y`, `max(x, y)` and the like."""
+    match node:
+        case ast.BinOp(left, op, right) if isinstance(op, SUMS):
+            yield from (left, right)
+        case ast.IfExp(_, left, right):
+            yield from (left, right)
+        case ast.BoolOp(values=parts) | ast.Call(ast.Name("max" | "min"), args=parts):
+            yield from parts
+
+
+def swap_operands(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `y - x` for `x - y`."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub | ast.Div):
+        yield ast.BinOp(node.right, node.op, node.left)
+
+
+def change_and(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `or` for `and`."""
+    if isinstance(node, ast.BoolOp):
+        yield ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
+
+
+def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Use another name or attribute."""
+    if isinstance(node, ast.Name) and node.id in names:
+        yield from (ast.Name(each, node.ctx) for each in sorted(names - {node.id}))
+    if isinstance(node, ast.Attribute):
+        for other in related_names(node.attr, ALIKE):
+            yield ast.Attribute(node.value, other, node.ctx)
+
+
+def add_factor(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Multiply by a name, 2 or a half, or divide by a name."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        for each in sorted(names):
+            yield ast.BinOp(node, ast.Mult(), ast.Name(each))
+            yield ast.BinOp(node, ast.Div(), ast.Name(each))
+        yield from (ast.BinOp(node, ast.Mult(), ast.Constant(each)) for each in (2, 0.5))
+
+
+def add_limit(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `max(0, x)`, `min(0, x)` or `abs(x)` for `x`."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        for name in ("max", "min"):
+            yield ast.Call(ast.Name(name), [ast.Constant(0), node], [])
+        yield ast.Call(ast.Name("abs"), [node], [])
+
+
+def leave_out_statement(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Leave out a statement."""
+    if isinstance(node, ast.stmt):
+        yield []
+
+
+def leave_out_condition(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Do always what is done in some cases."""
+    if isinstance(node, ast.If) and not node.orelse:
+        yield node.body
+
+
+def add_to_it(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `+=` or `-=` for `=`."""
+    match node:
+        case ast.Assign([ast.Name() | ast.Attribute() as target], value):
+            yield from (ast.AugAssign(target, sign, value) for sign in (ast.Add(), ast.Sub()))
+
+
+KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
+    ("With another operator in", change_arithmetic),
+    ("With another comparison in", change_comparison),
+    ("Without what begins in", leave_out_statement),
+    ("Without the condition in", leave_out_condition),
+    ("With another of =, += and -= in", change_update),
+    ("With another of =, += and -= in", add_to_it),
+    ("Without a part of", unwrap),
+    ("Without a part of", leave_out_term),
+    ("With another order in", swap_operands),
+    ("With another order in", swap_arguments),
+    ("With another of and and or in", change_and),
+    ("With the opposite condition in", change_condition),
+    ("With another number in", change_constant),
+    ("With another sign in", change_sign),
+    ("With another name in", use_another_name),
+    ("With a limit or abs() in", add_limit),
+    ("With one more factor in", add_factor),
+)

@@ -1,0 +1,134 @@
+"""The line in which one small change mends a TODO is told, to who checks their own work."""
+
+import difflib
+from pathlib import Path
+
+import pytest
+from conftest import KIT, HandIn
+from whole_bank import bank
+
+from grader.bank.members import Member
+from grader.bank.verify import shared_worker
+from grader.judge.grade import Options, grade
+from grader.judge.mending import KINDS, Mend, find_mend, make_variants, put_into
+from grader.judge.result import TodoResult
+from grader.source.regions import read_source, regions_in
+
+SOLVER = "mini_engine/solver.py"
+SPIN = "total += cross(rb, axis) ** 2 * b.inv_inertia"
+SLIP = "total += cross(rb, axis) ** 2 * (a.inv_inertia if a.omega > b.omega else b.inv_inertia)"
+FEW = ("7b-largest-never-turn", "2-inertia-kept-on-the-body", "4-root-written-to-both")
+LOOP = """
+def run(left, step):
+    done = 0
+    # TODO 1: run whole steps
+    while left >= step:
+        left -= step
+        done += 1
+    # END TODO 1
+    return done
+"""
+
+
+def checked(folder: Path, todo: str, trusted: bool = True) -> TodoResult:
+    options = Options(only=frozenset({todo}), trusted=trusted)
+    (result,) = grade(folder, options, shared_worker()).todos
+    return result
+
+
+def slip(hand_in: HandIn) -> Path:
+    """Hand in the solution with the other body's inertia where that body spins faster."""
+    folder = hand_in("solution")
+    path = folder / SOLVER
+    path.write_text(path.read_text("utf-8").replace(SPIN, SLIP), encoding="utf-8")
+    return folder
+
+
+def test_the_line_is_told_to_who_checks_their_own_work_and_marks_stay(hand_in: HandIn):
+    folder = slip(hand_in)
+    line = 1 + read_source(folder / SOLVER).split("\n").index(f"    {SLIP}")
+    own, graded = checked(folder, "2").checks, checked(folder, "2", trusted=False).checks
+    failed = [check for check in own if check.failed]
+    assert failed
+    for check in failed:
+        assert check.where is not None and (check.where.file, check.where.line) == (SOLVER, line)
+        assert f"Without a part of line {line}, this passes: look there." in check.meaning
+        assert "b.inv_inertia" not in check.meaning, "where, and not what"
+    assert [check.points for check in own] == [check.points for check in graded]
+    assert not any("look there" in check.meaning for check in graded)
+
+
+def tell_line(member: Member, tree: Path) -> tuple[Mend | None, set[int]]:
+    """Return what is told of a wrong member, and the lines that differ from the solution's."""
+    member.build(KIT, tree)
+    (todo,) = member.todos
+    told = [c for c in checked(tree, todo).checks if "look there" in c.meaning and c.where]
+    if not told or told[0].where is None:
+        return None, set()
+    where = told[0].where
+    ours, right = (read_source(root / where.file).split("\n") for root in (tree, KIT / "solution"))
+    blocks = difflib.SequenceMatcher(None, ours, right, False).get_opcodes()
+    changed = {
+        line
+        for tag, i, j, _, _ in blocks
+        if tag != "equal"
+        for line in range(i + (i < j), max(i, j) + 1 + (i == j))
+    }
+    return Mend(where.file, where.line, ""), changed
+
+
+def wrong_members() -> list[Member]:
+    members = (each for each in bank() if each.kind == "wrong" and each.form == "package")
+    return [each for each in members if len(each.todos) == 1 and "whole" not in each.todos]
+
+
+@pytest.mark.parametrize(
+    "member",
+    [
+        pytest.param(each, id=each.name, marks=() if each.name in FEW else pytest.mark.soak)
+        for each in wrong_members()
+    ],
+)
+def test_no_line_is_told_but_one_that_is_wrong(member: Member, tmp_path: Path):
+    mend, changed = tell_line(member, tmp_path / "tree")
+    if member.name in FEW:
+        assert mend is not None
+    assert mend is None or mend.line in changed
+
+
+# ---------------------------------------------------------------- the changes
+
+
+def test_changes_leave_all_else_as_it_is():
+    for name in ("joints.py", "game_loop.py"):
+        text = read_source(KIT / "solution" / "mini_engine" / name)
+        for region in regions_in(text):
+            variants = list(make_variants(region, frozenset()))
+            assert {each.how for each in variants} <= {how for how, _ in KINDS}
+            for each in variants:
+                changed = put_into(text, region, each.code)
+                compile(changed, name, "exec")
+                assert (
+                    changed.split("\n")[: region.start + 1] == text.split("\n")[: region.start + 1]
+                )
+                assert 1 <= each.line <= len(region.lines)
+
+
+def test_what_decides_when_a_loop_ends_is_not_tried():
+    asked = []
+
+    def passes(text: str) -> bool:
+        asked.append(text)
+        return False
+
+    assert find_mend(LOOP, ("run.py", "1", "run"), passes, lambda: True) is None
+    assert asked and all("while left >= step:\n        left -= step" in text for text in asked)
+
+
+def test_nothing_is_tried_without_time_or_where_python_refuses():
+    def passes(text: str) -> bool:
+        raise AssertionError(text)
+
+    about = ("run.py", "1", "run")
+    assert find_mend(LOOP, about, passes, lambda: False) is None
+    assert find_mend(LOOP.replace("+= 1", "+= (1"), about, passes, lambda: True) is None
