@@ -12,7 +12,6 @@ from .scenes import ball, make_world
 from .shapes import Box
 
 MAX_FRAME = MAX_STEPS * STEP  # s, the most time one frame may add
-OUTSIDE = 30  # px above and below the window, where no ball is seen
 BACKGROUND = (22, 25, 33)
 INK = (225, 228, 235)
 HELP = "click: drop a ball    R: reset    Space: pause, then N: one step"
@@ -78,12 +77,12 @@ class Window:
 
     def draw_line(self, joint, width):
         """Draw a line between the two ends of a joint."""
-        ends = (self.on_screen(end)[0] for end in (joint.a, joint.b))
-        pygame.draw.line(self.screen, INK, *ends, width)
+        pygame.draw.line(self.screen, INK, self.place(joint.a)[0], self.place(joint.b)[0], width)
 
     def draw_body(self, body, color):
         """Draw a box, or a circle; one that can move has a spoke."""
-        pos, angle = self.on_screen(body)
+        pos, angle = self.place(body)
+        pos = Vector2(pos[0], min(pos[1], pos[1] % HEIGHT))  # what falls out comes in at the top
         if isinstance(body.shape, Box):
             pygame.draw.rect(self.screen, color, (pos - body.shape.half, body.shape.half * 2))
             return
@@ -95,13 +94,6 @@ class Window:
     def place(self, body):
         """Where to draw a body, (place, angle)."""
         return body.pos, body.angle
-
-    def on_screen(self, body):
-        """The same, but what has fallen out of the window comes in again at the top."""
-        (x, y), angle = self.place(body)
-        if y > HEIGHT:
-            y = (y + OUTSIDE) % (HEIGHT + 2 * OUTSIDE) - OUTSIDE
-        return Vector2(x, y), angle
 
     def texts(self):
         """The lines of text, each as (place, text)."""
@@ -117,8 +109,7 @@ class Window:
 
 def main(kind=Window):
     """Run the lab scene in a window of this kind, until it is closed."""
-    window = kind()
-    clock = pygame.time.Clock()
+    window, clock = kind(), pygame.time.Clock()
     total_steps, running = 0, True
     while running and frame_budget():
         frame_seconds = clock.tick(60) / 1000
