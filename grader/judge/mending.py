@@ -9,7 +9,7 @@ import builtins
 import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 
 from grader.source.definitions import function_named, statements
 from grader.source.operators import (
@@ -95,7 +95,9 @@ def find_mend(
 
 
 def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
-    """Yield the region with one thing changed, likely changes first; none if Python refuses it.
+    """Yield the region with one thing changed: first what can be done in few places of it.
+
+    None if Python refuses the region.
 
     `names` are those of the function's parameters.
     """
@@ -112,7 +114,9 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
         for each in walk_places(tree)
         if isinstance(each.node, ast.expr | ast.stmt) and each.node.lineno not in ends
     ]
+    found: list[list[Variant]] = []
     for how, change in KINDS:
+        found.append([])
         for place in places:
             node = place.node
             if not isinstance(getattr(node, "ctx", ast.Load()), ast.Load):
@@ -121,7 +125,8 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
                 text = unparse_with(tree, place, offer)
                 if text not in seen:
                     seen.add(text)
-                    yield Variant(node.lineno, how, text)
+                    found[-1].append(Variant(node.lineno, how, text))
+    yield from chain(*sorted(found, key=len))
 
 
 def find_ends(tree: ast.AST) -> Iterator[int]:
@@ -159,7 +164,7 @@ def put_into(text: str, region: Region, code: str) -> str:
     return "\n".join([*lines[: region.start + 1], *new, *lines[region.stop :]])
 
 
-# ---------------------------------------------------------------- the changes, likely ones first
+# ---------------------------------------------------------------- the changes
 
 
 def change_sign(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
@@ -177,6 +182,43 @@ def leave_out_term(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
             yield from (left, right)
         case ast.BoolOp(values=parts) | ast.Call(ast.Name("max" | "min"), args=parts):
             yield from parts
+
+
+def move_bracket(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `(x + y) * z` for `x + y * z`, also in longer sums, and the other way round."""
+    match node:
+        case ast.BinOp(
+            ast.BinOp(left, ast.Add() | ast.Sub() as plus, right),
+            ast.Mult() | ast.Div() as times,
+            factor,
+        ):
+            yield ast.BinOp(left, plus, ast.BinOp(right, times, factor))
+        case ast.BinOp(_, ast.Add() | ast.Sub(), last):
+            terms = terms_of(node)
+            factors: list[tuple[ast.operator, ast.expr]] = []
+            while isinstance(last, ast.BinOp) and isinstance(last.op, ast.Mult | ast.Div):
+                factors.insert(0, (last.op, last.right))
+                last = last.left
+                for first in range(len(terms) - 1):
+                    inner = add_up([*terms[first:-1], (terms[-1][0], last)])
+                    for op, factor in factors:
+                        inner = ast.BinOp(inner, op, factor)
+                    yield add_up([*terms[:first], (terms[first][0], inner)])
+
+
+def terms_of(node: ast.expr) -> list[tuple[ast.operator, ast.expr]]:
+    """Return the terms of a sum, each with the sign before it."""
+    match node:
+        case ast.BinOp(left, ast.Add() | ast.Sub() as plus, right):
+            return [*terms_of(left), (plus, right)]
+    return [(ast.Add(), node)]
+
+
+def add_up(terms: list[tuple[ast.operator, ast.expr]]) -> ast.expr:
+    whole = terms[0][1]
+    for plus, term in terms[1:]:
+        whole = ast.BinOp(whole, plus, term)
+    return whole
 
 
 def swap_operands(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
@@ -200,13 +242,18 @@ def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
             yield ast.Attribute(node.value, other, node.ctx)
 
 
+def double(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `2 * x` or half of it for `x`."""
+    if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
+        yield from (ast.BinOp(node, ast.Mult(), ast.Constant(each)) for each in (2, 0.5))
+
+
 def add_factor(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Multiply by a name, 2 or a half, or divide by a name."""
+    """Multiply by a name, or divide by it."""
     if isinstance(node, ast.expr) and not isinstance(node, ATOMS):
         for each in sorted(names):
             yield ast.BinOp(node, ast.Mult(), ast.Name(each))
             yield ast.BinOp(node, ast.Div(), ast.Name(each))
-        yield from (ast.BinOp(node, ast.Mult(), ast.Constant(each)) for each in (2, 0.5))
 
 
 def add_limit(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
@@ -245,6 +292,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With another of =, += and -= in", add_to_it),
     ("Without a part of", unwrap),
     ("Without a part of", leave_out_term),
+    ("With another bracket in", move_bracket),
     ("With another order in", swap_operands),
     ("With another order in", swap_arguments),
     ("With another of and and or in", change_and),
@@ -253,5 +301,6 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With another sign in", change_sign),
     ("With another name in", use_another_name),
     ("With a limit or abs() in", add_limit),
+    ("With one more factor in", double),
     ("With one more factor in", add_factor),
 )
