@@ -99,7 +99,7 @@ def explain(
 def is_unexplained(evidence: Evidence, check: CheckResult) -> bool:
     """Return whether nothing names the reason of a wrong answer."""
     before = EXPLAINERS[: EXPLAINERS.index(point_to_line)]
-    wrong = check.state == "not yet" and check.meaning != REMEMBERS
+    wrong = check.state == "not yet" and not check.meaning
     return wrong and not any(explainer(evidence, check) for explainer in before)
 
 
@@ -112,7 +112,7 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
     elif evidence.left is not None and evidence.left.is_all:
         where = evidence.left.where
     elif evidence.mend is not None and check.state == "not yet":
-        where = Where(evidence.mend.file, evidence.mend.line)
+        where = Where(evidence.mend.file, evidence.mend.lines[0])
     return msgspec.structs.replace(check, meaning=meaning, where=where)
 
 

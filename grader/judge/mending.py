@@ -6,10 +6,11 @@ the change itself. Only for one's own work, since it may take as long as all the
 
 import ast
 import builtins
+import re
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, islice
+from itertools import chain, combinations, islice
 
 from grader.source.definitions import function_named, statements
 from grader.source.operators import (
@@ -39,7 +40,9 @@ ALIKE = (  # attributes that are easily taken for one another
     ("friction", "restitution"),
     ("linear_damping", "angular_damping"),
 )
+ENDING = re.compile(r"\d+|_[a-z]$")  # by which similar names differ
 SUMS = ast.Add | ast.Sub | ast.Mult | ast.Div
+NAMED = re.compile(r"(?:id|attr|value)=(?:'\w*'|[\d.e+-]+)")  # in what ast.dump says
 ATOMS = ast.Constant | ast.Tuple | ast.List | ast.Compare | ast.BoolOp | ast.Lambda
 
 Change = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
@@ -47,24 +50,25 @@ Change = Callable[[ast.AST, frozenset[str]], Iterator[Offer]]
 
 @dataclass(frozen=True)
 class Variant:
-    """A region with one thing changed: in which line of it, and how, in words."""
+    """A region with one thing changed: in which lines of it, and how, in words."""
 
-    line: int  # from 1
+    lines: tuple[int, ...]  # from 1; two where the same is changed in two alike
     how: str
     code: str
 
 
 @dataclass(frozen=True)
 class Mend:
-    """The line of a file in which a change makes checks pass, and how, in words."""
+    """The lines of a file in which a change makes checks pass, and how, in words."""
 
     file: str
-    line: int
+    lines: tuple[int, ...]
     how: str
 
     @property
     def in_words(self) -> str:
-        return f"{self.how} line {self.line}, this passes: look there."
+        lines = " and in line ".join(map(str, self.lines))
+        return f"{self.how} line {lines}, this passes: look there."
 
 
 def find_mend(
@@ -90,16 +94,14 @@ def find_mend(
         if not has_time():
             return None
         if passes(changed):
-            return Mend(file, region.start + 1 + variant.line, variant.how)
+            return Mend(file, tuple(region.start + 1 + n for n in variant.lines), variant.how)
     return None
 
 
 def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
     """Yield the region with one thing changed: first what can be done in few places of it.
 
-    None if Python refuses the region.
-
-    `names` are those of the function's parameters.
+    None if Python refuses the region. `names` are those of the function's parameters.
     """
     code = textwrap.dedent("\n".join(region.lines))
     try:
@@ -107,26 +109,52 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
     except SyntaxError:
         return
     own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and n.islower())
-    seen = {ast.unparse(tree)}
     ends = set(find_ends(tree))
-    places = [
-        each
-        for each in walk_places(tree)
-        if isinstance(each.node, ast.expr | ast.stmt) and each.node.lineno not in ends
-    ]
-    found: list[list[Variant]] = []
-    for how, change in KINDS:
-        found.append([])
-        for place in places:
-            node = place.node
-            if not isinstance(getattr(node, "ctx", ast.Load()), ast.Load):
-                continue
-            for offer in change(node, own):
-                text = unparse_with(tree, place, offer)
-                if text not in seen:
-                    seen.add(text)
-                    found[-1].append(Variant(node.lineno, how, text))
-    yield from chain(*sorted(found, key=len))
+    places = [(each,) for each in find_places(tree) if each.node.lineno not in ends]
+    groups = [list(change_places(tree, how, change, places, own)) for how, change in KINDS]
+    twins = list(find_twins(tree))
+    groups += [list(change_places(tree, how, change, twins, own)) for how, change in IN_TWINS]
+    seen = {ast.unparse(tree)}
+    for variant in chain(*sorted(groups, key=len)):
+        if variant.code not in seen:
+            seen.add(variant.code)
+            yield variant
+
+
+def find_places(tree: ast.AST) -> Iterator[Place]:
+    for place in walk_places(tree):
+        loaded = isinstance(getattr(place.node, "ctx", ast.Load()), ast.Load)
+        if loaded and isinstance(place.node, ast.expr | ast.stmt):
+            yield place
+
+
+def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
+    """Yield the places of statements that differ in names and numbers alone, two and two."""
+    alike: dict[str, list[ast.stmt]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign | ast.AugAssign):
+            shape = NAMED.sub("", ast.dump(node))
+            alike.setdefault(shape, []).append(node)
+    for first, second in chain(*(combinations(some, 2) for some in alike.values())):
+        yield from zip(find_places(first), find_places(second), strict=True)
+
+
+def change_places(
+    tree: ast.AST,
+    how: str,
+    change: Change,
+    places: Iterable[tuple[Place, ...]],
+    names: frozenset[str],
+) -> Iterator[Variant]:
+    """Yield the tree with a change in all of some places at a time."""
+    for some in places:
+        lines = tuple(each.node.lineno for each in some)
+        for offers in zip(*(list(change(each.node, names)) for each in some), strict=False):
+            restores = [place.put(offer) for place, offer in zip(some, offers, strict=True)]
+            text = ast.unparse(ast.fix_missing_locations(tree))
+            for restore in restores:
+                restore()
+            yield Variant(lines, how, text)
 
 
 def find_ends(tree: ast.AST) -> Iterator[int]:
@@ -146,14 +174,6 @@ def find_ends(tree: ast.AST) -> Iterator[int]:
                     continue
             if asked.intersection(changed):
                 yield node.lineno
-
-
-def unparse_with(tree: ast.AST, place: Place, offer: Offer) -> str:
-    restore = place.put(offer)
-    try:
-        return ast.unparse(ast.fix_missing_locations(tree))
-    finally:
-        restore()
 
 
 def put_into(text: str, region: Region, code: str) -> str:
@@ -233,6 +253,15 @@ def change_and(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
         yield ast.BoolOp(ast.Or() if isinstance(node.op, ast.And) else ast.And(), node.values)
 
 
+def use_a_similar_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `v2` for `v1`, and `vel_a` for `vel_b`."""
+    if isinstance(node, ast.Name) and node.id in names:
+        stem = ENDING.sub("", node.id)
+        for each in sorted(names - {node.id}):
+            if ENDING.sub("", each) == stem:
+                yield ast.Name(each, node.ctx)
+
+
 def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
     """Use another name or attribute."""
     if isinstance(node, ast.Name) and node.id in names:
@@ -299,8 +328,16 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With the opposite condition in", change_condition),
     ("With another number in", change_constant),
     ("With another sign in", change_sign),
+    ("With another name in", use_a_similar_name),
     ("With another name in", use_another_name),
     ("With a limit or abs() in", add_limit),
     ("With one more factor in", double),
     ("With one more factor in", add_factor),
+)
+IN_TWINS: tuple[tuple[str, Change], ...] = (  # what is often wrong in both of two lines alike
+    ("With another operator in", change_arithmetic),
+    ("With another bracket in", move_bracket),
+    ("With another order in", swap_operands),
+    ("With another number in", change_constant),
+    ("Without a part of", leave_out_term),
 )

@@ -76,7 +76,7 @@ def explain_too_much(paces: dict[int, Pace]) -> str:
     if shares[30] > 1.05 * shares[144]:
         return (
             "The longer a frame, the more is simulated in it: a step is STEP long whatever the "
-            "frame, as many run as the accumulator holds, and their time leaves it."
+            "frame, as many run as the accumulator holds, and each takes one STEP out of it."
         )
     return (
         f"About {shares[144]:.2g} times as much is simulated as passes: each step takes STEP out "

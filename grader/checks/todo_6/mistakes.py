@@ -76,7 +76,7 @@ known(
 )
 known(
     "drops-the-remainder",
-    "What is left of a frame after its whole steps is thrown away; it belongs to the next frame.",
+    "What is left of a frame after its whole steps is never run; it belongs to the next frame's.",
     lambda frames: counted([whole_steps(capped(frame)) for frame in frames[:-1]]),
 )
 known(
@@ -233,7 +233,7 @@ known(
 )
 known(
     "drops-the-remainder+no-cap",
-    "What is left of a frame after its whole steps is thrown away; it belongs to the next frame. "
+    "What is left of a frame after its whole steps is never run; it belongs to the next frame's. "
     "And: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
     lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
 )

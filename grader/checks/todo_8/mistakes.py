@@ -252,7 +252,8 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
 
 BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
     "half-is-missing-in-x": (
-        "x gets a * dt² of the acceleration; on a parabola it is half of that.",
+        "x gets a * dt² of the acceleration in all; on a parabola it is half of that, also where v "
+        "holds a part of it already.",
         lambda a, dt: a * dt**2,
     ),
     "straight-line-in-x": (
@@ -312,6 +313,16 @@ def acceleration_at_the_mean_place(x: float, v: float, dt: float, force: Force) 
     return end, v + accel((x + end) / 2) * dt
 
 
+def end_on_a_straight_line(x: float, v: float, dt: float, force: Force) -> State:
+    accel = polynomial(force)
+    return parabola(x, v, dt, accel), v + (accel(x) + accel(x + v * dt)) / 2 * dt
+
+
+known_8b(
+    "end-on-a-straight-line",
+    "The second acceleration is taken at x + v * dt; it belongs to where x ends, on the parabola.",
+    end_on_a_straight_line,
+)
 known_8b(
     "force-at-the-mean-place",
     "v uses the acceleration at the mean place; it needs the mean of the accelerations at both "
@@ -413,6 +424,32 @@ def four_samples(
     return x, v
 
 
+def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
+    accel, place, speed = polynomial(force), x, v
+    for share, weight in ((0.5, 1), (0.5, 2), (1.0, 2), (0.0, 1)):
+        dx, dv = speed, accel(place)
+        x, v = x + dt / 6 * weight * dx, v + dt / 6 * weight * dv
+        place, speed = place + share * dt * dx, speed + share * dt * dv
+    return x, v
+
+
+known_8c(
+    "samples-lead-on",
+    "Each sample goes on from the place of the one before; all of them begin at x and v.",
+    samples_that_lead_on,
+)
+
+
+def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
+    _, end = four_samples(x, v, dt, force)
+    return x + end * dt, end
+
+
+known_8c(
+    "new-velocity-in-x",
+    "x moves with the new velocity alone; it needs the four velocities, weighed as v is.",
+    euler_in_x,
+)
 known_8c(
     "equal-weights",
     "All four samples weigh the same; the two in the middle count twice: 1, 2, 2, 1.",
