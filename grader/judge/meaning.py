@@ -80,7 +80,7 @@ class Evidence:
     left: Left | None = None
     region: RegionWords = NOTHING_SHOWN
     remark: str = ""  # why no code of the TODO counts
-    mend: Mend | None = None  # which line to change, if anything is known of it
+    mends: Mapping[str, Mend] = field(default_factory=dict)  # the line in which a change mends it
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
@@ -111,8 +111,8 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
         where = evidence.blamed[check.id].place(check)
     elif evidence.left is not None and evidence.left.is_all:
         where = evidence.left.where
-    elif evidence.mend is not None and check.state == "not yet":
-        where = Where(evidence.mend.file, evidence.mend.lines[0])
+    elif check.id in evidence.mends:
+        where = Where(evidence.mends[check.id].file, evidence.mends[check.id].lines[0])
     return msgspec.structs.replace(check, meaning=meaning, where=where)
 
 
@@ -227,9 +227,9 @@ def name_rounding(evidence: Evidence, check: CheckResult) -> str:
 
 def point_to_line(evidence: Evidence, check: CheckResult) -> str:
     """Name the line in which one change mends all of the TODO, with what its answers are like."""
-    if evidence.mend is None or check.state != "not yet":
+    if check.id not in evidence.mends:
         return ""
-    return f"{evidence.mend.in_words} {describe_answers(evidence, check)}".strip()
+    return f"{evidence.mends[check.id].in_words} {describe_answers(evidence, check)}".strip()
 
 
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:

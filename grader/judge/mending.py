@@ -30,6 +30,7 @@ from grader.source.operators import (
 from grader.source.regions import Region, regions_in
 
 MOST_TRIED = 150  # changes
+LONGEST = 80  # lines of a region; an answer has a dozen
 ALIKE = (  # attributes that are easily taken for one another
     ("x", "y"),
     ("a", "b"),
@@ -101,24 +102,27 @@ def find_mend(
 def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
     """Yield the region with one thing changed: first what can be done in few places of it.
 
-    None if Python refuses the region. `names` are those of the function's parameters.
+    None if Python refuses the region, or it is long. `names` are the function's parameters.
     """
     code = textwrap.dedent("\n".join(region.lines))
     try:
         tree = ast.parse(code)
     except SyntaxError:
         return
+    if len(region.lines) > LONGEST:
+        return
     own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and n.islower())
     ends = set(find_ends(tree))
     places = [(each,) for each in find_places(tree) if each.node.lineno not in ends]
-    groups = [list(change_places(tree, how, change, places, own)) for how, change in KINDS]
     twins = list(find_twins(tree))
-    groups += [list(change_places(tree, how, change, twins, own)) for how, change in IN_TWINS]
+    groups = [list_changes(how, change, places, own) for how, change in KINDS]
+    groups += [list_changes(how, change, twins, own) for how, change in IN_TWINS]
     seen = {ast.unparse(tree)}
-    for variant in chain(*sorted(groups, key=len)):
-        if variant.code not in seen:
-            seen.add(variant.code)
-            yield variant
+    for each in chain(*sorted(groups, key=len)):
+        code = each.put_into(tree)
+        if code not in seen:
+            seen.add(code)
+            yield Variant(tuple(place.node.lineno for place in each.places), each.how, code)
 
 
 def find_places(tree: ast.AST) -> Iterator[Place]:
@@ -139,22 +143,34 @@ def find_twins(tree: ast.AST) -> Iterator[tuple[Place, Place]]:
         yield from zip(find_places(first), find_places(second), strict=True)
 
 
-def change_places(
-    tree: ast.AST,
-    how: str,
-    change: Change,
-    places: Iterable[tuple[Place, ...]],
-    names: frozenset[str],
-) -> Iterator[Variant]:
-    """Yield the tree with a change in all of some places at a time."""
-    for some in places:
-        lines = tuple(each.node.lineno for each in some)
-        for offers in zip(*(list(change(each.node, names)) for each in some), strict=False):
-            restores = [place.put(offer) for place, offer in zip(some, offers, strict=True)]
-            text = ast.unparse(ast.fix_missing_locations(tree))
-            for restore in restores:
-                restore()
-            yield Variant(lines, how, text)
+@dataclass(frozen=True)
+class Changed:
+    """What is put into some places at a time, and how that is called."""
+
+    how: str
+    places: tuple[Place, ...]
+    offers: tuple[Offer, ...]
+
+    def put_into(self, tree: ast.AST) -> str:
+        """Return the code of their tree with the change; the tree stays as it was."""
+        pairs = zip(self.places, self.offers, strict=True)
+        restores = [place.put(offer) for place, offer in pairs]
+        code = ast.unparse(ast.fix_missing_locations(tree))
+        for restore in restores:
+            restore()
+        return code
+
+
+def list_changes(
+    how: str, change: Change, places: Iterable[tuple[Place, ...]], names: frozenset[str]
+) -> list[Changed]:
+    """Return what a kind of change puts into these places, as many as can be tried at all."""
+    found = (
+        Changed(how, some, offers)
+        for some in places
+        for offers in zip(*(change(each.node, names) for each in some), strict=False)
+    )
+    return list(islice(found, MOST_TRIED))
 
 
 def find_ends(tree: ast.AST) -> Iterator[int]:

@@ -17,7 +17,7 @@ from grader.source.regions import read_source, regions_in
 SOLVER = "mini_engine/solver.py"
 SPIN = "total += cross(rb, axis) ** 2 * b.inv_inertia"
 SLIP = "total += cross(rb, axis) ** 2 * (a.inv_inertia if a.omega > b.omega else b.inv_inertia)"
-FEW = ("7b-largest-never-turn", "2-inertia-kept-on-the-body", "4-root-written-to-both")
+FEW = ("7b-largest-never-turn", "2-inertia-kept-on-the-body", "5-kept-by-dt")
 ELSEWHERE = "B4-one-a-step"  # can be mended in another line as well: its helper counts rightly
 LOOP = """
 def run(left, step):
