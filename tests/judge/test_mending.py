@@ -147,6 +147,11 @@ def test_the_same_slip_in_two_lines_is_found():
     assert mend is not None and mend.in_words.startswith("With another bracket in line 7 and in")
 
 
+def test_a_sum_without_end_is_let_alone():
+    text = LOOP.replace("done += 1", "done = " + "+".join(["done"] * 5000))
+    assert find_mend(text, ("run.py", "1", "run"), lambda _: False, lambda: True) is None
+
+
 def test_nothing_is_tried_without_time_or_where_python_refuses():
     def passes(text: str) -> bool:
         raise AssertionError(text)
