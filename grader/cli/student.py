@@ -99,7 +99,7 @@ def show_first(result: Result, folder: Path, replays: Path | None) -> None:
 
 def make_options(todos: frozenset[str], course: Course) -> Options:
     """Return the options of `check`: those of `grade` without a reference and confinement."""
-    return Options(only=todos, trusted=True, course=course, jobs=count_cores())
+    return Options(only=todos, trusted=True, mends=True, course=course, jobs=count_cores())
 
 
 def find_tree(path: Path, course: Course) -> Path:

@@ -79,6 +79,8 @@ class Options:
     `isolation`: "auto" confines as well as this machine can and refuses to grade where files would
     be open, "strict" also where some may be read or the network is open, "none" confines nothing.
     `trusted`: it is one's own work, and graded with what confinement there is.
+    `mends`: name the line in which one change makes a failed check pass, which takes seconds; for
+    `trusted` work alone.
     `only`: the ids of the TODOs to grade, such as "4" or "7a"; empty for all.
     `seed`: an instructor's secret, for other examples in the property checks than the fixed ones.
     `spawn`: start each child anew, as on platforms without fork. Slower, and the same marks.
@@ -94,6 +96,7 @@ class Options:
     spawn: bool = False
     progress: Callable[[CheckResult], None] | None = None
     trusted: bool = False
+    mends: bool = False
     course: Course = FULL
     passed: PassedPrograms | None = None
     jobs: int = 1
@@ -488,7 +491,7 @@ class Grading:
     def find_mend(self, todo: Todo, loop: "CheckLoop", failed: Sequence[str]) -> Mend | None:
         """Return the line of a TODO in which one change makes these checks pass."""
         where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
-        if where is None or not path or not self.options.trusted:
+        if where is None or not path or not (self.options.trusted and self.options.mends):
             return None
         until = loop.budget.words_cpu + MEND_SECONDS
         copy = self.sandbox.changed({})

@@ -96,7 +96,7 @@ def find_mend(
                 return None
             if passes(put_into(text, region, variant.code)):
                 return Mend(file, tuple(region.start + 1 + n for n in variant.lines), variant.how)
-    except RecursionError:  # a sum of thousands of terms, which nobody needs to be told of
+    except (RecursionError, ValueError):  # thousands of terms, or what cannot be written again
         pass
     return None
 
@@ -130,7 +130,8 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
 def find_places(tree: ast.AST) -> Iterator[Place]:
     for place in walk_places(tree):
         loaded = isinstance(getattr(place.node, "ctx", ast.Load()), ast.Load)
-        if loaded and isinstance(place.node, ast.expr | ast.stmt):
+        in_text = isinstance(place.parent, ast.JoinedStr)  # which holds nothing but its own parts
+        if loaded and isinstance(place.node, ast.expr | ast.stmt) and not in_text:
             yield place
 
 

@@ -32,7 +32,7 @@ def run(left, step):
 
 
 def checked(folder: Path, todo: str, trusted: bool = True) -> TodoResult:
-    options = Options(only=frozenset({todo}), trusted=trusted)
+    options = Options(only=frozenset({todo}), trusted=trusted, mends=True)
     (result,) = grade(folder, options, shared_worker()).todos
     return result
 
@@ -150,6 +150,20 @@ def test_the_same_slip_in_two_lines_is_found():
 def test_a_sum_without_end_is_let_alone():
     text = LOOP.replace("done += 1", "done = " + "+".join(["done"] * 5000))
     assert find_mend(text, ("run.py", "1", "run"), lambda _: False, lambda: True) is None
+
+
+def test_texts_with_values_in_them_are_let_alone():
+    text = LOOP.replace("done += 1", """done += len(f"{left - step:{done}d} of {step!r}")""")
+    asked = []
+
+    def passes(changed: str) -> bool:
+        asked.append(changed)
+        return False
+
+    assert find_mend(text, ("run.py", "1", "run"), passes, lambda: True) is None
+    assert asked
+    for changed in asked:
+        compile(changed, "run.py", "exec")
 
 
 def test_nothing_is_tried_without_time_or_where_python_refuses():

@@ -178,7 +178,7 @@ def grade_lab(only):
         if bridge.told(check.title):
             raise Stopped
 
-    options = Options(trusted=True, only=frozenset(only), progress=tell)
+    options = Options(trusted=True, mends=True, only=frozenset(only), progress=tell)
     forget_last()
     run = last.enter_context(grading(LAB, options, InlineWorker(connect)))
     result = run.run()
