@@ -479,10 +479,11 @@ class Grading:
             self.read_region(todo) if ran else NOTHING_SHOWN,
             self.submission.remarks.get(todo.id, ""),
         )
-        unexplained = [c.id for c in checks if c.id in ran and is_unexplained(evidence, c)]
-        mend = self.find_mend(todo, loop, unexplained) if unexplained else None
-        if mend is not None:
-            evidence = replace(evidence, mends=dict.fromkeys(unexplained, mend))
+        if self.options.trusted and self.options.mends:
+            unexplained = [c.id for c in checks if c.id in ran and is_unexplained(evidence, c)]
+            mend = self.find_mend(todo, loop, unexplained) if unexplained else None
+            if mend is not None:
+                evidence = replace(evidence, mends=dict.fromkeys(unexplained, mend))
         told = explain(evidence, checks, ran)
         points = sum(check.points for check in told)
         named = mistake.id if mistake is not None else None
@@ -491,7 +492,7 @@ class Grading:
     def find_mend(self, todo: Todo, loop: "CheckLoop", failed: Sequence[str]) -> Mend | None:
         """Return the line of a TODO in which one change makes these checks pass."""
         where, path = self.submission.where.get(todo.id), todo.function.partition(":")[2]
-        if where is None or not path or not (self.options.trusted and self.options.mends):
+        if where is None or not path:
             return None
         until = loop.budget.words_cpu + MEND_SECONDS
         copy = self.sandbox.changed({})

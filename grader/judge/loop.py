@@ -70,9 +70,10 @@ class Way:
     """The way in which a check runs.
 
     `isolated`: with the reference in the other TODOs' places. `right`: on the reference itself.
-    `surveys`: on to its end where it fails, at no cost of the time that decides about marks.
+    `surveys`: on to its end where it fails.
     `watched`: noting what the submission remembers. `opener`: in children that others open.
-    `mends`: to see whether a change mends it, in a short time that decides about no mark.
+    `words`: in children with so many processor seconds, which decide about words alone and cost
+    nothing of the time that decides about marks.
     """
 
     isolated: bool = False
@@ -80,7 +81,7 @@ class Way:
     surveys: bool = False
     watched: bool = False
     opener: Opener | None = None
-    mends: bool = False
+    words: int = 0
 
 
 ALONE, ISOLATED = Way(), Way(isolated=True)
@@ -325,7 +326,7 @@ class CheckLoop:
         is_property = job.check.kind == "property"
         if not wanted or not brief or not alone.observations or is_property:
             return alone.observations
-        survey = self._ask(job, job.function, Way(surveys=True, watched=True))
+        survey = self._ask(job, job.function, Way(surveys=True, watched=True, words=SURVEY))
         alone.remembers = survey.remembers
         return survey.observations
 
@@ -418,7 +419,7 @@ class CheckLoop:
 
     def _passes(self, job: Job, open_child: Opener) -> bool:
         """Ask first, and alone, what has failed of a check: most changes mend nothing."""
-        way = Way(isolated=True, opener=for_words(open_child), mends=True)
+        way = Way(isolated=True, opener=open_child, words=LITTLE_CPU)
         failing = self.failing.get(job.key)
         with kept_examples(job.function, self.seed):
             first = failing is None or self._ask(job, failing.again, way).failure is None
@@ -447,7 +448,7 @@ class CheckLoop:
                 lab.failure = Broke(lab.running, f"an answer that makes no sense ({name}: {error})")
                 lab.unforeseen = True
             lab.remembers = lab.connection.remembered()
-        if way.surveys or way.mends:
+        if way.words:
             self.budget.charge_for_words(lab.connection)
         elif not way.right:
             self.budget.charge(job.todo.id, lab.connection)
@@ -458,12 +459,10 @@ class CheckLoop:
     def _child_for(self, job: Job, way: Way) -> Child:
         if way.right and self.open_right is not None:
             return self.open_right(job.check.cpu_seconds)
-        if way.surveys:
-            return for_words(self.open_child)(SURVEY)
-        if way.mends and way.opener is not None:
-            return way.opener(LITTLE_CPU)
-        seconds = self.budget.cpu_for(job.todo.id, job.check.cpu_seconds)
-        child = (way.opener or self.open_child)(seconds)
+        open_child = way.opener or self.open_child
+        if way.words:
+            return for_words(open_child)(way.words)
+        child = open_child(self.budget.cpu_for(job.todo.id, job.check.cpu_seconds))
         child.rest_seconds = self.budget.rest_for(job.todo.id)
         return child
 

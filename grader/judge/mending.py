@@ -27,7 +27,7 @@ from grader.source.operators import (
     unwrap,
     walk_places,
 )
-from grader.source.regions import Region, regions_in
+from grader.source.regions import Region, regions_in, replaced
 
 MOST_TRIED = 150  # changes
 LONGEST = 80  # lines of a region; an answer has a dozen
@@ -106,12 +106,11 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
 
     None if Python refuses the region, or it is long. `names` are the function's parameters.
     """
-    code = textwrap.dedent("\n".join(region.lines))
-    try:
-        tree = ast.parse(code)
-    except SyntaxError:
-        return
     if len(region.lines) > LONGEST:
+        return
+    try:
+        tree = ast.parse(textwrap.dedent("\n".join(region.lines)))
+    except SyntaxError:
         return
     own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and n.islower())
     ends = set(find_ends(tree))
@@ -197,10 +196,9 @@ def find_ends(tree: ast.AST) -> Iterator[int]:
 
 def put_into(text: str, region: Region, code: str) -> str:
     """Return a file's text with other code in the region."""
-    lines = text.split("\n")
     indents = [len(each) - len(each.lstrip()) for each in region.lines if each.strip()]
     new = textwrap.indent(code, " " * min(indents, default=0)).split("\n")
-    return "\n".join([*lines[: region.start + 1], *new, *lines[region.stop :]])
+    return replaced(text, {region.id: tuple(new)})
 
 
 # ---------------------------------------------------------------- the changes
