@@ -516,6 +516,9 @@ class Grading:
         A check of the whole also waits for what it needs and no right version could stand in for.
         """
         found = {}
+        stood_in = {each.id for each in self.rubric.todos if self.was_replaced(each.id)}
+        if not todo.function:
+            stood_in &= loop.replaceable()
         for check in todo.checks:
             module, key = check.module or todo.module, (todo.id, check.id)
             if key not in loop.failed:
@@ -529,7 +532,7 @@ class Grading:
             if named is not None:
                 ids = [id for id in others if id == named] or others
             else:
-                ids = [id for id in others if id in check.needs and not self.was_replaced(id)]
+                ids = [id for id in others if id in check.needs and id not in stood_in]
             if ids:
                 found[check.id] = ids
         return found

@@ -253,7 +253,7 @@ class CheckLoop:
 
     def _right(self, todo: Todo, module: str, differing: bool = True) -> list[Piece]:
         """Return the right versions of other TODOs; see Reference.for_the_others."""
-        failed = self._replaceable()
+        failed = self.replaceable()
         return self.reference.for_the_others(
             todo, module, self.rubric, self.submission, failed, differing
         )
@@ -476,7 +476,7 @@ class CheckLoop:
         }
         return next((by_name[name] for name in names if name in by_name), "")
 
-    def _replaceable(self) -> frozenset[str]:
+    def replaceable(self) -> frozenset[str]:
         """Return the TODOs that have failed: the whole runs with right versions of them.
 
         Return none if all that was begun has failed: such a program shows nothing of its own.

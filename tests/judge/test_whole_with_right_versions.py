@@ -44,6 +44,15 @@ def test_where_all_that_was_begun_is_wrong_nothing_stands_in(hand_in):
     assert result.points == 0
 
 
+def test_where_nothing_stands_in_the_todos_are_named(hand_in):
+    """Not the code around them, which is right."""
+    tree = with_regions(hand_in("starter"), WORLD, NO_DAMPING)
+    with_regions(tree, "mini_engine/joints.py", {"3": ("        self.k = 1.0 * self.k",)})
+    result = graded(tree, "3", "5", "whole", reference=shipped_reference())
+    (check,) = [each for each in whole(result).failed if "stages in their order" in each.title]
+    assert "TODO 3 and 5 are not right yet" in check.got
+
+
 @pytest.mark.soak
 def test_without_the_reference_the_whole_names_the_todo(hand_in):
     tree = with_regions(hand_in("solution"), WORLD, NO_DAMPING)
