@@ -36,7 +36,7 @@ def velocity_verlet(x, v, dt, accel):
 def rk4(x, v, dt, accel):
     """Take four samples of (velocity, acceleration): start, middle twice, end.
 
-    Each sample is taken where the one before leads; the means weigh them 1, 2, 2, 1
+    Each sample starts from x and v, moved by the one before; the means weigh them 1, 2, 2, 1
     (the classical Runge-Kutta method).
     """
     # TODO 8c: RK4

@@ -15,6 +15,7 @@ from .world import with_bonus
 
 FAINT = (44, 49, 61)
 SLEEPER = (120, 120, 120)
+BONUS_KEYS = (pygame.K_s, pygame.K_g, pygame.K_k)
 BONUS_HELP = "bonus:  Shift+click: a heavy ball    S: sleep    G: grid    K: a spring"
 
 
@@ -40,6 +41,8 @@ def heaviness():
 class BonusWindow(Window):
     """The lab scene with sleepers, a grid, springs and heavy balls, drawn between steps."""
 
+    shows_keys = False  # the keys of the bonus tasks, once one of them was used
+
     def reset(self):
         """Begin anew, with all bonus tasks switched off."""
         super().reset()
@@ -56,6 +59,7 @@ class BonusWindow(Window):
             self.world.grid = not self.world.grid
         elif key == pygame.K_k:
             add_spring(self.world)
+        self.shows_keys = self.shows_keys or key in BONUS_KEYS
 
     def sleepers(self):
         """The bodies that are asleep."""
@@ -94,9 +98,10 @@ class BonusWindow(Window):
         super().draw_body(body, SLEEPER if body.asleep else color)
 
     def texts(self):
-        """Add how many are asleep, and the keys."""
+        """Add how many are asleep, and the keys of the bonus tasks."""
         asleep = f"asleep: {len(self.sleepers())}" if self.world.sleeping else ""
-        return [*super().texts(), ((310, 10), asleep), ((12, HEIGHT - 20), BONUS_HELP)]
+        keys = BONUS_HELP if self.shows_keys else ""
+        return [*super().texts(), ((310, 10), asleep), ((12, HEIGHT - 20), keys)]
 
 
 def add_spring(world):
