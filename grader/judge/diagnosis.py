@@ -8,7 +8,7 @@ named must give every number of the answers. Two mistakes that give the same are
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, islice
 
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import (
@@ -26,7 +26,6 @@ from grader.judge.narrowing import (
     FEWEST,
     Narrowed,
     Question,
-    capitalise,
     join,
     narrow,
     read_questions,
@@ -46,8 +45,9 @@ class Finding:
 
     @property
     def meaning(self) -> str:
-        places = [f"where {self.where}"] * bool(self.where) + [f"in {self.part}"] * bool(self.part)
-        return capitalise(", ".join(places) + ": " * bool(places) + self.mistake.meaning)
+        places = [f"in {self.part}"] * bool(self.part) + [f"where {self.where}"] * bool(self.where)
+        shows = f" It shows {', '.join(places)}." if places else ""
+        return self.mistake.meaning + shows
 
 
 def merge(findings: Iterable[Finding]) -> list[Finding]:
@@ -59,6 +59,11 @@ def merge(findings: Iterable[Finding]) -> list[Finding]:
         where = "" if "" in clauses else join(clauses)
         found[each.mistake, each.part] = replace(before, where=where)
     return list(found.values())
+
+
+def join_words(told: Iterable[str]) -> str:
+    """Join what is told first, each once."""
+    return " Also: ".join(filter(None, dict.fromkeys(islice(told, 2))))
 
 
 class Diagnosis:
@@ -87,8 +92,8 @@ class Diagnosis:
             for number, each in enumerate(self.questions)
             if each.wrong and (each.about, key(each.inputs)) in asked
         ]
-        if not numbers:
-            return ""
+        if not numbers:  # too little is off to be told by: the same mistake shows in other checks
+            return join_words(each.meaning for each in merge(self.findings))
         first = self.questions[numbers[0]]
         here = [each for each in self.findings if each.explains.intersection(numbers)]
         explained = [each.changed for each in here if numbers[0] in each.explains]
@@ -100,7 +105,7 @@ class Diagnosis:
             told = [each.meaning for each in merge(same)]
         if narrowed.is_local or not told:
             told.append(narrowed.words)
-        return " And: ".join(filter(None, dict.fromkeys(told[:2])))
+        return join_words(told)
 
     # ------------------------------------------------------------ known mistakes
 
@@ -212,7 +217,8 @@ class Diagnosis:
                 are_close(predicted.parts[name], each.parts[name]) for each, predicted in decided
             )
         )
-        return as_seen if as_seen == changed or mistake.about in separate_questions else frozenset()
+        may_be_in_a_part = mistake.apart and mistake.about in separate_questions
+        return as_seen if as_seen == changed or may_be_in_a_part else frozenset()
 
     def find_changes(self, mistake: Mistake, numbers: list[int]) -> frozenset[str]:
         """Return the parts that a mistake changes in any of these questions."""

@@ -35,6 +35,7 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
     "UnboundLocalError": "What it assigns is its own alone: count in data.",
 }
+UNFIT = ("ZeroDivisionError", "ValueError: Can't normalize")  # a case came where it must not
 NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -98,9 +99,14 @@ def explain(
 
 def is_unexplained(evidence: Evidence, check: CheckResult) -> bool:
     """Return whether nothing names the reason of a wrong answer."""
+    if evidence.mistake and not evidence.mistake.meaning.endswith("?"):
+        return False
+    if check.got.startswith(UNFIT):
+        return True
     before = EXPLAINERS[: EXPLAINERS.index(point_to_line)]
+    others = (explainer for explainer in before if explainer != name_mistake)
     wrong = check.state == "not yet" and not check.meaning
-    return wrong and not any(explainer(evidence, check) for explainer in before)
+    return wrong and not any(explainer(evidence, check) for explainer in others)
 
 
 def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
@@ -167,8 +173,12 @@ def name_printed_error(evidence: Evidence, check: CheckResult) -> str:
 
 
 def explain_names(evidence: Evidence, check: CheckResult) -> str:
-    """Name a function or an argument that is called otherwise than it was handed out."""
-    return evidence.hint(check)
+    """Name a function or an argument that is called otherwise than it was handed out.
+
+    Or say what an error means, unless it is known how the code came to it.
+    """
+    known = evidence.mistake is not None or check.id in evidence.mends
+    return "" if known and check.got.startswith(UNFIT) else evidence.hint(check)
 
 
 def name_swapped_sign(evidence: Evidence, check: CheckResult) -> str:
@@ -198,8 +208,14 @@ def name_kind(evidence: Evidence, check: CheckResult) -> str:
 
 
 def name_mistake(evidence: Evidence, check: CheckResult) -> str:
-    """Name the one known mistake that gives all the answers of the TODO."""
-    return evidence.mistake.meaning if evidence.mistake else ""
+    """Name the one known mistake that gives all the answers of the TODO.
+
+    Where many slips give them it only asks, and the line is told as well.
+    """
+    if evidence.mistake is None:
+        return ""
+    line = evidence.mends[check.id].in_words if check.id in evidence.mends else ""
+    return f"{line} {evidence.mistake.meaning}".strip()
 
 
 def name_trespass(evidence: Evidence, check: CheckResult) -> str:
@@ -220,6 +236,8 @@ def name_rounding(evidence: Evidence, check: CheckResult) -> str:
     right = right[: len(ours)]  # what follows may be the question's
     if right == ours or len(right) < len(ours) or check.state != "not yet":
         return ""
+    if evidence.diagnosis.findings:  # a known mistake comes near as well
+        return ""
     pairs = zip(right, ours, strict=True)
     near = all(math.isclose(a, b, rel_tol=NEARLY, abs_tol=NOTHING) for a, b in pairs)
     return ROUNDED if near else ""
@@ -229,7 +247,8 @@ def point_to_line(evidence: Evidence, check: CheckResult) -> str:
     """Name the line in which one change mends all of the TODO, with what its answers are like."""
     if check.id not in evidence.mends:
         return ""
-    return f"{evidence.mends[check.id].in_words} {describe_answers(evidence, check)}".strip()
+    first = describe_answers(evidence, check).partition(". ")[0].removesuffix(".")
+    return f"{evidence.mends[check.id].in_words} {first}.".removesuffix(" .")
 
 
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:

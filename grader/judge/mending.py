@@ -112,7 +112,7 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
         tree = ast.parse(textwrap.dedent("\n".join(region.lines)))
     except SyntaxError:
         return
-    own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and n.islower())
+    own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and is_value(n))
     ends = set(find_ends(tree))
     places = [(each,) for each in find_places(tree) if each.node.lineno not in ends]
     twins = list(find_twins(tree))
@@ -124,6 +124,11 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
         if code not in seen:
             seen.add(code)
             yield Variant(tuple(place.node.lineno for place in each.places), each.how, code)
+
+
+def is_value(name: str) -> bool:
+    """Return whether a name may be that of a number or a vector, and not of a class."""
+    return name.islower() or name.isupper()
 
 
 def find_places(tree: ast.AST) -> Iterator[Place]:
@@ -264,6 +269,13 @@ def swap_operands(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
         yield ast.BinOp(node.right, node.op, node.left)
 
 
+def swap_targets(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `y, x = z` for `x, y = z`."""
+    match node:
+        case ast.Assign([ast.Tuple([first, second], ctx)], value):
+            yield ast.Assign([ast.Tuple([second, first], ctx)], value)
+
+
 def change_and(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
     """Put `or` for `and`."""
     if isinstance(node, ast.BoolOp):
@@ -332,16 +344,17 @@ def add_to_it(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With another operator in", change_arithmetic),
     ("With another comparison in", change_comparison),
-    ("Without what begins in", leave_out_statement),
+    ("Without the statement that begins in", leave_out_statement),
     ("Without the condition in", leave_out_condition),
     ("With another of =, += and -= in", change_update),
     ("With another of =, += and -= in", add_to_it),
     ("Without a part of", unwrap),
     ("Without a part of", leave_out_term),
     ("With another bracket in", move_bracket),
-    ("With another order in", swap_operands),
-    ("With another order in", swap_arguments),
-    ("With another of and and or in", change_and),
+    ("With both sides exchanged in", swap_operands),
+    ("With another order of what stands in brackets in", swap_arguments),
+    ("With another order of names in", swap_targets),
+    ("With `and` and `or` exchanged in", change_and),
     ("With the opposite condition in", change_condition),
     ("With another number in", change_constant),
     ("With another sign in", change_sign),
@@ -354,7 +367,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
 IN_TWINS: tuple[tuple[str, Change], ...] = (  # what is often wrong in both of two lines alike
     ("With another operator in", change_arithmetic),
     ("With another bracket in", move_bracket),
-    ("With another order in", swap_operands),
+    ("With both sides exchanged in", swap_operands),
     ("With another number in", change_constant),
     ("Without a part of", leave_out_term),
 )

@@ -30,6 +30,7 @@ class Mistake:
     meaning: str  # the sentence a student reads
     about: str
     model: Model
+    apart: bool = True  # whether it may be made in one part of an answer alone
 
 
 known_mistakes: list[Mistake] = []
@@ -67,15 +68,19 @@ def truth(
         separate_questions.add(about)
 
 
-def mistake(todos: str, about: str, name: str, meaning: str, *models: Model) -> None:
+def mistake(
+    todos: str, about: str, name: str, meaning: str, *models: Model, apart: bool = True
+) -> None:
     """Register a mistake: what each model gives for the observations called `about`.
 
     One model that explains the answers is enough. Of several TODOs the ids are separated by spaces.
-    Where two mistakes explain the same answers, the one registered first is named. A file that says
+    Where two mistakes explain the same answers, the one registered first is named. One that is not
+    `apart` is in all of an answer, whatever `truth` says of its parts. A file that says
     the first two arguments often makes a partial of this function.
     """
     for model in models:
-        known_mistakes.extend(Mistake(todo, name, meaning, about, model) for todo in todos.split())
+        for todo in todos.split():
+            known_mistakes.append(Mistake(todo, name, meaning, about, model, apart))
 
 
 def always(answer: Any) -> Model:
@@ -101,7 +106,8 @@ def load_known(todo: str) -> None:
 def register_recorded(table: Recorded, todo: str) -> None:
     for each in table.mistakes:
         if each.todo == todo:
-            mistake(todo, each.about, each.id, each.meaning, answer_from(each.answers))
+            model = answer_from(each.answers)
+            mistake(todo, each.about, each.id, each.meaning, model, apart=each.apart)
     for about, answers in table.right.items():
         like = answer_from(table.traits[about]) if about in table.traits else None
         truth(about, answer_from(answers), like, table.parts.get(about), about in table.separate)
@@ -127,7 +133,13 @@ def name_mistake(todo: str, observations: Sequence[Observation]) -> Mistake | No
     load_known(todo)
     if says_nothing(observations):
         return None
-    found = [each for each in known_mistakes if each.todo == todo and explains(each, observations)]
+    mine = [each for each in known_mistakes if each.todo == todo]
+    found = [each for each in mine if explains(each, observations)]
+    fits = {(each.id, each.about) for each in found}
+    asked = {each.about for each in observations}
+    speaks = {(each.id, each.about) for each in mine if each.about in asked}
+    denied = {id for id, about in speaks - fits}  # other answers would show it, and do not
+    found = [each for each in found if each.id not in denied]
     if load_recorded() is not None and len(simplest({each.id for each in found})) > 1:
         return None
     return found[0] if found else None

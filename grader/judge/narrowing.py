@@ -198,7 +198,14 @@ def narrow_part(answered: list[Question], name: str) -> WrongPart | None:
     where, how = find_condition(wrong, others), find_relation(name, wrong)
     if not where and not how:
         return None
-    return WrongPart(name, how or IS_WRONG, where or f"in {len(wrong)} of {len(answered)} cases")
+    return WrongPart(name, how or IS_WRONG, where or count(wrong, len(answered)))
+
+
+def count(wrong: list[Question], asked: int) -> str:
+    """Return in how many cases something is wrong, in words."""
+    if len(wrong) > 0.9 * asked:
+        return "in nearly every case"
+    return f"in {len(wrong)} of {asked} cases"
 
 
 def find_condition(wrong: list[Question], others: list[Question], are_right: bool = True) -> str:
@@ -227,13 +234,15 @@ def find_majority(wrong: list[Question], others: list[Question], kinds: list[str
         bad, good = count_traits(wrong, kind), count_traits(others, kind)
         mixed = sum(good[each] for each in bad)
         if is_readable(bad) and mixed < least:
-            count = f"in {len(wrong)} of {len(wrong) + mixed} cases"
-            best, least = f"{count} where {join(bad)}", mixed
+            best, least = f"{count(wrong, len(wrong) + mixed)} where {join(bad)}", mixed
     return best
 
 
 def is_readable(clauses: Counter[Any]) -> bool:
-    return None not in clauses and len(clauses) <= MOST and len(join(clauses)) <= LONGEST
+    if None in clauses or len(clauses) > MOST:
+        return False
+    words = join(clauses)
+    return len(words) <= LONGEST and not (" or " in words and words.count(" and ") > 1)
 
 
 def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:

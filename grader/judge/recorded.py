@@ -29,6 +29,7 @@ class RecordedMistake(Struct, frozen=True):
     meaning: str
     about: str
     answers: Answers
+    apart: bool = True
 
 
 class Recorded(Struct, frozen=True):

@@ -40,7 +40,7 @@ MAX_COPIES = 20  # files beside the programs that are looked into
 MAX_DEPTH = 40  # folders in each other
 ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folders in each other"
 FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
-COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs into {file}."
+COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs in {file}."
 SUPPLIED = "{file} is missing. The handed-out one was taken in its place."
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 

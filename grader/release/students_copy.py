@@ -208,7 +208,12 @@ def record_answers(wrong: Iterable[Tree], rubric: Rubric) -> Recorded:
         misconceptions.load_known(todo)
     mistakes = [
         RecordedMistake(
-            each.todo, each.id, each.meaning, each.about, ask_model(each.model, each.about, seen)
+            each.todo,
+            each.id,
+            each.meaning,
+            each.about,
+            ask_model(each.model, each.about, seen),
+            each.apart,
         )
         for todo in asked  # the same order in every process, whatever was loaded before
         for each in misconceptions.known_mistakes

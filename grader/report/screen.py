@@ -6,6 +6,7 @@ from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
+import msgspec
 from rich.console import Console
 
 from grader.judge.result import FAILED, CheckResult, Result, State, TodoResult
@@ -72,8 +73,9 @@ class Screen:
         if todo is None or not todo.failed:  # nothing that was begun fails
             next_one = self.suggest(todo, result) if todo else []
             return [*self.list_states(result, None), *end, *next_one]
-        head = self.shorten(write_todo(todo))
-        states = [*self.list_states(result, todo), Line(head, STYLES[todo.state])]
+        shown = choose_failure(todo)[0].state  # what follows explains this one
+        head = self.shorten(write_todo(msgspec.structs.replace(todo, state=shown)))
+        states = [*self.list_states(result, todo), Line(head, STYLES[shown])]
         end += self.suggest_commands(todo)
         room = self.lines - len(states) - len(end)
         return [*states, *self.list_failures(todo, room), *end]

@@ -196,7 +196,7 @@ def find_unread(text: str, todo: str, path: str) -> tuple[int, str] | None:
     if region is None or function is None:
         return None
     names = [node for node in ast.walk(function) if isinstance(node, ast.Name)]
-    needed = {node.id for node in names if isinstance(node.ctx, ast.Load)} | counters(function)
+    needed = set(find_needed(function)) | counters(function)
     inside = range(region.start + 1, region.stop + 1)
     unread = (
         (node.lineno, node.id)
@@ -204,6 +204,28 @@ def find_unread(text: str, todo: str, path: str) -> tuple[int, str] | None:
         if isinstance(node.ctx, ast.Store) and node.id not in needed and node.lineno in inside
     )
     return min((each for each in unread if not each[1].startswith("_")), default=None)
+
+
+def find_needed(node: ast.AST, makes: str = "") -> Iterator[str]:
+    """Yield the names that a piece of code reads, but for what one of them alone is made of itself.
+
+    `makes` is the name to which all of the piece gives a value.
+    """
+    for each in ast.iter_child_nodes(node):
+        if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load) and each.id != makes:
+            yield each.id
+        yield from find_needed(each, name_made(each) or makes)
+
+
+def name_made(node: ast.AST) -> str:
+    """Return the one name that an assignment, or an `if` of such, gives a value; else nothing."""
+    match node:
+        case ast.Assign([ast.Name(name)]) | ast.AugAssign(ast.Name(name)):
+            return name
+        case ast.If(body=body, orelse=orelse):
+            made = {name_made(each) for each in (*body, *orelse)}
+            return made.pop() if len(made) == 1 else ""
+    return ""
 
 
 def find_swapped_sign(text: str, todo: str) -> tuple[int, str, str] | None:

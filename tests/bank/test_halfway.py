@@ -62,7 +62,8 @@ def told(todo: str, observations: list[Observation]) -> str:
 
 def test_a_mistake_is_told_by_the_branch_that_it_shows_in():
     words = told("1", [*map(turned, OUTSIDE), *map(seen, INSIDE)])
-    assert words.startswith("Where the centre is outside the box: The normal points from the box")
+    assert words.startswith("The normal points from the box")
+    assert words.endswith(" It shows where the centre is outside the box.")
 
 
 def test_a_mistake_in_each_branch_is_told_with_the_other_one():

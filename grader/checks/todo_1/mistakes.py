@@ -193,6 +193,35 @@ def face_by_share(disc: Disc, rect: Rect) -> Answer:
     return exact.ways_out(disc, rect)[first]
 
 
+def face_by_offset(disc: Disc, rect: Rect) -> Answer:
+    if not is_inside(disc, rect):
+        return right(disc, rect)
+    x, y = abs(disc.x - rect.x), abs(disc.y - rect.y)
+    ways = [touch for touch in exact.ways_out(disc, rect) if (touch.nx != 0) == (x > y)]
+    if math.isclose(x, y, abs_tol=1e-9) or math.isclose(ways[0].depth, ways[1].depth, abs_tol=1e-9):
+        raise Undecided
+    return min(ways, key=lambda touch: touch.depth)
+
+
+def on_the_edge(disc: Disc, rect: Rect) -> bool:
+    """Return whether the centre is on the edge, where nothing may be divided by its distance."""
+    gaps = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
+    return min(map(abs, gaps)) < 1e-9 and min(gaps) > -1e-9
+
+
+for error in ("ZeroDivisionError", "ValueError"):
+    known(
+        "edge-counts-as-outside",
+        "A centre on the edge is taken for one outside, where the way to the closest point has no "
+        "length: on the edge it counts as inside, <= and >= instead of < and >.",
+        lambda disc, rect, error=error: error if on_the_edge(disc, rect) else right(disc, rect),
+    )
+known(
+    "face-by-the-distance-from-the-middle",
+    "The face is chosen by how far the centre is from the middle of the box. It must be chosen by "
+    "how far it is from the faces, half - |offset|.",
+    face_by_offset,
+)
 known(
     "face-by-share-of-the-half",
     "The nearest face is taken by shares of the box, not by px: wrong unless the box is square.",

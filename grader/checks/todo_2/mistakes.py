@@ -84,7 +84,7 @@ known(
 )
 known(
     "terms-are-subtracted",
-    "The spin terms are subtracted; turning makes a body give way more.",
+    "The spin terms count as negative; turning makes a body give way more, so they are added.",
     lambda a, b, axis: masses(a, b) - spin_term(a, axis) - spin_term(b, axis),
 )
 known(
@@ -94,7 +94,7 @@ known(
 )
 known(
     "dot-for-cross",
-    "The dot product is the part of the arm along the axis; the part across turns.",
+    "The dot product is the part of the arm along the axis; the part across it turns a body.",
     with_term(
         lambda lever, axis: (lever.rx * axis[0] + lever.ry * axis[1]) ** 2 * inverse(lever.inertia)
     ),
@@ -124,7 +124,7 @@ known(
 )
 known(
     "inverse-inertia-is-squared",
-    "The inverse inertia is squared too; only the cross product is.",
+    "The inverse inertia is squared too; only the cross product is to be squared.",
     with_term(lambda lever, axis: (lever_cross(lever, axis) * inverse(lever.inertia)) ** 2),
 )
 known(

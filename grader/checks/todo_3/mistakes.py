@@ -185,6 +185,52 @@ known(
 )
 
 
+def impulse_made_anew(rod: Rod) -> Ends:
+    """Of two lines that each work out the impulse: the second one sees A changed."""
+    a, _ = exact.pushed(rod, right_impulse(rod))
+    return a, exact.pushed(rod, right_impulse(rod._replace(vel_a=a)))[1]
+
+
+def impulse_made_anew_for_a(rod: Rod) -> Ends:
+    _, b = exact.pushed(rod, right_impulse(rod))
+    return exact.pushed(rod, right_impulse(rod._replace(vel_b=b)))[0], b
+
+
+known(
+    "impulse-made-anew",
+    "The impulse is worked out again after one end has changed: do it once, for both ends.",
+    velocities(impulse_made_anew),
+    velocities(impulse_made_anew_for_a),
+)
+
+
+known(
+    "nothing-where-bias-is-0",
+    "Nothing happens where the bias is 0; it is k that may be 0. A rod of the right length has to "
+    "stop its ends as well.",
+    velocities(
+        lambda rod: (
+            exact.pushed(rod, right_impulse(rod))
+            if abs(math.hypot(*rod.offset) - rod.length) > 1e-9 * rod.length
+            else (rod.vel_a, rod.vel_b)
+        )
+    ),
+)
+
+
+def speed_taken_from_b(rod: Rod) -> Ends:
+    a, (x, y) = exact.pushed(rod, right_impulse(rod))
+    return a, (x - rod.vel_a[0], y - rod.vel_a[1])
+
+
+known(
+    "velocity-changed-in-place",
+    "B loses the velocity of A. After v = self.b.vel, v -= ... changes the body itself: make a new "
+    "vector, self.b.vel - self.a.vel.",
+    velocities(speed_taken_from_b),
+)
+
+
 def same_way(rod: Rod) -> Ends:
     by = right_impulse(rod) * exact.inverse(rod.mass_a)
     return moved(rod.vel_a, rod.axis, by), exact.pushed(rod, right_impulse(rod))[1]

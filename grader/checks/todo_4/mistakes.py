@@ -170,7 +170,7 @@ known(
 )
 known(
     "lets-go-beyond-the-limit",
-    "Beyond the limit friction is 0; a sliding body still feels it all.",
+    "Beyond the limit friction is 0; on a sliding body it stays at the limit.",
     with_clamp(lambda total, wanted, limit: wanted if abs(wanted) <= limit else 0.0),
 )
 known(
@@ -254,8 +254,8 @@ def kept_as_wanted(applied: Rule) -> Model:
 
 known(
     "result-goes-to-the-contact",
-    "The limited value is written to c.jt, and total stays as it was: give it to total, for the "
-    "lines below apply what total has more than c.jt.",
+    "The limited value is written to c.jt, and total stays as it was. Give it to total: the lines "
+    "below apply total - c.jt, and write c.jt themselves.",
     kept_as_wanted(lambda kept, wanted, limit: wanted - clamped(wanted, limit)),
     kept_as_wanted(
         lambda kept, wanted, limit: (
@@ -300,7 +300,7 @@ for limit_name, limit_of in LIMITS.items():
     for rule_name, rule in RULES:
         known(
             f"{limit_name}+{rule_name}",
-            f"{meaning_of(limit_name)} And: {meaning_of(rule_name)}",
+            f"{meaning_of(limit_name)} Also: {meaning_of(rule_name)}",
             with_limit_and_rule(limit_of, rule),
         )
 known(

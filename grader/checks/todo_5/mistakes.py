@@ -90,12 +90,12 @@ known(
 )
 known(
     "damped-twice",
-    "Everything is damped twice in a step: exp(-2 * rate * dt) is left.",
+    "A step damps twice: it keeps exp(-2 * rate * dt).",
     per_step(lambda rate, dt: math.exp(-2 * rate * dt)),
 )
 known(
     "step-times-the-share",
-    "A step keeps exp(-rate) * dt: dt belongs into the exponent, in brackets.",
+    "A step keeps exp(-rate) * dt: dt belongs in the exponent, in brackets.",
     per_step(lambda rate, dt: math.exp(-rate) * dt),
 )
 known(

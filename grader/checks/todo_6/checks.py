@@ -53,7 +53,7 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     """As much is simulated at 30, 60 and 144 frames a second"""
     seconds = 0.3 + lab.whole(0, 3) / 30
     lab.ran(
-        f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second, where each step "
+        f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second; to compute a step "
         f"takes {STEP_TAKES} ms"
     )
     paces = {rate: pace(lab, frames_at(rate, seconds), STEP_TAKES) for rate in (30, 60, 144)}

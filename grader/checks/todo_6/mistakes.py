@@ -234,7 +234,7 @@ known(
 known(
     "drops-the-remainder+no-cap",
     "What is left of a frame after its whole steps is never run; it belongs to the next frame's. "
-    "And: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
+    "Also: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
     lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
 )
 
@@ -319,14 +319,51 @@ known(
 )
 known(
     "a-step-less-each-frame",
-    "Of the steps that are taken out of the accumulator one does not run: range(1, n) counts from "
-    "1 to n - 1, and range(n) n times.",
+    "In each frame one step is paid for that does not run: range(1, n) runs n - 1 times, and "
+    "range(n) n times.",
     lambda frames: counted([max(steps - 1, 0) for steps in accumulated(frames, capped)]),
+)
+
+
+def count_taken_out(frames: Frames) -> Answer:
+    """Of a loop over int(accumulator / STEP), after which the count is taken out as seconds."""
+    steps: list[int] = []
+    held = 0
+    for frame in frames[:-1]:
+        held += capped(frame)
+        if held % STEP == 0:
+            raise Undecided
+        due = int(held / STEP)  # towards 0
+        steps.append(min(max(due, 0), RUNAWAY))
+        if steps[-1] == RUNAWAY:
+            break
+        held -= due * SECOND
+    return counted(steps)
+
+
+def second_taken_out(frames: Frames) -> Answer:
+    """Of a loop that takes 1 s out of the accumulator for each step."""
+    steps: list[int] = []
+    held = 0
+    for frame in frames[:-1]:
+        held += capped(frame)
+        steps.append(0)
+        while held > 0 and whole_steps(held):
+            steps[-1] += 1
+            held -= SECOND
+    return counted(steps)
+
+
+known(
+    "count-taken-out",
+    "The count of steps is taken out of the accumulator, which holds seconds: a step takes STEP.",
+    count_taken_out,
+    second_taken_out,
 )
 known(
     "no-step-runs",
-    "No step runs, however much time passes: is step(STEP) called, and before its time is taken "
-    "out of the accumulator?",
+    "No step runs, however much time passes. Is the count of steps more than 0, and is step(STEP) "
+    "called so many times?",
     lambda frames: counted([0 for _ in frames[:-1]]),
 )
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import product
 
 from grader.checks import exact
 from grader.checks.exact import Accel, State, polynomial
@@ -13,7 +14,7 @@ Force = Sequence[float]
 
 known_8a = partial(mistake, "8a", SEMI_IMPLICIT)
 known_8b = partial(mistake, "8b", VERLET)
-known_8c = partial(mistake, "8c", RK4)
+known_8c = partial(mistake, "8c", RK4, apart=False)  # x and v share the samples
 
 
 def right_semi_implicit(x: float, v: float, dt: float, force: Force) -> State:
@@ -130,7 +131,7 @@ def position_first(x: float, v: float, dt: float, force: Force) -> State:
 
 known_8a(
     "position-first",
-    "x moves first and v follows; the lesson's table is for v first, then x with the new v.",
+    "x moves first and v follows; semi-implicit Euler changes v first, then x by the new v.",
     position_first,
 )
 known_8b(
@@ -252,8 +253,8 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
 
 BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
     "half-is-missing-in-x": (
-        "x gets a * dt² of the acceleration in all; on a parabola it is half of that, also where v "
-        "holds a part of it already.",
+        "x gets a * dt² of the acceleration; on a parabola it is half of that. Where v has half of "
+        "a * dt in it already, v * dt is the whole way.",
         lambda a, dt: a * dt**2,
     ),
     "straight-line-in-x": (
@@ -459,6 +460,7 @@ known_8c(
     "weights-are-swapped",
     "The first and the last sample count twice; it is the two in the middle that do: 1, 2, 2, 1.",
     lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(2, 1, 1, 2)),
+    apart=True,
 )
 known_8c(
     "mean-of-both-ends",
@@ -587,7 +589,7 @@ known_kick("step-is-missing-in-v")
 for bend_name, (bend_words, bend) in BENDS.items():
     for kick_name, (kick_words, kick) in KICKS.items():
         both = verlet_with(bend, kick)
-        known_8b(f"{bend_name}+{kick_name}", f"{bend_words} And: {kick_words}", both)
+        known_8b(f"{bend_name}+{kick_name}", f"{bend_words} Also: {kick_words}", both)
 
 
 def changed_twice(x: float, v: float, dt: float, force: Force) -> State:
@@ -637,27 +639,39 @@ USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
 
 
 def sampled(
-    x: float, v: float, dt: float, force: Force, sources: Sequence[Source] = USUAL
+    x: float,
+    v: float,
+    dt: float,
+    force: Force,
+    sources: Sequence[Source] = USUAL,
+    speeds: Sequence[Source] | None = None,
 ) -> tuple[list[State], list[float]]:
-    """Return the four samples, and the places where accel is asked."""
+    """Return the four samples, and the places where accel is asked.
+
+    `speeds` are the sources of their velocities, where these are others.
+    """
     accel = polynomial(force)
     samples, places = [(v, accel(x))], [x]
-    for source, share in sources:
-        dx, dv = samples[source]
-        places.append(x + share * dt * dx)
-        samples.append((v + share * dt * dv, accel(places[-1])))
+    for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
+        places.append(x + share * dt * samples[source][0])
+        samples.append((v + reach * dt * samples[other][1], accel(places[-1])))
     return samples, places
 
 
-def places_of(sources: Sequence[Source]) -> Callable[..., tuple[float, ...]]:
-    return lambda x, v, dt, force: tuple(dict.fromkeys(sampled(x, v, dt, force, sources)[1]))
+def places_of(
+    sources: Sequence[Source], speeds: Sequence[Source] | None = None
+) -> Callable[..., tuple[float, ...]]:
+    return lambda x, v, dt, force: tuple(
+        dict.fromkeys(sampled(x, v, dt, force, sources, speeds)[1])
+    )
 
 
 def weighed(
-    sources: Sequence[Source], weights: Sequence[float]
+    sources: Sequence[Source], weights: Sequence[float], speeds: Sequence[Source] | None = None
 ) -> Callable[[float, float, float, Force], State]:
     def model(x: float, v: float, dt: float, force: Force) -> State:
-        for weight, (dx, dv) in zip(weights, sampled(x, v, dt, force, sources)[0], strict=True):
+        samples = sampled(x, v, dt, force, sources, speeds)[0]
+        for weight, (dx, dv) in zip(weights, samples, strict=True):
             x, v = x + dt * weight * dx, v + dt * weight * dv
         return x, v
 
@@ -719,7 +733,7 @@ OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
         ((1 / 6, 1 / 6, 2 / 6, 1 / 6), (1 / 5, 1 / 5, 2 / 5, 1 / 5)),
     ),
     "divided-by-another-number": (
-        "The weighted sum is divided by another number than 6, which is what 1, 2, 2, 1 add up to.",
+        "The weighted sum is divided by a number other than 6, which is what 1, 2, 2, 1 add up to.",
         tuple((1 / n, 2 / n, 2 / n, 1 / n) for n in (2, 3, 4, 5, 8)),
     ),
     "one-middle-sample-stands-twice": (
@@ -736,7 +750,41 @@ for sample_name, (sample_words, sources) in OTHER_SAMPLES.items():
     mistake("8c", SAMPLES, sample_name, sample_words, places_of(sources))
     known_8c(sample_name, sample_words, weighed(sources, RIGHT_WEIGHTS))
 for weight_name, (weight_words, many) in OTHER_WEIGHTS.items():
-    known_8c(weight_name, weight_words, *(weighed(USUAL, weights) for weights in many))
+    models = (weighed(USUAL, weights) for weights in many)
+    known_8c(weight_name, weight_words, *models, apart=True)
+
+
+PLACES = ("first", "second", "third", "fourth")
+REACHES = {0.0: "at the start", 0.5: "half-way", 1.0: "at the end of the step"}
+for number, (before, reach) in enumerate(USUAL, 1):
+    for source, share in product(range(number), REACHES):
+        if (source != before) == (share != reach):
+            continue  # right, or two mistakes
+        told = (
+            f"of the {PLACES[number]} sample, k{number + 1}, is that {REACHES[share]}; it belongs "
+            f"{REACHES[reach]}."
+            if source == before
+            else f"of the {PLACES[number]} sample, k{number + 1}, goes on from the "
+            f"{PLACES[source]}; it must use what the {PLACES[before]} one found."
+        )
+        other = (*USUAL[: number - 1], (source, share), *USUAL[number:])
+        name = f"k{number + 1}-from-k{source + 1}-at-{share:g}"
+        for part, places, speeds in (("position", other, USUAL), ("velocity", USUAL, other)):
+            words = f"The {part} {told}"
+            mistake("8c", SAMPLES, f"{part}-of-{name}", words, places_of(places, speeds))
+            known_8c(f"{part}-of-{name}", words, weighed(places, RIGHT_WEIGHTS, speeds))
+
+
+def pairs_joined(x: float, v: float, dt: float, force: Force) -> State:
+    return x + dt / 6 * v, v + dt / 6 * polynomial(force)(x)
+
+
+known_8c(
+    "pairs-are-joined",
+    "Only the first sample counts, divided by 6. + joins two pairs to one of four numbers, and 2 * "
+    "repeats a pair: add the velocities and the accelerations one by one.",
+    pairs_joined,
+)
 
 
 def led_by_acceleration(x: float, v: float, dt: float, force: Force) -> tuple[float, ...]:
@@ -807,4 +855,5 @@ known_8c(
     "sum-without-the-step",
     "The mean of the samples is added as it is; a step of dt seconds adds it times dt.",
     sum_without_dt,
+    apart=True,
 )
