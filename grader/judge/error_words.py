@@ -544,6 +544,11 @@ RULES: tuple[tuple[str, str | Callable[[Match, Error], str]], ...] = (
     (r"^TypeError: .*Vector2' and '(float|int)'", explain_mixed),
     (r"^TypeError: .*'(?P<first>float|int)' and 'pygame.math.Vector2'", explain_mixed),
     (
+        r"^TypeError: This operation is not supported by vectors",
+        "Vectors have no < and no >. Where min, max or sorted find two equal first numbers they go "
+        "on to what stands behind: compare numbers alone, key=lambda each: each[0].",
+    ),
+    (
         r"^ValueError: Can't normalize",
         "A vector of length 0 has no direction: treat that case before this line.",
     ),

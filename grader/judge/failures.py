@@ -17,6 +17,10 @@ REBOUND = (
 )
 IDLE = "Line {line}, `{text}`, computes a value and keeps it nowhere: is return or = missing?"
 UNREAD = "Line {line} gives `{name}` a value, and nothing reads it."
+ALIAS = (
+    "Line {line} makes no copy: `{name}` is `{value}` itself, and changes with it. Write "
+    "Vector2({value})."
+)
 SWAPPED = "Line {line} has {got}, which keeps nothing of the old value: write {meant}."
 RETURNS = "Line {line} returns in the first round of its loop: is it indented too far?"
 LOOP = "The loop in line {line}, `{text}`, seems not to end: its body must change what it asks."

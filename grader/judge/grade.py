@@ -17,6 +17,7 @@ from grader.judge.budget import Budget
 from grader.judge.children import Child, Worker, start_worker
 from grader.judge.course import FULL, Course
 from grader.judge.failures import (
+    ALIAS,
     IDLE,
     LOOP,
     REBOUND,
@@ -49,6 +50,7 @@ from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import Changed, change_of_file, changes, restored
 from grader.source.leftovers import (
+    find_alias,
     find_dead_end,
     find_idle,
     find_leftover,
@@ -343,6 +345,7 @@ class Grading:
         rebound, loop = find_rebound(text, todo.id, path), find_loop(text, todo.id)
         returns = find_return_in_loop(text, todo.id)
         unread, swapped = find_unread(text, todo.id, path), find_swapped_sign(text, todo.id)
+        alias = find_alias(text, todo.id)
         return RegionWords(
             self.outside_of_region.get(todo.id, ""),
             REBOUND.format(line=rebound[0], name=rebound[1]) if rebound else "",
@@ -350,6 +353,7 @@ class Grading:
             UNREAD.format(line=unread[0], name=unread[1]) if unread else "",
             SWAPPED.format(line=swapped[0], got=swapped[1], meant=swapped[2]) if swapped else "",
             RETURNS.format(line=returns) if returns else "",
+            ALIAS.format(line=alias[0], name=alias[1], value=alias[2]) if alias else "",
         )
 
     def keeps_points(self, todo: Todo) -> bool:

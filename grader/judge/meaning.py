@@ -35,7 +35,9 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
     "UnboundLocalError": "What it assigns is its own alone: count in data.",
 }
+LINE = re.compile(r"\b[Ll]ine (\d+)")  # of the file to look at, as the texts name it
 UNFIT = ("ZeroDivisionError", "ValueError: Can't normalize")  # a case came where it must not
+LONGEST = 110  # letters of what is said beside a line
 NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
 NUMBER = re.compile(r"(?<![\w.^])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 FINISH = "TODO {ids} must be right before this can be checked: finish {it} first."
@@ -60,6 +62,7 @@ class RegionWords(NamedTuple):
     unread: str = ""  # which name gets a value that nothing reads
     swapped: str = ""  # which line has =+ for +=
     returns: str = ""  # which line returns in the first round of its loop
+    alias: str = ""  # which line gives another's vector a second name, under which it is changed
 
 
 NOTHING_SHOWN = RegionWords()
@@ -99,14 +102,13 @@ def explain(
 
 def is_unexplained(evidence: Evidence, check: CheckResult) -> bool:
     """Return whether nothing names the reason of a wrong answer."""
-    if evidence.mistake and not evidence.mistake.meaning.endswith("?"):
+    if evidence.mistake is not None:
         return False
     if check.got.startswith(UNFIT):
         return True
     before = EXPLAINERS[: EXPLAINERS.index(point_to_line)]
-    others = (explainer for explainer in before if explainer != name_mistake)
     wrong = check.state == "not yet" and not check.meaning
-    return wrong and not any(explainer(evidence, check) for explainer in others)
+    return wrong and not any(explainer(evidence, check) for explainer in before)
 
 
 def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
@@ -117,8 +119,8 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
         where = evidence.blamed[check.id].place(check)
     elif evidence.left is not None and evidence.left.is_all:
         where = evidence.left.where
-    elif check.id in evidence.mends:
-        where = Where(evidence.mends[check.id].file, evidence.mends[check.id].lines[0])
+    elif where is not None and (line := LINE.search(meaning)):
+        where = Where(where.file, int(line[1]))
     return msgspec.structs.replace(check, meaning=meaning, where=where)
 
 
@@ -208,20 +210,15 @@ def name_kind(evidence: Evidence, check: CheckResult) -> str:
 
 
 def name_mistake(evidence: Evidence, check: CheckResult) -> str:
-    """Name the one known mistake that gives all the answers of the TODO.
-
-    Where many slips give them it only asks, and the line is told as well.
-    """
-    if evidence.mistake is None:
-        return ""
-    line = evidence.mends[check.id].in_words if check.id in evidence.mends else ""
-    return f"{line} {evidence.mistake.meaning}".strip()
+    """Name the one known mistake that gives all the answers of the TODO."""
+    return evidence.mistake.meaning if evidence.mistake else ""
 
 
 def name_trespass(evidence: Evidence, check: CheckResult) -> str:
     """Name a change of what must stay as it is, which may be why an answer is wrong as well."""
     found = evidence.trespasses.get(check.id)
-    return f"{found}. {TRESPASS.format(name='It')}" if found else ""
+    rule = evidence.region.alias or TRESPASS.format(name="It")
+    return f"{found}. {rule}" if found else ""
 
 
 def point_out_of_region(evidence: Evidence, check: CheckResult) -> str:
@@ -247,8 +244,10 @@ def point_to_line(evidence: Evidence, check: CheckResult) -> str:
     """Name the line in which one change mends all of the TODO, with what its answers are like."""
     if check.id not in evidence.mends:
         return ""
-    first = describe_answers(evidence, check).partition(". ")[0].removesuffix(".")
-    return f"{evidence.mends[check.id].in_words} {first}.".removesuffix(" .")
+    said = describe_answers(evidence, check)
+    first = said.partition(". ")[0].removesuffix(".")
+    words = evidence.mends[check.id].in_words
+    return f"{words} {first}." if 0 < len(first) <= LONGEST else words
 
 
 def name_rebound(evidence: Evidence, check: CheckResult) -> str:

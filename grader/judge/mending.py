@@ -292,9 +292,13 @@ def use_a_similar_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
 
 
 def use_another_name(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
-    """Use another name or attribute."""
+    """Use another name."""
     if isinstance(node, ast.Name) and node.id in names:
         yield from (ast.Name(each, node.ctx) for each in sorted(names - {node.id}))
+
+
+def use_another_attribute(node: ast.AST, names: frozenset[str]) -> Iterator[Offer]:
+    """Put `b.pos.y` for `b.pos.x`."""
     if isinstance(node, ast.Attribute):
         for other in related_names(node.attr, ALIKE):
             yield ast.Attribute(node.value, other, node.ctx)
@@ -350,8 +354,8 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With another of =, += and -= in", add_to_it),
     ("Without a part of", unwrap),
     ("Without a part of", leave_out_term),
-    ("With another bracket in", move_bracket),
-    ("With both sides exchanged in", swap_operands),
+    ("With brackets elsewhere in", move_bracket),
+    ("With the two sides of - or / exchanged in", swap_operands),
     ("With another order of what stands in brackets in", swap_arguments),
     ("With another order of names in", swap_targets),
     ("With `and` and `or` exchanged in", change_and),
@@ -359,6 +363,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("With another number in", change_constant),
     ("With another sign in", change_sign),
     ("With another name in", use_a_similar_name),
+    ("With another name in", use_another_attribute),
     ("With another name in", use_another_name),
     ("With a limit or abs() in", add_limit),
     ("With one more factor in", double),
@@ -366,8 +371,8 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
 )
 IN_TWINS: tuple[tuple[str, Change], ...] = (  # what is often wrong in both of two lines alike
     ("With another operator in", change_arithmetic),
-    ("With another bracket in", move_bracket),
-    ("With both sides exchanged in", swap_operands),
+    ("With brackets elsewhere in", move_bracket),
+    ("With the two sides of - or / exchanged in", swap_operands),
     ("With another number in", change_constant),
     ("Without a part of", leave_out_term),
 )

@@ -156,7 +156,10 @@ class Screen:
     def cut(self, words: str, less: int = 0) -> str:
         """Return words on one line, which ends with dots where they are longer."""
         most = self.width - less
-        return words if len(words) <= most else f"{words[: max(most - 2, 1)].rstrip()} …"
+        if len(words) <= most:
+            return words
+        kept = words[: max(most - 2, 1)]
+        return f"{kept[: kept.rfind(' ')] if ' ' in kept.strip() else kept} …"
 
     def explain(self, todo: TodoResult, check: CheckResult, room: int) -> list[str]:
         """Return why a check failed: a line for each text, and the rest of `room` for the cause."""

@@ -41,7 +41,8 @@ ADVICE = (
     (r"unterminated", "Add the quote that ends the text."),
     (r"indent", "Begin the lines of one block alike, with four spaces for each level."),
     (r"outside (function|loop)", "Indent the line, so that it stands in its block."),
-    (r"expected ':'", "Add a colon at the end of the line."),
+    (r"\belse if\b", "Python writes elif, not else if."),
+    (r"expected ':'", "Is a colon missing at the end of the line?"),
     (r"'==' or ':='", "A comparison is written with ==."),
     (r"invalid (non-printable )?character", "Type that sign anew: it was copied from a text."),
     (r"UTF-8|encoding|null bytes", "Save the file as UTF-8."),
@@ -73,7 +74,7 @@ class Flaw:
                     f"Python {ours} marks this, and the line needs Python {theirs} or newer: "
                     f"{instead}."
                 )
-        return next((say for said, say in ADVICE if re.search(said, self.message)), LOOK)
+        return next((say for said, say in ADVICE if re.search(said, self.words)), LOOK)
 
     def in_file(self, file: str) -> "Flaw":
         return replace(self, file=file)

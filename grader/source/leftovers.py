@@ -6,9 +6,10 @@ The text alone shows it. Whether it is why a check fails, a run without it decid
 import ast
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeGuard
 
 from grader.source.definitions import function_named, statements
 from grader.source.flaws import MAX_LINE
@@ -21,6 +22,7 @@ ANSWERS = {
     *("min", "max", "abs", "round", "sqrt", "exp", "cross", "dot", "normalize", "length"),
     *("friction_limit", "moment_for_circle", "Vector2", "Contact", "accel"),
 }
+VECTORS = {"pos", "vel", "half", "axis", "normal", "point"}
 ENDS = (ast.Return, ast.Raise, ast.Break, ast.Continue)
 
 
@@ -146,21 +148,35 @@ def find_return_in_loop(text: str, todo: str) -> int | None:
 def find_idle(text: str, todo: str) -> tuple[int, str] | None:
     """Return the first line of a region whose value nothing keeps, and that does nothing else."""
     region, own = region_of(text, todo)
-    nodes = ast.walk(ast.Module(own, []))
-    idle = [node.lineno for node in nodes if isinstance(node, ast.Expr) and is_idle(node.value)]
+    nodes = list(ast.walk(ast.Module(own, [])))
+    answers = ANSWERS | {each.name for each in nodes if is_answer(each)}
+    idle = [
+        node.lineno for node in nodes if isinstance(node, ast.Expr) and is_idle(node.value, answers)
+    ]
     if region is None or not idle:
         return None
     line = region.start + 1 + min(idle)
     return line, show(text.splitlines()[line - 1])
 
 
-def is_idle(value: ast.expr) -> bool:
+def is_answer(node: ast.AST) -> TypeGuard[ast.FunctionDef]:
+    """Return whether a node is a function that returns what it has worked out of its arguments."""
+    if not isinstance(node, ast.FunctionDef):
+        return False
+    changes = ast.AugAssign, ast.Attribute, ast.Subscript, ast.Nonlocal, ast.Global
+    parts = list(ast.walk(node))
+    stores = [each for each in parts if isinstance(getattr(each, "ctx", None), ast.Store)]
+    returns = any(isinstance(each, ast.Return) and each.value is not None for each in parts)
+    return returns and not any(isinstance(each, changes) for each in stores)
+
+
+def is_idle(value: ast.expr, answers: Collection[str]) -> bool:
     """Return whether a value is all that computing it does."""
     match value:
         case ast.BinOp() | ast.UnaryOp() | ast.Compare() | ast.Name() | ast.Attribute():
             return True
         case ast.Call(ast.Name(id=name) | ast.Attribute(attr=name)):
-            return name in ANSWERS
+            return name in answers
     return False
 
 
@@ -204,6 +220,29 @@ def find_unread(text: str, todo: str, path: str) -> tuple[int, str] | None:
         if isinstance(node.ctx, ast.Store) and node.id not in needed and node.lineno in inside
     )
     return min((each for each in unread if not each[1].startswith("_")), default=None)
+
+
+def find_alias(text: str, todo: str) -> tuple[int, str, str] | None:
+    """Return the line of a region that names another's vector, the name, and whose it is.
+
+    Only if the name's vector is changed in place afterwards: with it that of the other one is.
+    """
+    region, own = region_of(text, todo)
+    names: dict[str, tuple[int, str]] = {}
+    for node in sorted(ast.walk(ast.Module(own, [])), key=lambda each: getattr(each, "lineno", 0)):
+        match node:
+            case ast.Assign([ast.Name(name)], ast.Attribute(attr=attr) as other) if attr in VECTORS:
+                names[name] = node.lineno, ast.unparse(other)
+            case ast.Assign([ast.Name(name)]):
+                names.pop(name, None)
+            case (
+                ast.AugAssign(ast.Name(name), ast.Add() | ast.Sub())
+                | ast.AugAssign(ast.Attribute(ast.Name(name), "x" | "y"))
+                | ast.Assign([ast.Attribute(ast.Name(name), "x" | "y")])
+            ) if name in names and region is not None:
+                line, value = names[name]
+                return region.start + 1 + line, name, value
+    return None
 
 
 def find_needed(node: ast.AST, makes: str = "") -> Iterator[str]:

@@ -144,7 +144,7 @@ def test_the_same_slip_in_two_lines_is_found():
         return "(left + done) / 6" in changed and "(step + left) / 3" in changed
 
     mend = find_mend(text, ("run.py", "1", "run"), passes, lambda: True)
-    assert mend is not None and mend.in_words.startswith("With another bracket in line 7 and in")
+    assert mend is not None and mend.in_words.startswith("With brackets elsewhere in line 7 and in")
 
 
 def test_a_sum_without_end_is_let_alone():

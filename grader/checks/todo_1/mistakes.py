@@ -135,8 +135,17 @@ known(
     inside(lambda touch, disc, rect: turned(touch)),
 )
 known(
+    "inside-has-no-case-of-its-own",
+    "A centre inside has no case of its own. It must leave through the nearest of the four faces: "
+    "that face's normal, a depth of radius + gap, and a point on the face.",
+    inside(lambda touch, disc, rect: Touch(0.0, 1.0, disc.r, disc.x, disc.y)),
+    inside(lambda touch, disc, rect: Touch(0.0, -1.0, disc.r, disc.x, disc.y)),
+    inside(lambda touch, disc, rect: Touch(1.0, 0.0, disc.r, disc.x, disc.y)),
+    inside(lambda touch, disc, rect: Touch(-1.0, 0.0, disc.r, disc.x, disc.y)),
+)
+known(
     "inside-depth-forgets-the-gap",
-    "For a centre inside, the depth is radius + gap: the circle has the gap to leave as well.",
+    "For a centre inside, the depth is radius + gap: it has to cross the gap to the face as well.",
     inside(lambda touch, disc, rect: touch._replace(depth=disc.r)),
 )
 known(
@@ -299,7 +308,7 @@ def touching(disc: Disc, rect: Rect) -> Answer:
 
 known(
     "touching-counts-as-overlap",
-    "A circle that only touches the box gets a contact; None is for distance = radius too.",
+    "A circle that only touches the box gets a contact; return None where distance = radius, too.",
     touching,
 )
 known(

@@ -119,7 +119,7 @@ def divided(a: Lever, b: Lever, axis: Pair) -> float:
 
 known(
     "divides-by-the-inverse",
-    "inv_inertia is 1/I already: multiply by it, it is 0 for statics.",
+    "inv_inertia is 1/I already, and 0 for a static body: multiply by it.",
     divided,
 )
 known(

@@ -117,7 +117,7 @@ known(
 )
 known(
     "adds-the-speed",
-    "The speed counts with the wrong sign: the impulse is for bias - speed, B's speed minus A's.",
+    "The speed counts with the wrong sign: it is B's minus A's, and bias - speed is missing.",
     velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)),
 )
 known(
@@ -137,7 +137,7 @@ known(
 )
 known(
     "bias-has-the-wrong-sign",
-    "The bias is turned round: a stretched rod is stretched further.",
+    "The bias has the wrong sign: a stretched rod is stretched further.",
     velocities(lambda rod: exact.pushed(rod, (-rod.bias - rod.speed) / rod.k)),
 )
 known(
@@ -264,7 +264,7 @@ def without_masses(rod: Rod) -> Ends:
 
 known(
     "forgets-the-masses",
-    "The impulse is added to the velocities; each end takes it by inv_mass.",
+    "The impulse is added to the velocities as it is: multiply it by the inv_mass of each end.",
     velocities(without_masses),
 )
 

@@ -132,7 +132,7 @@ known(
 )
 known(
     "clamps-the-increment",
-    "Each change is clamped; clamp the total, or passes add up beyond it.",
+    "Each change is clamped; clamp the total, or the passes add up beyond the limit.",
     with_clamp(lambda total, wanted, limit: total + clamped(wanted - total, limit)),
 )
 

@@ -110,7 +110,7 @@ known(
 )
 known(
     "rate-taken-for-a-share",
-    "The rate is taken for the share lost per second; at a rate of 1 exp(-1) = 37% must be left.",
+    "The rate is taken for the share lost per second; at a rate of 1, exp(-1) = 37% must be left.",
     per_step(lambda rate, dt: max(0.0, 1 - rate) ** dt),
 )
 known(

@@ -24,7 +24,7 @@ from grader.checks.strategies import (
 from grader.judge.drawing import given
 from grader.judge.lab import STEP, Lab
 
-NO_CAP = "A slow frame is simulated in full: add MAX_STEPS * STEP to the accumulator at the most."
+NO_CAP = "A slow frame is simulated in full: one frame may add MAX_STEPS * STEP at the most."
 OTHER_STEPS = "Steps are not STEP long: call step(STEP), however long the frame is."
 EARLY = (
     "More is simulated than has passed: a step runs only while the accumulator holds a whole STEP."
@@ -34,8 +34,8 @@ LATE = (
     "for the next frame."
 )
 CAUGHT_UP = (
-    "The time of a slow frame beyond the cap is simulated later: add MAX_STEPS * STEP to the "
-    "accumulator at the most."
+    "The time of a slow frame beyond the cap is simulated later: one frame may add "
+    "MAX_STEPS * STEP at the most."
 )
 STEADY, LEAST_IN_TURN = 30, 7.25  # frames, and steps in each of them on average
 NUMBER = re.compile(r"(?:(?<!\w)-)?\d+")  # a minus counts, a hyphen does not
@@ -53,8 +53,8 @@ def as_much_is_simulated_at_30_60_and_144_frames_a_second(lab: Lab) -> None:
     """As much is simulated at 30, 60 and 144 frames a second"""
     seconds = 0.3 + lab.whole(0, 3) / 30
     lab.ran(
-        f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second; to compute a step "
-        f"takes {STEP_TAKES} ms"
+        f"the lab scene for {seconds:.3g} s at 30, 60 and 144 frames a second (a frame "
+        f"is {STEP_TAKES} ms longer for each step in it)"
     )
     paces = {rate: pace(lab, frames_at(rate, seconds), STEP_TAKES) for rate in (30, 60, 144)}
     # Up to one step, and up to what a program has not seen yet that is a frame behind.
@@ -109,7 +109,7 @@ def want_in_step(lab: Lab, paced: Pace, frame: int | None) -> None:
     lab.want(
         frame is None,
         "steps that follow the time: none early, and none late by more than a step",
-        f"{sum(paced.steps[upto])} done when {sum(paced.lengths[upto]):.0f} ms have passed",
+        f"steps done: {sum(paced.steps[upto])}, when {sum(paced.lengths[upto]):.0f} ms have passed",
         EARLY if sum(paced.steps[upto]) * paced.step > sum(paced.lengths[upto]) else LATE,
     )
 

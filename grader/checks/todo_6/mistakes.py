@@ -76,7 +76,7 @@ known(
 )
 known(
     "drops-the-remainder",
-    "What is left of a frame after its whole steps is never run; it belongs to the next frame's.",
+    "What is left of a frame after its whole steps is never run; it belongs to the next frame.",
     lambda frames: counted([whole_steps(capped(frame)) for frame in frames[:-1]]),
 )
 known(
@@ -131,7 +131,7 @@ known(
 )
 known(
     "cap-is-turned-round",
-    "Every frame adds MAX_STEPS * STEP or more: the cap is the larger of the two, not the smaller.",
+    "Every frame adds MAX_STEPS * STEP or more: take the smaller of the two, and not the larger.",
     lambda frames: counted(accumulated(frames, lambda frame: max(3 * frame, CAP))),
 )
 known(
@@ -233,7 +233,7 @@ known(
 )
 known(
     "drops-the-remainder+no-cap",
-    "What is left of a frame after its whole steps is never run; it belongs to the next frame's. "
+    "What is left of a frame after its whole steps is never run; it belongs to the next frame. "
     "Also: A slow frame is simulated in full: add MAX_STEPS * STEP at the most.",
     lambda frames: counted([whole_steps(uncapped(frame)) for frame in frames[:-1]]),
 )
@@ -362,8 +362,8 @@ known(
 )
 known(
     "no-step-runs",
-    "No step runs, however much time passes. Is the count of steps more than 0, and is step(STEP) "
-    "called so many times?",
+    "No step runs, however much time passes. Print the count of steps: is it more than 0? And is "
+    "step(STEP) called so many times?",
     lambda frames: counted([0 for _ in frames[:-1]]),
 )
 

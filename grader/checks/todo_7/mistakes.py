@@ -90,6 +90,11 @@ known_7b(
     lambda radius, mass: exact.disc_moment(6.0, 24.0),
 )
 known_7b(
+    "radius-of-the-bob",
+    "That is the moment of a ball as wide as the bob, 24 px; use this ball's radius.",
+    lambda radius, mass: exact.disc_moment(mass, 24.0),
+)
+known_7b(
     "a-hole-of-a-pixel",
     "That is a disc with a hole of 1 px: the inner radius must be 0.",
     lambda radius, mass: mass * (1.0 + radius**2) / 2,

@@ -253,8 +253,7 @@ def parabola(x: float, v: float, dt: float, accel: Accel) -> float:
 
 BENDS: dict[str, tuple[str, Callable[[float, float], float]]] = {
     "half-is-missing-in-x": (
-        "x gets a * dt² of the acceleration; on a parabola it is half of that. Where v has half of "
-        "a * dt in it already, v * dt is the whole way.",
+        "x gets a * dt² of the acceleration in all; on a parabola it is half of that.",
         lambda a, dt: a * dt**2,
     ),
     "straight-line-in-x": (
@@ -653,8 +652,10 @@ def sampled(
     accel = polynomial(force)
     samples, places = [(v, accel(x))], [x]
     for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
-        places.append(x + share * dt * samples[source][0])
-        samples.append((v + reach * dt * samples[other][1], accel(places[-1])))
+        speed = v + reach * dt * samples[other][1]
+        dx = [*(each[0] for each in samples), speed][source]
+        places.append(x + share * dt * dx)
+        samples.append((speed, accel(places[-1])))
     return samples, places
 
 
@@ -773,6 +774,16 @@ for number, (before, reach) in enumerate(USUAL, 1):
             words = f"The {part} {told}"
             mistake("8c", SAMPLES, f"{part}-of-{name}", words, places_of(places, speeds))
             known_8c(f"{part}-of-{name}", words, weighed(places, RIGHT_WEIGHTS, speeds))
+
+
+for number, (before, reach) in enumerate(USUAL, 1):
+    other = (*USUAL[: number - 1], (number, reach), *USUAL[number:])
+    known_8c(
+        f"position-of-k{number + 1}-by-its-own-velocity",
+        f"The position of the {PLACES[number]} sample, k{number + 1}, is moved by its own "
+        f"velocity; it must be moved by that of the {PLACES[before]} one.",
+        weighed(other, RIGHT_WEIGHTS, USUAL),
+    )
 
 
 def pairs_joined(x: float, v: float, dt: float, force: Force) -> State:
