@@ -355,7 +355,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
     ("Without a part of", unwrap),
     ("Without a part of", leave_out_term),
     ("With brackets elsewhere in", move_bracket),
-    ("With the two sides of - or / exchanged in", swap_operands),
+    ("With the two sides of an operator exchanged in", swap_operands),
     ("With another order of what stands in brackets in", swap_arguments),
     ("With another order of names in", swap_targets),
     ("With `and` and `or` exchanged in", change_and),
@@ -372,7 +372,7 @@ KINDS: tuple[tuple[str, Change], ...] = (  # by what is said of the line
 IN_TWINS: tuple[tuple[str, Change], ...] = (  # what is often wrong in both of two lines alike
     ("With another operator in", change_arithmetic),
     ("With brackets elsewhere in", move_bracket),
-    ("With the two sides of - or / exchanged in", swap_operands),
+    ("With the two sides of an operator exchanged in", swap_operands),
     ("With another number in", change_constant),
     ("Without a part of", leave_out_term),
 )

@@ -213,18 +213,30 @@ def find_condition(wrong: list[Question], others: list[Question], are_right: boo
     if not others:
         return "in every case" if len(wrong) > 1 else ""
     kinds = list(dict.fromkeys(k for each in wrong for k in each.traits if k != CASE))
+    found = find_traits(wrong, others, kinds, are_right) or find_majority(wrong, others, kinds)
+    return found or find_traits(wrong, others, kinds, are_right, in_one_breath=False)
+
+
+def find_traits(
+    wrong: list[Question],
+    others: list[Question],
+    kinds: list[str],
+    are_right: bool,
+    in_one_breath: bool = True,
+) -> str:
+    """Find one or two traits that all the wrong answers have, and no other, or the other way."""
     for ways in (1, 2):
         for some in combinations(kinds, ways):
             bad, good = count_traits(wrong, *some), count_traits(others, *some)
             many = 2 * len(bad.keys() | good.keys()) > len(wrong) + len(others)
             if many or None in bad or bad.keys() & good.keys():
                 continue
-            if is_readable(bad):
+            if is_readable(bad, in_one_breath):
                 right_too = are_right and ways == 1 and is_readable(good)
                 return f"where {join(bad)}" + f", and right where {join(good)}" * right_too
-            if is_readable(good):
+            if is_readable(good, in_one_breath):
                 return f"but where {join(good)}"
-    return find_majority(wrong, others, kinds)
+    return ""
 
 
 def find_majority(wrong: list[Question], others: list[Question], kinds: list[str]) -> str:
@@ -238,11 +250,12 @@ def find_majority(wrong: list[Question], others: list[Question], kinds: list[str
     return best
 
 
-def is_readable(clauses: Counter[Any]) -> bool:
+def is_readable(clauses: Counter[Any], in_one_breath: bool = True) -> bool:
     if None in clauses or len(clauses) > MOST:
         return False
     words = join(clauses)
-    return len(words) <= LONGEST and not (" or " in words and words.count(" and ") > 1)
+    is_plain = " or " not in words or words.count(" and ") <= 1
+    return len(words) <= LONGEST and (is_plain or not in_one_breath)
 
 
 def count_traits(questions: list[Question], *kinds: str) -> Counter[Any]:

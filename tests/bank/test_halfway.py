@@ -69,7 +69,7 @@ def test_a_mistake_is_told_by_the_branch_that_it_shows_in():
 def test_a_mistake_in_each_branch_is_told_with_the_other_one():
     without_gap = [seen(disc, depth=disc.r) for disc in INSIDE]
     words = told("1", [*map(turned, OUTSIDE), *without_gap])
-    assert "from the box to the circle" in words and "the circle has the gap to leave" in words
+    assert "from the box to the circle" in words and "the gap to the face" in words
 
 
 def test_what_no_mistake_explains_is_narrowed_down():

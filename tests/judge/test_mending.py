@@ -133,7 +133,7 @@ def test_a_missing_bracket_is_found():
         return "done = (done + step) * 2 / 3" in changed
 
     mend = find_mend(text, ("run.py", "1", "run"), passes, lambda: True)
-    assert mend == Mend("run.py", (7,), "With another bracket in")
+    assert mend == Mend("run.py", (7,), "With brackets elsewhere in")
 
 
 def test_the_same_slip_in_two_lines_is_found():

@@ -17,7 +17,7 @@ from grader.protocol import ContactValue
 BOX = Rect(0, 0, 40, 20)
 ROUND = range(0, 1000, 50)  # px
 MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not hang on them
-MOVING = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
+MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
 Fields = dict[str, Any]
 
 
@@ -112,9 +112,9 @@ def want(lab: Lab, answer: Touch | None, right: list[Touch | None], of: str = ""
     want_told(lab, good, say, right[0], answer, expected=of + "{}")
 
 
-def want_exact(lab: Lab, discs: Iterable[Disc], **circle: Any) -> None:
-    """The right answers about these discs and the box, all of them as large and where they are."""
-    size, x, y = lab.about(1.0), lab.about(0.0, 64.0), lab.about(0.0, 64.0)
+def want_exact(lab: Lab, discs: Iterable[Disc], at: Pair = (0.0, 0.0), **circle: Any) -> None:
+    """The right answers about these discs, as seen from the middle of the box, which is there."""
+    size, x, y = lab.about(1.0), lab.about(at[0], 64.0), lab.about(at[1], 64.0)
     box = Rect(x, y, size * BOX.hx, size * BOX.hy)
     for each in discs:
         disc = Disc(x + size * each.x, y + size * each.y, size * each.r)
@@ -146,6 +146,7 @@ def overlap_from_outside_points_into_the_box(lab: Lab) -> None:
         Disc(-5, -29.9375, 10),  # hardly at all
     )
     want_exact(lab, discs)
+    want_exact(lab, discs[:4], at=(100.0, 50.0))
     for n, (disc, rect) in enumerate(near_round_numbers(lab.about(1 / 8))):
         things = pair(lab, disc, rect, {"mass": MASSES[n % len(MASSES)]})
         answer = touch(lab, *things, disc, rect, twice=False, noted=False)

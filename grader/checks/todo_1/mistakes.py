@@ -44,7 +44,7 @@ def like(disc: Disc, rect: Rect) -> dict[str, str]:
     words["axis"] = "a corner is nearest"
     if not corner:
         words["axis"] = f"a face {'at the side' if across > down else 'above or below'} is nearest"
-    words["_box"] = f"the box is {'at (0, 0)' if rect.x == rect.y == 0 else 'elsewhere'}"
+    words["_box"] = f"the box is {'' if rect.x == rect.y == 0 else 'not '}at (0, 0)"
     words["_radius"] = f"the radius is {disc.r:g} px"
     words["_edge"] = f"the centre is {'' if max(across, down) == 0 else 'not '}on the edge"
     return words
@@ -343,8 +343,15 @@ known(
 )
 known(
     "box-at-the-origin",
-    "The box is always taken to be at (0, 0), the origin; it is at b.pos.",
+    "The box is taken to be at (0, 0): its closest point is a place in the world, so b.pos belongs "
+    "in it.",
     lambda disc, rect: right(disc, rect._replace(x=0.0, y=0.0)),
+)
+known(
+    "point-from-the-middle-of-the-box",
+    "The point is measured from the middle of the box; it is a place in the world: add b.pos.",
+    outside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
+    inside(lambda t, disc, rect: t._replace(px=t.px - rect.x, py=t.py - rect.y)),
 )
 known(
     "top-and-bottom-swapped",

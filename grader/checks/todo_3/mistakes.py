@@ -117,7 +117,7 @@ known(
 )
 known(
     "adds-the-speed",
-    "The speed counts with the wrong sign: it is B's minus A's, and bias - speed is missing.",
+    "The speed counts with the wrong sign: it must be B's minus A's, taken from the bias.",
     velocities(lambda rod: exact.pushed(rod, (rod.bias + rod.speed) / rod.k)),
 )
 known(

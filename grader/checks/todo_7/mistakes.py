@@ -66,7 +66,8 @@ known_7b(
 )
 known_7b(
     "moment-of-a-ring",
-    "That is the moment of a ring, with all its mass at the rim; the inner radius must be 0.",
+    "That is the moment of a ring, with all its mass at the rim: a full disc, with no hole, "
+    "has half of it.",
     lambda radius, mass: mass * radius**2,
 )
 known_7b(
