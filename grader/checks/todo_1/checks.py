@@ -17,7 +17,8 @@ from grader.protocol import ContactValue
 BOX = Rect(0, 0, 40, 20)
 ROUND = range(0, 1000, 50)  # px
 MASSES = (1.0, 1e-3, 1e6, 0.05, 1e3)  # kg; a contact does not hang on them
-MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}  # what the contact does not hang on
+# What the contact does not hang on.
+MOVING: dict[str, Any] = {"vel": (1.5, -300.0), "omega": 4.0, "angle": 1.0}
 Fields = dict[str, Any]
 
 
