@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Collection
 from copy import copy
 from dataclasses import dataclass, replace
@@ -324,4 +325,8 @@ def hide_commands(whole: typer.Typer, shown: Collection[str]) -> typer.Typer:
 def main() -> None:
     sys.unraisablehook = interrupt_again
     end_like_ctrl_c()
-    make_app()(prog_name="grader", obj=go_on_within)
+    try:
+        make_app()(prog_name="grader", obj=go_on_within)
+    except Exception:  # 1 would say that a submission has less than full marks
+        traceback.print_exc()
+        sys.exit(2)

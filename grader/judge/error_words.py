@@ -376,7 +376,8 @@ def explain_pair(match: Match, error: Error) -> str:
                     a == b
                 ):
                     return f"Both ends are {a}: the first body is space.static_body."
-    target = lines[error.line - 1].partition("=")[0].strip() if error.line else ""
+    line = "".join(lines[error.line - 1 : error.line]) if error.line else ""
+    target = line.partition("=")[0].strip()
     return f"{target} needs two numbers, (x, y)." if target.endswith(".gravity") else ""
 
 

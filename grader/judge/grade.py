@@ -1,13 +1,14 @@
 """Grade one submission, from a path to a Result."""
 
+import logging
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import msgspec
 
@@ -45,7 +46,7 @@ from grader.judge.reference import Reference
 from grader.judge.result import MAX_FILE, CheckResult, Result, TodoResult, Where, state_of
 from grader.judge.rubric import Check, Rubric, Todo, load_rubric
 from grader.judge.sandbox import Sandbox
-from grader.judge.submission import Submission, handed_out, load_given, take_in
+from grader.judge.submission import CannotGrade, Submission, handed_out, load_given, take_in
 from grader.judge.workplace import work_folder
 from grader.protocol import cut
 from grader.source.given import Changed, change_of_file, changes, restored
@@ -67,6 +68,8 @@ if TYPE_CHECKING:
     from grader.judge.loop import CheckLoop
 
 KIT = Path(__file__).parents[2]
+T = TypeVar("T")
+log = logging.getLogger(__name__)
 MEND_SECONDS = 2.5  # of a processor, for one TODO
 
 
@@ -307,7 +310,9 @@ class Grading:
         for key, job in loop.failed.items():
             if job.todo.function and key not in self.blamed:
                 keys.setdefault(job.todo.id, key)
-        found = ((id, self.look_at_region(key, loop)) for id, key in keys.items())
+        found = (
+            (id, tried(partial(self.look_at_region, key, loop), None)) for id, key in keys.items()
+        )
         return {id: left for id, left in found if left}
 
     def look_at_region(self, key: Key, loop: "CheckLoop") -> Left | None:
@@ -382,7 +387,11 @@ class Grading:
         """Return what this submission has otherwise than it was handed out.
 
         A file in which an import fails counts as a whole: code that was added may be the reason.
+        Nothing has changed that cannot be compared, such as code nested beyond all measure.
         """
+        return tried(lambda: self.compare_given(unusable), [])
+
+    def compare_given(self, unusable: Iterable[Broke | NotYet]) -> list[Changed]:
         folder, given = self.submission.folder, load_given()
         own = {n: read_source(folder / n) for n in given if (folder / n).is_file()}
         raised = [each.raised for each in unusable if isinstance(each, Broke) and each.raised]
@@ -453,14 +462,28 @@ class Grading:
             for check in todo.checks
         ]
         rest = [r for r, ids in zip(results, spoilt, strict=True) if not ids]
-        if not rest or any(each.state != "passed" for each in rest):
-            return results
+        guards = {check.id for check in todo.checks if check.guard}
+        if {each.id for each in rest} <= guards or any(r.state != "passed" for r in rest):
+            return results  # nothing of its own is right
         return [pass_for_others(*pair) for pair in zip(spoilt, results, strict=True)]
 
     def todo_result(
         self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]
     ) -> TodoResult:
-        """Return what came of a TODO, when it is known which ones are `unfinished`."""
+        """Return what came of a TODO, when it is known which ones are `unfinished`.
+
+        Its marks are fixed: where no words can be found, it has none.
+        """
+        points = sum(check.points for check in checks)
+        nothing: tuple[list[CheckResult], misconceptions.Mistake | None] = (checks, None)
+        told, mistake = tried(partial(self.put_into_words, todo, checks, loop, unfinished), nothing)
+        named = mistake.id if mistake is not None else None
+        return TodoResult(todo.id, todo.title, state_of(told), points, todo.max_points, named, told)
+
+    def put_into_words(
+        self, todo: Todo, checks: list[CheckResult], loop: "CheckLoop", unfinished: set[str]
+    ) -> tuple[list[CheckResult], misconceptions.Mistake | None]:
+        """Return the checks with what their failures mean, and the mistake that is named."""
         ran = {id for todo_id, id in loop.failed if todo_id == todo.id}
         mistake = None
         if any(check.failed and check.id in ran for check in checks):
@@ -488,10 +511,7 @@ class Grading:
             mend = self.find_mend(todo, loop, unexplained) if unexplained else None
             if mend is not None:
                 evidence = replace(evidence, mends=dict.fromkeys(unexplained, mend))
-        told = explain(evidence, checks, ran)
-        points = sum(check.points for check in told)
-        named = mistake.id if mistake is not None else None
-        return TodoResult(todo.id, todo.title, state_of(told), points, todo.max_points, named, told)
+        return explain(evidence, checks, ran), mistake
 
     def find_mend(self, todo: Todo, loop: "CheckLoop", failed: Sequence[str]) -> Mend | None:
         """Return the line of a TODO in which one change makes these checks pass."""
@@ -554,7 +574,21 @@ class Grading:
 
     @cached_property
     def names(self) -> Names:
-        return Names(self.submission.folder)
+        return Names(self.submission)
+
+
+def tried(make: Callable[[], T], otherwise: T) -> T:
+    """Return what `make` finds in a submission's code, or `otherwise` where it trips over it.
+
+    Only for words and what leads to them: what a submission is worth never hangs on them.
+    """
+    try:
+        return make()
+    except CannotGrade:
+        raise
+    except Exception as error:
+        log.warning("no words were found for a failed check: %s", type(error).__name__)
+        return otherwise
 
 
 def count_guards(todo: Todo, checks: list[CheckResult]) -> list[CheckResult]:

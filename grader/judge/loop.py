@@ -520,7 +520,8 @@ class CheckLoop:
         if lines := [each for each in lines if self.submission.holds(each.file)]:
             last = lines[-1]
             own = [each for each in lines if not self._is_given(job.todo, each)]
-            if found := LACKING.search(failure.got):
+            found = LACKING.search(failure.got)
+            if found and self.submission.holds(found["file"]):
                 where = Where(found["file"], 1)
             elif own or where is None:
                 frame = (own or lines)[-1]

@@ -30,7 +30,7 @@ from grader.source.operators import (
 from grader.source.regions import Region, regions_in, replaced
 
 MOST_TRIED = 150  # changes
-LONGEST = 80  # lines of a region; an answer has a dozen
+LONGEST, MOST_LETTERS = 80, 6000  # lines of a region, and letters; an answer has a dozen
 ALIKE = (  # attributes that are easily taken for one another
     ("x", "y"),
     ("a", "b"),
@@ -106,7 +106,7 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
 
     None if Python refuses the region, or it is long. `names` are the function's parameters.
     """
-    if len(region.lines) > LONGEST:
+    if len(region.lines) > LONGEST or sum(map(len, region.lines)) > MOST_LETTERS:
         return
     try:
         tree = ast.parse(textwrap.dedent("\n".join(region.lines)))
@@ -115,7 +115,7 @@ def make_variants(region: Region, names: frozenset[str]) -> Iterator[Variant]:
     own = frozenset(n for n in names | names_in(tree) if n not in dir(builtins) and is_value(n))
     ends = set(find_ends(tree))
     places = [(each,) for each in find_places(tree) if each.node.lineno not in ends]
-    twins = list(find_twins(tree))
+    twins = list(islice(find_twins(tree), MOST_TRIED * MOST_TRIED))
     groups = [list_changes(how, change, places, own) for how, change in KINDS]
     groups += [list_changes(how, change, twins, own) for how, change in IN_TWINS]
     seen = {ast.unparse(tree)}

@@ -7,6 +7,7 @@ model does not. Nothing is guessed from how the code looks.
 import importlib
 import math
 from collections.abc import Callable, Collection, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -190,7 +191,8 @@ def explains(each: Mistake, observations: Iterable[Observation]) -> bool:
 def are_close(first: Any, second: Any, tolerance: float = 1e-6) -> bool:
     """Return whether two answers are equal up to rounding, whatever the shape."""
     if isinstance(first, int | float) and isinstance(second, int | float):
-        return math.isclose(first, second, rel_tol=tolerance, abs_tol=tolerance)
+        with suppress(OverflowError):  # a whole number larger than any float
+            return math.isclose(first, second, rel_tol=tolerance, abs_tol=tolerance)
     if isinstance(first, tuple | list) and isinstance(second, tuple | list):
         return len(first) == len(second) and all(
             are_close(a, b, tolerance) for a, b in zip(first, second, strict=True)

@@ -18,7 +18,7 @@ import msgspec
 from grader.judge.error_words import explain_error
 from grader.judge.result import CheckResult
 from grader.judge.rubric import CHECKS, Todo, load_rubric
-from grader.judge.submission import load_given
+from grader.judge.submission import Submission, load_given
 from grader.source.definitions import MAX_READ, statements
 from grader.source.regions import python_files, read_source
 
@@ -87,8 +87,9 @@ def handed_out(module: str) -> dict[str, Signature]:
 class Names:
     """The names of a submission beside those that were handed out."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, submission: Submission) -> None:
+        self.submission = submission
+        self.folder = submission.folder
         self.found: dict[str, dict[str, Signature]] = {}
         self.told: dict[str, dict[str, str]] = {}
 
@@ -102,9 +103,11 @@ class Names:
         return explain_error(check.got, self.read, todo.id)
 
     def read(self, file: str) -> str:
-        """Return the text of a file of the submission; empty where there is none."""
-        path = self.folder / file
-        return read_source(path) if path.is_file() else ""
+        """Return the text of a file of the submission; empty where there is none.
+
+        The name is out of the words of an error, which may say anything.
+        """
+        return read_source(self.folder / file) if self.submission.holds(file) else ""
 
     def changed(self, module: str) -> Mapping[str, str]:
         """Return what has become of each name that was handed out; found out once."""

@@ -42,6 +42,7 @@ ENDLESS = f"it has more than {MAX_SEEN} files and folders, or {MAX_DEPTH} folder
 FULL = {errno.ENOSPC, errno.EDQUOT}  # our disk; all else is about what was handed in
 COPY = "TODO {id} is written in {copy}, which no program runs: the code belongs in {file}."
 SUPPLIED = "{file} is missing. The handed-out one was taken in its place."
+COMPILED = (".pyc", ".pyo", ".so", ".pyd", ".dll", ".dylib")  # code that nobody can read
 IGNORED = {"venv", "__pycache__", "__MACOSX", "node_modules", "build"}  # and all that is hidden
 
 
@@ -193,8 +194,8 @@ def unreadable(error: OSError, within: Path) -> str:
 
 
 def may_be_read(name: str) -> bool:
-    """Return whether a name is neither hidden nor without text."""
-    return name.isprintable() and not name.startswith(".")
+    """Return whether a name is neither hidden nor without text, nor that of compiled code."""
+    return name.isprintable() and not name.startswith(".") and not name.endswith(COMPILED)
 
 
 def may_be_entered(folder: os.DirEntry[str]) -> bool:

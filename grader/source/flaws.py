@@ -12,9 +12,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from io import BytesIO
 
-from grader.source.regions import CHAIN, MAX_SOURCE, number_lines
+from grader.source.regions import CHAIN, MAX_SOURCE, is_usual, number_lines
 
 UNDECODED = "\ufffd"  # what stands in a text for bytes that are none
+UNUSUAL = "the file says that it is in {encoding}: save it as UTF-8, and leave that out"
 MAX_LINE = 80  # characters of a line that are quoted
 MAX_SAID = 300  # characters of Python's words: they may quote a name of any length
 Version = tuple[int, int]
@@ -136,8 +137,10 @@ def find_bad_bytes(data: bytes) -> Flaw | None:
     text = number_lines(data.decode("utf-8-sig", "replace"))
     try:
         encoding, _ = tokenize.detect_encoding(BytesIO(data).readline)
+        if not is_usual(encoding):
+            return replace(flaw_at(text, 1, UNUSUAL.format(encoding=encoding)), undecoded=True)
         data.decode(encoding)
-    except (UnicodeDecodeError, LookupError, SyntaxError) as error:
+    except (UnicodeError, LookupError, SyntaxError) as error:
         if UNDECODED not in text:
             return flaw_at(text, 1, str(error))
         line = text.partition(UNDECODED)[0].count("\n") + 1

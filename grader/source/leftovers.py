@@ -104,7 +104,7 @@ def dumped(node: ast.stmt) -> str:
     """Return what is equal for equal statements; empty for one nested beyond all measure."""
     try:
         return ast.dump(node)
-    except (RecursionError, MemoryError):
+    except (RecursionError, MemoryError, ValueError):  # or with a number of too many digits
         return ""
 
 

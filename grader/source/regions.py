@@ -163,3 +163,9 @@ def encoding_of(data: bytes) -> str:
     except (SyntaxError, LookupError):
         return "utf-8-sig"
     return name if USUAL.fullmatch(name) else "utf-8-sig"
+
+
+def is_usual(encoding: str) -> bool:
+    """Return whether an encoding is UTF-8 or an editor's; others hide code, or take long."""
+    name = codecs.lookup(encoding).name
+    return name in ("utf-8", "utf-8-sig", "ascii") or USUAL.fullmatch(name) is not None
