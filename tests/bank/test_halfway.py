@@ -12,6 +12,7 @@ from grader.judge.diagnosis import Diagnosis
 from grader.judge.lab import Observation
 from grader.judge.misconceptions import load_known
 from grader.judge.names import Names, handed_out
+from grader.judge.submission import Submission
 from grader.judge.narrowing import find_relation, read_questions
 
 STATES = [*halfway()]
@@ -115,7 +116,7 @@ def names_of(folder: Path, text: str) -> dict[str, str]:
     package = folder / "mini_engine"
     package.mkdir()
     (package / "world.py").write_text(text, encoding="utf-8")
-    return dict(Names(folder).changed("mini_engine"))
+    return dict(Names(Submission("theirs", folder)).changed("mini_engine"))
 
 
 def test_a_renamed_method_is_told_with_both_names(tmp_path: Path):

@@ -244,11 +244,11 @@ def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
     (package / "solver.py").write_text(few, encoding="utf-8")
     todo = next(each for each in load_rubric().todos if each.id == "2")
     check = CheckResult("x", "x", "unit", "not yet", 0, 1, got="there is no effective_mass")
-    assert "renamed?" in Names(tmp_path).hint(todo, "mini_engine", check)
+    assert "renamed?" in Names(Submission("theirs", tmp_path)).hint(todo, "mini_engine", check)
     for file in range(20):
         many = "".join(f"def effective_mas{file}x{n}(): pass\n" for n in range(2_000))
         (package / f"more_{file}.py").write_text(many, encoding="utf-8")
-    names = Names(tmp_path)
+    names = Names(Submission("theirs", tmp_path))
     assert "renamed?" in names.hint(todo, "mini_engine", check)
     assert len(names.of("mini_engine")) <= MOST
     assert names.changed("mini_engine") is names.changed("mini_engine")
@@ -257,7 +257,7 @@ def test_names_are_looked_for_in_what_somebody_can_have_written(tmp_path: Path):
 def test_a_name_too_long_to_be_another_one_is_not_compared(tmp_path: Path):
     long = "effective_mass" * (LONGEST // 10)
     (tmp_path / "mini_engine.py").write_text(f"def {long}(): pass\n", encoding="utf-8")
-    assert Names(tmp_path).changed("mini_engine") == {}
+    assert Names(Submission("theirs", tmp_path)).changed("mini_engine") == {}
 
 
 # ---------------------------------------------------------------- results
