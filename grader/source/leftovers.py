@@ -160,14 +160,24 @@ def find_idle(text: str, todo: str) -> tuple[int, str] | None:
 
 
 def is_answer(node: ast.AST) -> TypeGuard[ast.FunctionDef]:
-    """Return whether a node is a function that returns what it has worked out of its arguments."""
+    """Return whether a node is a function that only returns what it works out of its arguments."""
     if not isinstance(node, ast.FunctionDef):
         return False
-    changes = ast.AugAssign, ast.Attribute, ast.Subscript, ast.Nonlocal, ast.Global
     parts = list(ast.walk(node))
-    stores = [each for each in parts if isinstance(getattr(each, "ctx", None), ast.Store)]
     returns = any(isinstance(each, ast.Return) and each.value is not None for each in parts)
-    return returns and not any(isinstance(each, changes) for each in stores)
+    return returns and not any(has_effect(each) for each in parts)
+
+
+def has_effect(node: ast.AST) -> bool:
+    """Return whether a part of a function may change what is outside of it."""
+    match node:
+        case ast.Nonlocal() | ast.Global():
+            return True
+        case ast.Call(ast.Name(id=name) | ast.Attribute(attr=name)):
+            return name not in ANSWERS
+        case ast.Attribute(ctx=ast.Store()) | ast.Subscript(ctx=ast.Store()):
+            return True
+    return isinstance(node, ast.Call)
 
 
 def is_idle(value: ast.expr, answers: Collection[str]) -> bool:

@@ -3,7 +3,9 @@
 import pytest
 
 from grader.source.leftovers import (
+    find_alias,
     find_dead_end,
+    find_idle,
     find_leftover,
     find_loop,
     find_rebound,
@@ -115,3 +117,31 @@ def test_a_return_that_ends_its_loop_is_found():
     assert find_return_in_loop(function(*lines), "6") == 5
     lines = ("for each in x:", "    if each:", "        return each")
     assert find_return_in_loop(function(*lines), "6") is None
+
+
+@pytest.mark.parametrize(
+    ("inner", "is_lost"),
+    [("return max(low, value)", True), ("world.step(value)\n        return low", False)],
+)
+def test_a_lost_answer_is_told_only_of_functions_that_do_nothing_else(inner, is_lost):
+    text = (
+        "def run(world, low):\n    # TODO 6: count\n    def own(value):\n"
+        f"        {inner}\n    own(3)\n    # END TODO 6\n    return low\n"
+    )
+    assert (find_idle(text, "6") is not None) == is_lost
+
+
+@pytest.mark.parametrize(
+    ("line", "alias"),
+    [
+        ("near.x = 3", (3, "near", "a.pos")),
+        ("near -= low", (3, "near", "a.pos")),
+        ("near = near - low", None),
+    ],
+)
+def test_a_second_name_of_a_vector_is_told_where_it_is_changed(line, alias):
+    text = (
+        "def run(a, low):\n    # TODO 6: count\n    near = a.pos\n"
+        f"    {line}\n    # END TODO 6\n    return near\n"
+    )
+    assert find_alias(text, "6") == alias
