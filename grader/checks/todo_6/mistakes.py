@@ -86,22 +86,26 @@ known(
 )
 
 
-def steps_early(frames: Frames) -> Answer:
+def taken_out(frames: Frames, due: Callable[[int], int], price: int) -> Answer:
+    """Return the steps of a loop that runs due(held) of them and takes `price` out for each."""
     steps: list[int] = []
     held = 0
     for frame in frames[:-1]:
         held += capped(frame)
         if held % STEP == 0:
             raise Undecided
-        steps.append(max(0, -(-held // STEP)))
-        held -= steps[-1] * STEP
+        count = due(held)
+        steps.append(min(max(count, 0), RUNAWAY))
+        if steps[-1] == RUNAWAY:
+            break
+        held -= count * price
     return counted(steps)
 
 
 known(
     "steps-before-it-is-due",
     "A step runs while any time is left, so the accumulator falls below 0; wait for a whole STEP.",
-    steps_early,
+    lambda frames: taken_out(frames, lambda held: max(0, -(-held // STEP)), STEP),
 )
 known(
     "no-cap",
@@ -325,22 +329,6 @@ known(
 )
 
 
-def count_taken_out(frames: Frames) -> Answer:
-    """Of a loop over int(accumulator / STEP), after which the count is taken out as seconds."""
-    steps: list[int] = []
-    held = 0
-    for frame in frames[:-1]:
-        held += capped(frame)
-        if held % STEP == 0:
-            raise Undecided
-        due = int(held / STEP)  # towards 0
-        steps.append(min(max(due, 0), RUNAWAY))
-        if steps[-1] == RUNAWAY:
-            break
-        held -= due * SECOND
-    return counted(steps)
-
-
 def second_taken_out(frames: Frames) -> Answer:
     """Of a loop that takes 1 s out of the accumulator for each step."""
     steps: list[int] = []
@@ -357,7 +345,7 @@ def second_taken_out(frames: Frames) -> Answer:
 known(
     "count-taken-out",
     "The count of steps is taken out of the accumulator, which holds seconds: a step takes STEP.",
-    count_taken_out,
+    lambda frames: taken_out(frames, lambda held: int(held / STEP), SECOND),  # towards 0
     second_taken_out,
 )
 known(
