@@ -24,6 +24,7 @@ from grader.judge.failures import (
     REBOUND,
     RETURNS,
     SWAPPED,
+    TRESPASS,
     UNREAD,
     Broke,
     Failing,
@@ -506,7 +507,9 @@ class Grading:
             self.read_region(todo) if ran else NOTHING_SHOWN,
             self.submission.remarks.get(todo.id, ""),
         )
-        if self.options.trusted and self.options.mends:
+        rule = TRESPASS.removeprefix("{name}")
+        oversteps = any(rule in c.meaning for c in checks)  # then a line that mends is not why
+        if self.options.trusted and self.options.mends and not oversteps:
             unexplained = [c.id for c in checks if c.id in ran and is_unexplained(evidence, c)]
             mend = self.find_mend(todo, loop, unexplained) if unexplained else None
             if mend is not None:
