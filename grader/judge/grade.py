@@ -390,7 +390,7 @@ class Grading:
         A file in which an import fails counts as a whole: code that was added may be the reason.
         Nothing has changed that cannot be compared, such as code nested beyond all measure.
         """
-        return tried(lambda: self.compare_given(unusable), [])
+        return tried(partial(self.compare_given, unusable), [])
 
     def compare_given(self, unusable: Iterable[Broke | NotYet]) -> list[Changed]:
         folder, given = self.submission.folder, load_given()

@@ -35,7 +35,7 @@ CALLED_BACK = {  # what to do about an error of such a function, by a part of th
     "NoneType": "Its data is None: hand data to on_collision as well, data=data.",
     "UnboundLocalError": "What it assigns is its own alone: count in data.",
 }
-LINE = re.compile(r"\b[Ll]ine (\d+)")  # of the file to look at, as the texts name it
+LINE = re.compile(r"\b[Ll]ine (\d+)")  # as the words about a region begin
 UNFIT = ("ZeroDivisionError", "ValueError: Can't normalize")  # a case came where it must not
 LONGEST = 110  # letters of what is said beside a line
 NEARLY, NOTHING = 5e-5, 1e-9  # of a number, and what counts as none
@@ -119,9 +119,21 @@ def explain_check(evidence: Evidence, check: CheckResult) -> CheckResult:
         where = evidence.blamed[check.id].place(check)
     elif evidence.left is not None and evidence.left.is_all:
         where = evidence.left.where
-    elif where is not None and (line := LINE.search(meaning)):
-        where = Where(where.file, int(line[1]))
+    elif where is not None and (line := find_told_line(evidence, check, meaning)):
+        where = Where(where.file, line)
     return msgspec.structs.replace(check, meaning=meaning, where=where)
+
+
+def find_told_line(evidence: Evidence, check: CheckResult, meaning: str) -> int:
+    """Return the line that our own words name; 0 where none does.
+
+    Never a line out of the words of a submission, which may name any.
+    """
+    mend = evidence.mends.get(check.id)
+    if mend is not None and mend.in_words in meaning:
+        return mend.lines[0]
+    told = (words for words in evidence.region if words and words in meaning)
+    return next((int(found[1]) for words in told if (found := LINE.search(words))), 0)
 
 
 # ---------------------------------------------------------------- the explanations

@@ -89,7 +89,6 @@ class Names:
 
     def __init__(self, submission: Submission) -> None:
         self.submission = submission
-        self.folder = submission.folder
         self.found: dict[str, dict[str, Signature]] = {}
         self.told: dict[str, dict[str, str]] = {}
 
@@ -107,7 +106,8 @@ class Names:
 
         The name is out of the words of an error, which may say anything.
         """
-        return read_source(self.folder / file) if self.submission.holds(file) else ""
+        held = self.submission.holds(file)
+        return read_source(self.submission.folder / file) if held else ""
 
     def changed(self, module: str) -> Mapping[str, str]:
         """Return what has become of each name that was handed out; found out once."""
@@ -128,7 +128,8 @@ class Names:
     def of(self, module: str) -> dict[str, Signature]:
         """Return the functions of a program of the submission."""
         if module not in self.found:
-            package, single = self.folder / module, self.folder / f"{module}.py"
+            folder = self.submission.folder
+            package, single = folder / module, folder / f"{module}.py"
             paths = python_files(package) if package.is_dir() else [single]
             texts = bounded(path for path in paths if path.is_file())
             all_of_them = (each for text in texts for each in signatures(text))

@@ -35,6 +35,8 @@ NEWER: tuple[tuple[Version, re.Pattern[str], str], ...] = (
     ((3, 14), re.compile(r"(?<![\"'\w])[tT][rR]?[\"']"), "use an f-string"),
 )
 
+ELSE_IF = re.compile(r"\belse if\b")
+
 # What to do, by what Python says.
 ADVICE = (
     (r"was never closed", "Add the bracket that is missing there."),
@@ -42,7 +44,6 @@ ADVICE = (
     (r"unterminated", "Add the quote that ends the text."),
     (r"indent", "Begin the lines of one block alike, with four spaces for each level."),
     (r"outside (function|loop)", "Indent the line, so that it stands in its block."),
-    (r"\belse if\b", "Python writes elif, not else if."),
     (r"expected ':'", "Is a colon missing at the end of the line?"),
     (r"'==' or ':='", "A comparison is written with ==."),
     (r"invalid (non-printable )?character", "Type that sign anew: it was copied from a text."),
@@ -75,7 +76,9 @@ class Flaw:
                     f"Python {ours} marks this, and the line needs Python {theirs} or newer: "
                     f"{instead}."
                 )
-        return next((say for said, say in ADVICE if re.search(said, self.words)), LOOK)
+        if ELSE_IF.search(self.text):
+            return "Python writes elif, not else if."
+        return next((say for said, say in ADVICE if re.search(said, self.message)), LOOK)
 
     def in_file(self, file: str) -> "Flaw":
         return replace(self, file=file)

@@ -19,6 +19,9 @@ ODD = {
         '    exec(compile("\\n" * 5000 + "raise AssertionError", __file__, "exec"))'
     ),
     "an answer larger than any float": "    return 10**400, 0",
+    "a printed error in a line of 30 digits": (
+        '    print("OddError: in line " + "9" * 30)\n    return 0, 0'
+    ),
 }
 
 
@@ -26,13 +29,18 @@ def graded(folder: Path, code: str) -> Result:
     shutil.copytree(KIT / "solution", folder, ignore=shutil.ignore_patterns("__pycache__"))
     file = folder / "integrators.py"
     file.write_text(replaced(read_source(file), {"8a": tuple(code.split("\n"))}), encoding="utf-8")
-    return grade(folder, Options(shipped_reference(), only=frozenset({"8a", "8b"})))
+    options = Options(
+        shipped_reference(), only=frozenset({"8a", "8b"}), trusted=True
+    )  # its prints, too
+    return grade(folder, options)
 
 
 @pytest.mark.parametrize("what", ODD)
 def test_odd_code_costs_its_own_points_alone(what: str, tmp_path: Path) -> None:
     result = graded(tmp_path / "work", ODD[what])
     assert [todo.points for todo in result.todos] == [0, 2]
+    places = [check.where for todo in result.todos for check in todo.checks if check.where]
+    assert places and max(each.line for each in places) < 2000  # there is such a line
 
 
 def test_an_error_that_names_a_file_outside_does_not_open_it(tmp_path: Path) -> None:
