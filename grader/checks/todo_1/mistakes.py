@@ -29,6 +29,10 @@ def is_inside(disc: Disc, rect: Rect) -> bool:
     return abs(disc.x - rect.x) <= rect.hx and abs(disc.y - rect.y) <= rect.hy
 
 
+def is_on_the_edge(disc: Disc, rect: Rect) -> bool:
+    return max(abs(disc.x - rect.x) - rect.hx, abs(disc.y - rect.y) - rect.hy) == 0
+
+
 def like(disc: Disc, rect: Rect) -> dict[str, str]:
     """Return where the circle is, in words."""
     across, down = abs(disc.x - rect.x) - rect.hx, abs(disc.y - rect.y) - rect.hy
@@ -46,7 +50,7 @@ def like(disc: Disc, rect: Rect) -> dict[str, str]:
         words["axis"] = f"a face {'at the side' if across > down else 'above or below'} is nearest"
     words["_box"] = f"the box is {'' if rect.x == rect.y == 0 else 'not '}at (0, 0)"
     words["_radius"] = f"the radius is {disc.r:g} px"
-    words["_edge"] = f"the centre is {'' if max(across, down) == 0 else 'not '}on the edge"
+    words["_edge"] = f"the centre is {'' if is_on_the_edge(disc, rect) else 'not '}on the edge"
     return words
 
 
@@ -212,18 +216,12 @@ def face_by_offset(disc: Disc, rect: Rect) -> Answer:
     return min(ways, key=lambda touch: touch.depth)
 
 
-def on_the_edge(disc: Disc, rect: Rect) -> bool:
-    """Return whether the centre is on the edge, where nothing may be divided by its distance."""
-    gaps = rect.hx - abs(disc.x - rect.x), rect.hy - abs(disc.y - rect.y)
-    return min(map(abs, gaps)) < 1e-9 and min(gaps) > -1e-9
-
-
 for error in ("ZeroDivisionError", "ValueError"):
     known(
         "edge-counts-as-outside",
         "A centre on the edge is taken for one outside, where the way to the closest point has no "
         "length: on the edge it counts as inside, <= and >= instead of < and >.",
-        lambda disc, rect, error=error: error if on_the_edge(disc, rect) else right(disc, rect),
+        lambda disc, rect, error=error: error if is_on_the_edge(disc, rect) else right(disc, rect),
     )
 known(
     "face-by-the-distance-from-the-middle",

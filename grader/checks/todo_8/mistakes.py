@@ -11,6 +11,7 @@ from grader.judge.misconceptions import mistake, right_models, truth
 
 SEMI_IMPLICIT, VERLET, RK4 = "semi_implicit_euler", "velocity_verlet", "rk4"
 Force = Sequence[float]
+Step = Callable[[float, float, float, Force], State]
 
 known_8a = partial(mistake, "8a", SEMI_IMPLICIT)
 known_8b = partial(mistake, "8b", VERLET)
@@ -65,7 +66,7 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
 
 def semi_implicit_with(
     kick: Callable[[float, float], float], drift: Callable[[float, float], float]
-) -> Callable[[float, float, float, Force], State]:
+) -> Step:
     """v changes by kick(a, dt), then x by drift(v, dt)."""
 
     def model(x: float, v: float, dt: float, force: Force) -> State:
@@ -77,7 +78,7 @@ def semi_implicit_with(
 
 def verlet_with(
     bend: Callable[[float, float], float], kick: Callable[[float, float, float], float]
-) -> Callable[[float, float, float, Force], State]:
+) -> Step:
     """x bends by bend(a, dt); v changes by kick(a at the start, a at the end, dt)."""
 
     def model(x: float, v: float, dt: float, force: Force) -> State:
@@ -98,6 +99,56 @@ def bent(factor: float) -> Callable[[float, float], float]:
 
 def mean_times(factor: float) -> Callable[[float, float, float], float]:
     return lambda old, new, dt: factor * (old + new) / 2 * dt
+
+
+Source = tuple[int, float]  # the sample that one starts from, and the share of the step
+USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
+RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
+WHOLE_STEPS: tuple[Source, ...] = ((0, 1.0), (1, 1.0), (2, 1.0))
+
+
+def sampled(
+    x: float,
+    v: float,
+    dt: float,
+    force: Force,
+    sources: Sequence[Source] = USUAL,
+    speeds: Sequence[Source] | None = None,
+) -> tuple[list[State], list[float]]:
+    """Return the four samples, and the places where accel is asked.
+
+    `speeds` are the sources of their velocities, where these are others.
+    """
+    accel = polynomial(force)
+    samples, places = [(v, accel(x))], [x]
+    for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
+        speed = v + reach * dt * samples[other][1]
+        dx = [*(each[0] for each in samples), speed][source]
+        places.append(x + share * dt * dx)
+        samples.append((speed, accel(places[-1])))
+    return samples, places
+
+
+def places_of(
+    sources: Sequence[Source], speeds: Sequence[Source] | None = None
+) -> Callable[..., tuple[float, ...]]:
+    return lambda x, v, dt, force: tuple(
+        dict.fromkeys(sampled(x, v, dt, force, sources, speeds)[1])
+    )
+
+
+def weighed(
+    sources: Sequence[Source], weights: Sequence[float], speeds: Sequence[Source] | None = None
+) -> Step:
+    """Return the step that adds up such samples with such weights."""
+
+    def model(x: float, v: float, dt: float, force: Force) -> State:
+        samples = sampled(x, v, dt, force, sources, speeds)[0]
+        for weight, (dx, dv) in zip(weights, samples, strict=True):
+            x, v = x + dt * weight * dx, v + dt * weight * dv
+        return x, v
+
+    return model
 
 
 # ---------------------------------------------------------------- 8a
@@ -150,18 +201,6 @@ known_8a(
     "old-velocity-returned",
     "x moves with the new velocity, but the old one is returned.",
     lambda x, v, dt, force: (right_semi_implicit(x, v, dt, force)[0], v),
-)
-
-
-def velocity_returned_first(x: float, v: float, dt: float, force: Force) -> State:
-    x, v = right_semi_implicit(x, v, dt, force)
-    return v, x
-
-
-known_8a(
-    "velocity-returned-first",
-    "The pair is the wrong way round: return x first, then v.",
-    velocity_returned_first,
 )
 
 
@@ -331,8 +370,7 @@ known_8b(
 )
 
 
-def midpoint(x: float, v: float, dt: float, force: Force) -> State:
-    return four_samples(x, v, dt, force, weights=(0, 6, 0, 0))
+midpoint = weighed(USUAL, (0, 1, 0, 0))
 
 
 known_8b(
@@ -404,26 +442,6 @@ known_8b(
 # ---------------------------------------------------------------- 8c
 
 
-def four_samples(
-    x: float,
-    v: float,
-    dt: float,
-    force: Force,
-    reach: Sequence[float] = (0.5, 0.5, 1.0),
-    weights: Sequence[float] = (1, 2, 2, 1),
-    moving: float = 1.0,
-) -> State:
-    """RK4 with other dials: how far each sample reaches, what it weighs, whether v is sampled."""
-    accel = polynomial(force)
-    samples: list[State] = [(v, accel(x))]
-    for share in reach:
-        dx, dv = samples[-1]
-        samples.append((v + moving * share * dt * dv, accel(x + share * dt * dx)))
-    for weight, (dx, dv) in zip(weights, samples, strict=True):
-        x, v = x + dt / 6 * weight * dx, v + dt / 6 * weight * dv
-    return x, v
-
-
 def samples_that_lead_on(x: float, v: float, dt: float, force: Force) -> State:
     accel, place, speed = polynomial(force), x, v
     for share, weight in ((0.5, 1), (0.5, 2), (1.0, 2), (0.0, 1)):
@@ -441,7 +459,7 @@ known_8c(
 
 
 def euler_in_x(x: float, v: float, dt: float, force: Force) -> State:
-    _, end = four_samples(x, v, dt, force)
+    _, end = right_models[RK4](x, v, dt, force)
     return x + end * dt, end
 
 
@@ -451,62 +469,25 @@ known_8c(
     euler_in_x,
 )
 known_8c(
-    "equal-weights",
-    "All four samples weigh the same; the two in the middle count twice: 1, 2, 2, 1.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(1.5,) * 4),
-)
-known_8c(
     "weights-are-swapped",
     "The first and the last sample count twice; it is the two in the middle that do: 1, 2, 2, 1.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(2, 1, 1, 2)),
+    weighed(USUAL, (2 / 6, 1 / 6, 1 / 6, 2 / 6)),
     apart=True,
 )
 known_8c(
     "mean-of-both-ends",
     "Only the start and the end are sampled; RK4 takes two samples in the middle as well.",
-    lambda x, v, dt, force: four_samples(
-        x, v, dt, force, reach=(1.0, 1.0, 1.0), weights=(3, 3, 0, 0)
-    ),
-)
-known_8c(
-    "sum-is-not-divided",
-    "The weighted sum is used as it is; the weights 1, 2, 2, 1 add up to 6, so divide by 6.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, weights=(6, 12, 12, 6)),
-)
-known_8c(
-    "last-sample-at-half-step",
-    "The last sample is taken half-way; it belongs to the end of the step.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, reach=(0.5, 0.5, 0.5)),
-)
-known_8c(
-    "middle-samples-at-full-step",
-    "All samples are taken a whole step ahead; the two in the middle belong half-way.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, reach=(1.0, 1.0, 1.0)),
-)
-
-
-def third_is_the_second(x: float, v: float, dt: float, force: Force) -> State:
-    accel = polynomial(force)
-    v1, a1 = v, accel(x)
-    v2, a2 = v + dt / 2 * a1, accel(x + dt / 2 * v1)
-    v4, a4 = v + dt * a2, accel(x + dt * v2)
-    return x + dt / 6 * (v1 + 4 * v2 + v4), v + dt / 6 * (a1 + 4 * a2 + a4)
-
-
-known_8c(
-    "third-sample-repeats-the-second",
-    "The third sample starts from the first again; it must use what the second one found.",
-    third_is_the_second,
+    weighed(WHOLE_STEPS, (1 / 2, 1 / 2, 0, 0)),
 )
 known_8c(
     "velocity-is-not-sampled",
     "Only the acceleration is sampled four times; each sample has a velocity of its own too.",
-    lambda x, v, dt, force: four_samples(x, v, dt, force, moving=0.0),
+    weighed(USUAL, RIGHT_WEIGHTS, tuple((before, 0.0) for before, _ in USUAL)),
 )
 known_8c(
     "step-stays-halved",
     "dt is halved for the samples and stays so: the step covers only half of its time.",
-    lambda x, v, dt, force: four_samples(x, v, dt / 2, force, reach=(1.0, 1.0, 1.0)),
+    lambda x, v, dt, force: weighed(WHOLE_STEPS, RIGHT_WEIGHTS)(x, v, dt / 2, force),
 )
 
 
@@ -542,14 +523,13 @@ for todo, about in (("8a", SEMI_IMPLICIT), ("8b", VERLET), ("8c", RK4)):
                 x, v, seconds, force
             ),
         )
-    if todo != "8a":
-        mistake(
-            todo,
-            about,
-            "velocity-returned-first",
-            "The pair is the wrong way round: return x first, then v.",
-            lambda x, v, dt, force, about=about: right_models[about](x, v, dt, force)[::-1],
-        )
+    mistake(
+        todo,
+        about,
+        "velocity-returned-first",
+        "The pair is the wrong way round: return x first, then v.",
+        lambda x, v, dt, force, about=about: right_models[about](x, v, dt, force)[::-1],
+    )
     mistake(
         todo,
         about,
@@ -633,52 +613,6 @@ known_8b(
 
 # ---------------------------------------------------------------- 8c: other samples, other weights
 
-Source = tuple[int, float]  # the sample that one starts from, and the share of the step
-USUAL: tuple[Source, ...] = ((0, 0.5), (1, 0.5), (2, 1.0))
-
-
-def sampled(
-    x: float,
-    v: float,
-    dt: float,
-    force: Force,
-    sources: Sequence[Source] = USUAL,
-    speeds: Sequence[Source] | None = None,
-) -> tuple[list[State], list[float]]:
-    """Return the four samples, and the places where accel is asked.
-
-    `speeds` are the sources of their velocities, where these are others.
-    """
-    accel = polynomial(force)
-    samples, places = [(v, accel(x))], [x]
-    for (source, share), (other, reach) in zip(sources, speeds or sources, strict=True):
-        speed = v + reach * dt * samples[other][1]
-        dx = [*(each[0] for each in samples), speed][source]
-        places.append(x + share * dt * dx)
-        samples.append((speed, accel(places[-1])))
-    return samples, places
-
-
-def places_of(
-    sources: Sequence[Source], speeds: Sequence[Source] | None = None
-) -> Callable[..., tuple[float, ...]]:
-    return lambda x, v, dt, force: tuple(
-        dict.fromkeys(sampled(x, v, dt, force, sources, speeds)[1])
-    )
-
-
-def weighed(
-    sources: Sequence[Source], weights: Sequence[float], speeds: Sequence[Source] | None = None
-) -> Callable[[float, float, float, Force], State]:
-    def model(x: float, v: float, dt: float, force: Force) -> State:
-        samples = sampled(x, v, dt, force, sources, speeds)[0]
-        for weight, (dx, dv) in zip(weights, samples, strict=True):
-            x, v = x + dt * weight * dx, v + dt * weight * dv
-        return x, v
-
-    return model
-
-
 SAMPLES = "samples of accel"
 truth(
     SAMPLES,
@@ -701,7 +635,7 @@ OTHER_SAMPLES: dict[str, tuple[str, tuple[Source, ...]]] = {
     ),
     "middle-samples-at-full-step": (
         "All samples are taken a whole step ahead; the two in the middle belong half-way.",
-        ((0, 1.0), (1, 1.0), (2, 1.0)),
+        WHOLE_STEPS,
     ),
     "third-sample-repeats-the-second": (
         "The third sample starts from the first again; it must use what the second one found.",
@@ -746,7 +680,6 @@ OTHER_WEIGHTS: dict[str, tuple[str, tuple[tuple[float, ...], ...]]] = {
         ((1 / 5, 2 / 5, 2 / 5, 0.0), (1 / 6, 2 / 6, 2 / 6, 0.0), (1 / 4, 2 / 4, 1 / 4, 0.0)),
     ),
 }
-RIGHT_WEIGHTS = (1 / 6, 2 / 6, 2 / 6, 1 / 6)
 for sample_name, (sample_words, sources) in OTHER_SAMPLES.items():
     mistake("8c", SAMPLES, sample_name, sample_words, places_of(sources))
     known_8c(sample_name, sample_words, weighed(sources, RIGHT_WEIGHTS))
