@@ -18,14 +18,14 @@ import shutil
 import sys
 from pathlib import Path
 
-from experiments.accuracy_tables import make_lines, make_tables
-from experiments.charts import make_charts, round_numbers
+from experiments.accuracy.charts import make_charts, round_numbers
+from experiments.accuracy.piles import choose_settings, study_pile
+from experiments.accuracy.questions import QUESTIONS, dials, families
+from experiments.accuracy.runs import Effort, study_budgets, study_dials
+from experiments.accuracy.smooth import study_energy, study_spring
+from experiments.accuracy.tables import make_lines, make_tables
 from experiments.compiled import time_compiled
 from experiments.figures import draw_figures
-from experiments.piles import choose_settings, study_pile
-from experiments.questions import QUESTIONS, dials, families
-from experiments.runs import Effort, study_budgets, study_dials
-from experiments.smooth import study_energy, study_spring
 from experiments.table import Progress, write_markdown
 
 BALLS, QUICK_BALLS = (40, 200), (40,)  # in piles

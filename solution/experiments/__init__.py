@@ -2,12 +2,11 @@
 
 Programs, each started with python -m experiments.NAME:
     dials         a window: any scene in any engine, with dials to turn
-    leaderboard   every engine on rows of physics (rows, steps, contestants, more_engines, reasons)
+    leaderboard   every engine on rows of physics (rows/)
     effects       the price of each effect of the stable engine (effects_report)
-    compiled      the stable engine as machine code (wheel)
-and accuracy.py in the folder above: what accuracy costs in time (questions, runs, smooth, piles,
-accuracy_tables, charts).
+    compiled      the stable engine as machine code (wheel/)
+and accuracy.py in the folder above: what accuracy costs in time (accuracy/).
 
-They share scenes (plain data), engines (one builder each), measures, opcodes and costs (counting
-and timing), table (printing and writing) and figures.
+They share scenes (plain data), engines/ (a builder for each engine), steps (of varying length),
+measures, opcodes (counting), table (printing and writing) and figures.
 """

@@ -9,8 +9,8 @@ import re
 import textwrap
 from collections import Counter
 
-from .questions import SHARED
-from .runs import FRAMES
+from .accuracy.questions import SHARED
+from .accuracy.runs import FRAMES
 
 FRAME = 1000 / FRAMES  # ms
 NO_MATPLOTLIB = "To draw the figures, install matplotlib: python -m pip install matplotlib"

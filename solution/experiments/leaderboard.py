@@ -12,11 +12,11 @@ import argparse
 import math
 from pathlib import Path
 
-from .contestants import list_contestants
 from .engines import SUBSTEPS
+from .engines.contestants import list_contestants
 from .measures import GaveUp
-from .reasons import find_reason
 from .rows import make_rows
+from .rows.reasons import find_reason
 from .table import Progress, Table, number, write_markdown
 
 BUDGET = 1.0  # ms of each frame

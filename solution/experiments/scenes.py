@@ -1,7 +1,7 @@
 """Every scene of the experiments, as plain data. Lengths in px, times in s, masses in kg, y down.
 
 A scene names the effects it calls for and, where one is known, the exact answer to what is asked
-of it. The builders in engines.py make it for each engine.
+of it. The builders in engines/ make it for each engine.
 """
 
 import math

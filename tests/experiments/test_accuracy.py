@@ -11,11 +11,12 @@ import pytest
 
 import accuracy
 import integrators
-from experiments import accuracy_tables, costs, figures, runs, smooth
-from experiments.charts import make_charts
+from experiments import figures
+from experiments.accuracy import costs, runs, smooth, tables
+from experiments.accuracy.charts import make_charts
+from experiments.accuracy.questions import LESSON, QUESTIONS, STABLE, dials, families
+from experiments.accuracy.runs import Effort
 from experiments.engines import State
-from experiments.questions import LESSON, QUESTIONS, STABLE, dials, families
-from experiments.runs import Effort
 from experiments.scenes import G, drop, find_pendulum_angle, pendulum, pendulum_period
 from experiments.table import BEGIN, END, Table, number, write_markdown
 
@@ -38,7 +39,7 @@ def test_every_method_has_its_order(study):
 
 
 def test_the_handout_has_what_the_integrators_do(study):
-    for name, value in accuracy_tables.list_smooth(study).items():
+    for name, value in tables.list_smooth(study).items():
         assert value == pytest.approx(RECORDED[name], rel=1e-6), name
 
 
@@ -47,7 +48,7 @@ def test_the_handout_has_what_the_integrators_do(study):
     [(2.0, ["2.00", "3.2x"]), (None, ["not reached", "-"]), (0.0, ["0.00", "-"])],
 )
 def test_an_order_is_said_with_what_a_digit_costs(order, said):
-    assert accuracy_tables.say_order(order) == said
+    assert tables.say_order(order) == said
 
 
 def test_after_whole_swings_the_errors_of_semi_implicit_euler_cancel():

@@ -9,11 +9,12 @@ import tomllib
 
 import pytest
 
-from experiments import compiled, piles
+from experiments import compiled
+from experiments.accuracy import piles
+from experiments.accuracy.runs import Effort
 from experiments.compiled import Compiled, build, load, same_bits, sources, use_compiled
 from experiments.engines import ENGINES, Stable
 from experiments.measures import run
-from experiments.runs import Effort
 from experiments.scenes import on_floor
 
 NO_COMPILER = not (shutil.which("cc") or shutil.which("gcc"))

@@ -14,13 +14,13 @@ import pytest
 from conftest import KIT
 
 from experiments import leaderboard, scenes
-from experiments.contestants import Contestant, list_contestants
 from experiments.engines import Lesson, Stable
+from experiments.engines.contestants import Contestant, list_contestants
 from experiments.leaderboard import ask, ask_at_equal_time, count_held, holds, report
 from experiments.measures import GaveUp
-from experiments.reasons import REASONS, find_reason
 from experiments.rows import list_rows, make_rows
 from experiments.rows.frames import Turn, Unit, changed
+from experiments.rows.reasons import REASONS, find_reason
 from experiments.rows.row import Bound, Row
 from experiments.rows.ties import double, reference
 from experiments.scenes import DT, G
@@ -258,7 +258,7 @@ def test_an_engine_falls_rolls_and_swings_as_the_others_do(name):
 UNFINISHED = """
 from functools import partial
 from experiments import leaderboard
-from experiments.contestants import list_contestants
+from experiments.engines.contestants import list_contestants
 from experiments.rows import list_rows
 lesson = list_contestants()[0][0]
 leaderboard.PATIENCE = 0.5

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from experiments.piles import choose_settings, settle_pile
-from experiments.questions import (
+from experiments.accuracy.piles import choose_settings, settle_pile
+from experiments.accuracy.questions import (
     LESSON,
     QUESTIONS,
     STABLE,
@@ -20,7 +20,7 @@ from experiments.questions import (
     families,
     measure_overlap,
 )
-from experiments.runs import EXACT, Effort, run_setting
+from experiments.accuracy.runs import EXACT, Effort, run_setting
 
 HANDOUTS = Path(__file__).parents[2] / "handouts"
 LINES: dict[str, Any] = json.loads((HANDOUTS / "results.json").read_text("utf-8"))["accuracy.md"]

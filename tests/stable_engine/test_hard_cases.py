@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from samples import sample
 from worlds_for_tests import build, dumbbell
 
-from experiments.contestants import Contestant
 from experiments.engines import Stable
+from experiments.engines.contestants import Contestant
 from experiments.leaderboard import ask, holds
 from experiments.measures import energy, run, speed, watch
-from experiments.reasons import find_reason
 from experiments.rows import list_rows
+from experiments.rows.reasons import find_reason
 from experiments.scenes import (
     BULLETS,
     DT,

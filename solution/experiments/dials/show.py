@@ -12,7 +12,9 @@ import pygame
 
 from mini_engine import ITERATIONS, MAX_STEPS, STEP
 
-from ..engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
+from ..engines import ENGINES, SUBSTEPS, Stable
+from ..engines.box2d import PASSES as BOX2D_PASSES
+from ..engines.chipmunk import PASSES
 from ..measures import deepest_overlap, energy, finite, states, worst_stretch
 from ..scenes import NAMED, NEED_CONTACTS, Ball
 
@@ -35,7 +37,7 @@ EFFECT_KEYS = {
     "U": "Bullets",
     "Z": "Sleep",
 }
-CANNOT = {  # what each builder in engines.py leaves out
+CANNOT = {  # what each builder in engines/ leaves out
     "lesson": ("Springs", "Bullets", "Sleep"),
     "stable": (),
     "pymunk": ("Bullets", "Sleep"),
@@ -110,9 +112,9 @@ class Show:
         self.motion = self.begun_with + self.begun_at
 
     def complaint(self):
-        """Return the complaint about an effect that the scene needs and that is switched off."""
+        """Return the stable engine's complaint about an effect that is needed and switched off."""
         called_for = [f"calls for {name}()" for name in self.scene.effects]
-        for sentence in self.engine.complaints:
+        for sentence in Stable(self.engine.scene).complaints:
             if any(words in sentence for words in called_for):
                 return sentence.partition(":")[0] + "."
         return ""

@@ -4,8 +4,8 @@ import math
 from dataclasses import asdict, dataclass, replace
 from itertools import count
 
+from ..measures import finite
 from .costs import opcodes_per_second, repeated_times, spread, time_slice
-from .measures import finite
 from .questions import LESSON, QUESTIONS, dials, families
 
 EXACT = 1e-9  # errors below this are all the same

@@ -3,13 +3,13 @@
 import math
 from dataclasses import replace
 
-from .compiled import Compiled
+from ..compiled import Compiled
+from ..engines import Stable
+from ..measures import run
+from ..scenes import pile
 from .costs import shares
-from .engines import Stable
-from .measures import run
 from .questions import COMPILED, LESSON, PYMUNK, STABLE, Question, measure_overlap
 from .runs import add_times, run_setting
-from .scenes import pile
 
 SETTLE = 6.0  # s
 SETTLE_RATE, SETTLE_SUBSTEPS = 60, 8

@@ -4,7 +4,7 @@ import gc
 import time
 from statistics import median
 
-from .opcodes import count_opcodes
+from ..opcodes import count_opcodes
 
 SLICE = 1 / 30  # simulated s: whole steps at every rate, and short, to fit between other programs
 COUNTED = 2  # steps whose opcodes are counted

@@ -1,4 +1,4 @@
-// Run scenes in Rapier and planck: a line of JSON asks, a line of JSON answers. See more_engines.py.
+// Run scenes in Rapier and planck: a line of JSON asks, a line of JSON answers. See npm.py.
 "use strict";
 
 const load = (name) => {

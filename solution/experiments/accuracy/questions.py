@@ -7,10 +7,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import partial
 
-from .compiled import Compiled
-from .engines import BOX2D_PASSES, ENGINES, PASSES, SUBSTEPS
-from .measures import deepest_overlap, energy_height, run, watch, worst_stretch
-from .scenes import chain, drop, find_pendulum_angle, pendulum, stack, tower
+from ..compiled import Compiled
+from ..engines import ENGINES, SUBSTEPS
+from ..engines.box2d import PASSES as BOX2D_PASSES
+from ..engines.chipmunk import PASSES
+from ..measures import deepest_overlap, energy_height, run, watch, worst_stretch
+from ..scenes import chain, drop, find_pendulum_angle, pendulum, stack, tower
 
 LAUNCHED = 1.0  # px: a ball that rises by more was thrown, and did not sink
 RATE = 120  # steps per second, of the lesson

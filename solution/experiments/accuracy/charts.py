@@ -9,10 +9,10 @@ on which the time of one frame is marked, if any.
 import math
 from statistics import median
 
-from .accuracy_tables import name_engine
 from .questions import LESSON
 from .runs import EXACT, is_number
 from .smooth import ENERGY_CALLS
+from .tables import name_engine
 
 FRAME_TIME = "time per frame of 1/60 s (ms)"
 WORK = "work (the engine as it is: 1)"

@@ -4,10 +4,10 @@ A line has a name and one number, or a word. A range is two lines, least and mos
 the lines of a full one that it measured.
 """
 
+from ..table import Table, as_range, number, span
 from .questions import plural
 from .runs import EXACT, FRAMES, is_number
 from .smooth import ENERGY_CALLS, ENERGY_ROUNDS
-from .table import Table, as_range, number, span
 
 SHOWN_AS = {"compiled": "stable compiled"}
 SUBSTEPPED = ("stable", "compiled")

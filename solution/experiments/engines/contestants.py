@@ -5,9 +5,10 @@ from functools import partial
 
 import pymunk
 
-from . import compiled
-from .engines import SUBSTEPS, Box2D, Box2d, Lesson, Pymunk, Stable
-from .more_engines import NODE, Box2d3, Planck, Rapier, pyb2d3
+from .. import compiled
+from . import SUBSTEPS, Lesson, Pymunk, Stable
+from .box2d import Box2D, Box2d, Box2d3, pyb2d3
+from .npm import NODE, Planck, Rapier
 
 # make(scene, substeps) builds the scene. lacks: what it does not have. its_own: the substeps that
 # it takes where all others take the same number of them; None for that number.

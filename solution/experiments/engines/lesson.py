@@ -1,0 +1,58 @@
+"""The lesson's engine: the one in this folder, yours."""
+
+from pygame import Vector2
+
+import mini_engine
+from mini_engine import ITERATIONS
+
+from ..scenes import Ball
+from .builder import Builder, State, Touch
+
+
+class Lesson(Builder):
+    """The lesson's engine: the one in this folder, yours. It has no springs."""
+
+    name = "lesson"
+
+    def __init__(self, scene, passes=ITERATIONS, substeps=1):
+        self.scene, self.substeps = scene, substeps
+        rates = scene.damping if "Damping" in scene.effects else (0.0, 0.0)
+        self.world = mini_engine.World(scene.gravity, *rates)
+        self.world.iterations = passes
+        self.fill()
+
+    def add(self, data):
+        return self.world.add(self.body(data))
+
+    def rod(self, a, b):
+        rod = mini_engine.DistanceJoint(self.bodies[a], self.bodies[b])
+        self.world.joints.append(rod)
+
+    def spring(self, s):
+        """Leave out a spring: this engine has none."""
+
+    def body(self, data):
+        effects = self.scene.effects
+        friction = data.friction if "Friction" in effects else 0.0
+        restitution = data.restitution if "Bounce" in effects else 0.0
+        if not isinstance(data, Ball):
+            shape = mini_engine.Box(Vector2(data.half))
+            return mini_engine.Body(shape, data.pos, 0.0, restitution, friction)
+        shape = mini_engine.Circle(data.radius)
+        body = mini_engine.Body(shape, data.pos, data.mass, restitution, friction)
+        body.vel, body.omega = Vector2(data.vel), data.omega
+        return body
+
+    def step(self, dt):
+        for _ in range(self.substeps):
+            self.world.step(dt / self.substeps)
+
+    def read(self, i):
+        body = self.bodies[i]
+        return State(*body.pos, *body.vel, body.angle, body.omega)
+
+    def throw(self, i, velocity):
+        self.bodies[i].vel = Vector2(velocity)
+
+    def touches(self):
+        return [Touch(*c.point, *c.normal, c.jn) for c in self.world.contacts]
