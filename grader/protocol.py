@@ -367,14 +367,18 @@ class Missing(Struct, frozen=True, tag="missing"):
 
 
 class ContactRow(Struct, frozen=True, array_like=True):
-    a: int
-    b: int
+    """A contact in short: its point, the unit normal from A to B, the overlap, the impulses."""
+
+    x: float
+    y: float
     nx: float
     ny: float
-    depth: float
-    jn: float
+    depth: float  # px
+    jn: float  # kg px/s
     jt: float
-    limit: float  # sqrt(mu_a mu_b) * jn as the bodies' friction gives it
+    limit: float  # of jt: sqrt(mu_a mu_b) * jn
+    a: int  # the ref of body A
+    b: int
 
 
 class Simulated(Struct, frozen=True, tag="simulated"):
@@ -438,29 +442,13 @@ class BodyRow(Struct, frozen=True, array_like=True):
     omega: float
 
 
-class TouchRow(Struct, frozen=True, array_like=True):
-    """A contact: its point, the unit normal from A to B, the overlap in px, the impulses so far.
-
-    `limit` is what friction may come to, kg px/s.
-    """
-
-    x: float
-    y: float
-    nx: float
-    ny: float
-    depth: float
-    jn: float
-    jt: float
-    limit: float = 0.0
-
-
 class Moment(Struct, frozen=True, array_like=True):
     """One recorded state of the bodies."""
 
     time: float  # s, since the request began
     steps: int  # that have run since then
     bodies: Annotated[list[BodyRow], PRESENT]
-    touches: Annotated[list[TouchRow], PRESENT]
+    touches: Annotated[list[ContactRow], PRESENT]
     rods: Annotated[list[tuple[float, float, float, float]], PRESENT]  # from x, y to x, y
 
 
@@ -528,10 +516,8 @@ class End(Struct, frozen=True, tag="end"):
 
 
 class Ended(Struct, frozen=True):
-    how: Literal["exit", "signal"]
-    code: int
-    cpu: float  # s, of processor time that it used
-    strays: int  # processes that had to be ended besides the child
+    status: int  # the exit status; a signal is negative
+    cpu: float  # s of processor time used
 
 
 # ---------------------------------------------------------------- the wire

@@ -406,7 +406,7 @@ class WarmWorker:
             self._kill()
             return None
         child.cpu = ended.cpu
-        return -ended.code if ended.how == "signal" else ended.code
+        return ended.status
 
     def _hear(self) -> bytes:
         """Return what the warm process says; one that a child has stopped is not waited for."""

@@ -11,7 +11,7 @@ from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 
 from grader.worker import standin
-from grader.worker.subject import ContractError
+from grader.worker.values import ContractError
 
 try:
     from resource import RUSAGE_SELF, RUSAGE_THREAD, getrusage

@@ -29,15 +29,15 @@ from grader.protocol import (
     Returned,
     Simulate,
     Simulated,
-    SpaceBody,
     cut,
 )
-from grader.worker.output import Output
-from grader.worker.recorder import Recorder, lesson_state
-from grader.worker.scripted import PlayOver, ScriptedClock
+from grader.worker.recorder import Recorder
+from grader.worker.scripted import PlayOver
+from grader.worker.session import Session
 from grader.worker.standin import plain_function, put_in_place
 from grader.worker.start import start
-from grader.worker.subject import ContractError, Subject, as_pair, field, field_number, field_pair
+from grader.worker.subject import Subject
+from grader.worker.values import ContractError, field, field_number, read_ends, read_state
 
 
 class Runaway(BaseException):
@@ -102,7 +102,7 @@ class StepCounter:
             self.inside = False
         self.on_step()
         if self.trail_every and self.total % self.trail_every == 0:
-            self.trail.append(moving_state(world))
+            self.trail.append(moving_states(world))
         if self.in_frame >= RUNAWAY:
             raise Runaway
         return result
@@ -142,15 +142,14 @@ def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Retu
     return Returned(value, steps=counter.in_frame, dts=counter.dts)
 
 
-def play(
-    subject: Subject, clock: ScriptedClock, output: Output, recorder: Recorder, request: Play
-) -> Played:
-    """Run a program on a scripted clock, and tell what it did in each frame.
+def play(session: Session, request: Play) -> Played:
+    """Run a program on a scripted clock, and return what it did in each frame.
 
-    It should end as a person would end it: by the frame budget in LAB_FRAMES, which lab_runtime
-    reads, or by the QUIT event after the last frame. What still runs some frames later is stopped.
-    The last entry of each list is for what came after the last frame.
+    It ends by the frame budget in LAB_FRAMES, which lab_runtime reads, or by the QUIT event after
+    the last frame. A program that runs on some frames later is stopped. The last entry of each list
+    covers the time after the last frame.
     """
+    subject, clock, recorder = session.subject, session.clock, session.recorder
     in_pymunk = request.module == "pymunk_scene"
     owner = pymunk.Space if in_pymunk else subject.find(f"{request.module}:World")
     counter = StepCounter(owner, request.physics, request.trail_every)
@@ -169,7 +168,7 @@ def play(
         recorder.record(clock.elapsed / 1000, counter.total)
 
     os.environ["LAB_FRAMES"] = str(len(request.frames))
-    output.take()
+    session.output.take()
     clock.start(request.frames, request.events, frame_over)
     window = Window(request.pictures, request.photos)
     recorder.watch_worlds(owner, len(request.frames) + 1)
@@ -191,7 +190,7 @@ def play(
         clock=times,
         dts=counter.dts,
         ended=ended,
-        lines=[cut(each, MAX_TEXT) for each in output.so_far().splitlines()[-MAX_LINES:]],
+        lines=[cut(each, MAX_TEXT) for each in session.output.so_far().splitlines()[-MAX_LINES:]],
         bodies=all_bodies(subject, counter.last),
         rods=rod_lengths(counter.last),
         trail=counter.trail,
@@ -256,39 +255,35 @@ def all_bodies(subject: Subject, world: Any) -> list[Any]:
     return [subject.body(body) for body in getattr(world, "bodies", [])]
 
 
-def moving_state(world: Any) -> list[float]:
-    """x, y, vx, vy, angle, omega of every body that can move."""
-    row: list[float] = []
-    for body in field(world, "bodies"):
-        if isinstance(body, pymunk.Body):
-            row += [*body.position, *body.velocity, body.angle, body.angular_velocity]
-        elif body.inv_mass:
-            row += lesson_state(body)
-    return row
+def moving_states(world: Any) -> list[float]:
+    """Return x, y, vx, vy, angle, omega of every body that can move."""
+    bodies = field(world, "bodies")
+    return [
+        number
+        for body in bodies
+        if isinstance(body, pymunk.Body) or body.inv_mass
+        for number in read_state(body)
+    ]
 
 
 def rod_lengths(world: Any) -> list[tuple[float, float]]:
-    """Return the distance now and the length meant of every distance joint, px."""
+    """Return the present and the intended length of every distance joint, px."""
     if isinstance(world, pymunk.Space):
-        found = []
-        for joint in world.constraints:
-            if isinstance(joint, PinJoint):
-                begin = joint.a.local_to_world(joint.anchor_a)
-                end = joint.b.local_to_world(joint.anchor_b)
-                found.append(((end - begin).length, joint.distance))
-        return found
-    found = []
-    for joint in getattr(world, "joints", []):
-        if hasattr(joint, "length"):
-            a, b = field_pair(joint.a, "pos"), field_pair(joint.b, "pos")
-            found.append((math.hypot(b.x - a.x, b.y - a.y), field_number(joint, "length")))
-    return found
+        pins = [each for each in world.constraints if isinstance(each, PinJoint)]
+        lengths = [joint.distance for joint in pins]
+    else:
+        pins = [each for each in getattr(world, "joints", []) if hasattr(each, "length")]
+        lengths = [field_number(joint, "length") for joint in pins]
+    ends = map(read_ends, pins)
+    return [
+        (math.dist(each[:2], each[2:]), length) for each, length in zip(ends, lengths, strict=True)
+    ]
 
 
 def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulated:
-    """Step a world; record the watched bodies (and contacts) at regular numbers of steps.
+    """Step a world; record the watched bodies, and contacts if wanted, every so many steps.
 
-    The watched bodies are read one by one, not through the world, whose own list may be wrong.
+    The watched bodies are read one by one: the world's own list may be wrong.
     """
     world = subject.objects[request.ref]
     watched = [subject.objects[ref] for ref in request.watch]
@@ -300,34 +295,7 @@ def simulate(subject: Subject, recorder: Recorder, request: Simulate) -> Simulat
         recorder.record(number * request.dt, number)
         if number % request.every:
             continue
-        row: list[float] = []
-        for body in watched:
-            if isinstance(body, pymunk.Body):
-                state: SpaceBody = subject.space_body(body)
-                row += [*state.pos, *state.vel, state.angle, state.omega]
-            else:
-                row += lesson_state(body)
-        frames.append(row)
+        frames.append([number for body in watched for number in read_state(body)])
         if request.contacts:
-            contacts.append([contact_row(subject, each) for each in field(world, "contacts")])
+            contacts.append([subject.contact_row(each) for each in field(world, "contacts")])
     return Simulated(frames, contacts)
-
-
-def contact_row(subject: Subject, contact: Any) -> ContactRow:
-    """Return one contact, with the limit of its friction by both bodies."""
-    a, b = field(contact, "a"), field(contact, "b")
-    friction = field_number(a, "friction") * field_number(b, "friction")
-    normal = as_pair(field(contact, "normal"))
-    if normal is None:
-        raise ContractError("Contact.normal is not a pair of numbers")
-    jn = field_number(contact, "jn")
-    return ContactRow(
-        subject.ref(a),
-        subject.ref(b),
-        normal.x,
-        normal.y,
-        field_number(contact, "depth"),
-        jn,
-        field_number(contact, "jt"),
-        math.sqrt(max(friction, 0.0)) * jn,
-    )

@@ -10,7 +10,6 @@ from contextlib import suppress
 from itertools import islice
 from typing import Any
 
-import msgspec
 import pymunk
 
 from grader.protocol import (
@@ -24,21 +23,19 @@ from grader.protocol import (
     Record,
     Reply,
     ShapeLook,
-    TouchRow,
     WithMoments,
 )
-from grader.worker.subject import Subject, field, field_number, field_pair, refs_in, shape_order
+from grader.worker.subject import Subject, refs_in
+from grader.worker.values import (
+    field,
+    field_number,
+    field_pair,
+    read_ends,
+    read_state,
+    shape_order,
+)
 
 MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
-
-Ends = tuple[float, float, float, float]
-
-
-def lesson_state(body: Any) -> list[float]:
-    """x, y, vx, vy, angle, omega of a body of the lesson's engine."""
-    pos, vel = field_pair(body, "pos"), field_pair(body, "vel")
-    turning = field_number(body, "angle"), field_number(body, "omega")
-    return [pos.x, pos.y, vel.x, vel.y, *turning]
 
 
 class Recorder:
@@ -146,7 +143,7 @@ class Recorder:
             for body in (thing.static_body, *thing.bodies):
                 self._append(moment.bodies, MAX_BODIES, self._body, body)
             for joint in thing.constraints:
-                self._append(moment.rods, MAX_RODS, pymunk_rod, joint)
+                self._append(moment.rods, MAX_RODS, read_ends, joint)
         elif hasattr(thing, "bodies") and hasattr(thing, "joints"):
             for name in ("bodies", "joints", "springs", "contacts"):
                 for each in islice(getattr(thing, name, ()), MAX_TOUCHES):
@@ -159,9 +156,9 @@ class Recorder:
         if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
             self._append(moment.bodies, MAX_BODIES, self._body, thing)
         elif hasattr(thing, "normal"):
-            self._append(moment.touches, MAX_TOUCHES, touch, thing)
+            self._append(moment.touches, MAX_TOUCHES, self.subject.contact_row, thing)
         elif hasattr(thing, "length") and hasattr(thing, "a"):
-            self._append(moment.rods, MAX_RODS, lesson_rod, thing)
+            self._append(moment.rods, MAX_RODS, read_ends, thing)
 
     def _append(
         self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any
@@ -183,11 +180,7 @@ class Recorder:
             look = self._look_of(body)
             self.numbers[id(body)], self.bodies[number] = number, body
             self.looks[number] = look
-        if isinstance(body, pymunk.Body):
-            state = [*body.position, *body.velocity, body.angle, body.angular_velocity]
-        else:
-            state = lesson_state(body)
-        return BodyRow(number, *state)
+        return BodyRow(number, *read_state(body))
 
     def _look_of(self, body: Any) -> BodyLook:
         """Return what does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
@@ -223,26 +216,3 @@ def pymunk_shape(shape: pymunk.Shape) -> ShapeLook:
         case _:
             points = []
     return ShapeLook([(x, y) for x, y in points], float(getattr(shape, "radius", 0.0)))
-
-
-def touch(contact: Any) -> TouchRow:
-    """Return a contact of the lesson's engine."""
-    point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
-    rest = (field_number(contact, name) for name in ("depth", "jn", "jt"))
-    row = TouchRow(point.x, point.y, normal.x, normal.y, *rest)
-    with suppress(Exception):  # what two surfaces have is not always there
-        ends = field(contact, "a"), field(contact, "b")
-        friction = math.sqrt(math.prod(field_number(each, "friction") for each in ends))
-        row = msgspec.structs.replace(row, limit=friction * row.jn)
-    return row
-
-
-def lesson_rod(joint: Any) -> Ends:
-    """Return the two ends of a joint or spring of the lesson's engine, px."""
-    a, b = (field_pair(field(joint, end), "pos") for end in ("a", "b"))
-    return a.x, a.y, b.x, b.y
-
-
-def pymunk_rod(joint: Any) -> Ends:
-    """Return the two ends of a pymunk constraint with anchors, px."""
-    return *joint.a.local_to_world(joint.anchor_a), *joint.b.local_to_world(joint.anchor_b)

@@ -12,7 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import CodeType, ModuleType
 
-from grader.worker.subject import ContractError, Subject
+from grader.worker.subject import Subject
+from grader.worker.values import ContractError
 
 
 def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:

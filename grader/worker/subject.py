@@ -1,9 +1,7 @@
-"""Hold the submission inside a child: its modules and objects, and both as plain values.
+"""Hold the submission inside a child: import it, make and find its objects, describe them.
 
-Coming in, values are trusted: the judge sent them. Going out, nothing is: a submission may return
-a subclass of float that lies when compared, a list without end, or a world with a field missing. So
-every value is rebuilt here from the built-in types, in px, px/s, rad, rad/s, kg and kg px², and
-the judge decodes it strictly once more.
+Values from the judge are trusted. Values of the submission are rebuilt by values.py, in px, px/s,
+rad, rad/s, kg and kg px², and the judge decodes them strictly once more.
 """
 
 import importlib
@@ -31,6 +29,7 @@ from grader.protocol import (
     BodyValue,
     Call,
     CodeLine,
+    ContactRow,
     ContactValue,
     Integrate,
     Items,
@@ -50,33 +49,34 @@ from grader.protocol import (
 )
 from grader.worker.memory import Memory
 from grader.worker.standin import fitted, plain_function, put_in_place
+from grader.worker.values import (
+    ContractError,
+    as_number,
+    as_pair,
+    field,
+    field_number,
+    field_pair,
+    shape_order,
+    type_name,
+)
 
 MAX_ITEMS = 1000  # entries of a returned list
-LARGEST_INT = 2**53
 REFERENCE = "<reference>"  # the file name of functions that stand in
 
 
-class ContractError(Exception):
-    """The submission lacks something that the lab sheet asks for, or has it in another type.
-
-    The message is for the student.
-    """
-
-
 class Subject:
-    """Imports the submission and hands out numbered references to its objects.
+    """The submission's modules and objects; the judge knows an object by its number.
 
-    Objects stay in this process; the judge sees numbers only. They are kept as long as the child
-    lives, so that an id() belongs to one object.
+    Objects live as long as the child, so that an id() belongs to one object.
     """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.objects: dict[int, Any] = {}  # by reference number, in the order they came up
-        self.refs: dict[int, int] = {}  # reference numbers by id() of the object
-        self.memory: Memory | None = None  # of how it was after the import
-        self.counters: dict[type, Any] = {}  # of the steps of worlds that are not to be run
-        # What the submission's functions take for a pair of numbers.
+        self.objects: dict[int, Any] = {}  # by number, in the order of their numbering
+        self.refs: dict[int, int] = {}  # numbers by id() of the object
+        self.memory: Memory | None = None  # the state after the import
+        self.counters: dict[type, Any] = {}  # count steps of worlds that must not run
+        # The type of a pair of numbers in calls of the submission's functions.
         self.pair_type: Callable[[float, float], Any] = pygame.Vector2
         sys.path.insert(0, str(folder))
         sys.argv[:] = [""]
@@ -96,10 +96,7 @@ class Subject:
             self.swap(piece)
 
     def find(self, target: str) -> Any:
-        """Return what a target names: module:path, or #ref.path for an object.
-
-        Raises ContractError.
-        """
+        """Find a target: module:path, or #ref.path for an object. Raises ContractError."""
         if target.startswith("#"):
             ref, _, path = target[1:].partition(".")
             thing, label = self.objects[int(ref)], f"{type(self.objects[int(ref)]).__name__}.{path}"
@@ -114,9 +111,9 @@ class Subject:
         return thing
 
     def module_with(self, name: str, module: str) -> types.ModuleType:
-        """Return the module; of a package that does not export the name, the submodule that has it.
+        """Return the module, or the submodule with this name if the package does not export it.
 
-        The lab sheet fixes names, and leaves students free to move them between files.
+        The lab sheet fixes names; students may move them between files.
         """
         whole = sys.modules.get(module)
         if whole is None:
@@ -127,10 +124,9 @@ class Subject:
         return next((each for each in parts if name in vars(each)), whole)
 
     def swap(self, piece: Piece) -> None:
-        """Put the reference's function in the place of the submission's, for all who hold it.
+        """Replace a function of the submission by the reference's, so that only one TODO counts.
 
-        So an unfinished TODO costs no points in another one. Left alone when the submission has no
-        such function, or one that is called otherwise.
+        Does nothing if the submission has no such function, or one with other parameters.
         """
         try:
             original = plain_function(self.find(piece.target))
@@ -143,16 +139,14 @@ class Subject:
             put_in_place(original, wanted)
 
     def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
-        """Return whether one function of the submission is both: the other TODO's, and the one
-        asked.
-        """
+        """Return whether this is also the function that the check is about."""
         try:
             return bool(piece.asked) and plain_function(self.find(piece.asked)) is original
         except ContractError:
             return False
 
     def _build(self, piece: Piece, original: types.FunctionType) -> Callable[..., Any]:
-        """Return the reference's function, compiled to use the submission's names."""
+        """Compile the reference's function so that it uses the submission's names."""
         namespace: dict[str, Any] = {"__name__": "reference"}
         exec(compile(piece.imports, REFERENCE, "exec"), namespace)
         exec(compile(piece.source, REFERENCE, "exec"), namespace)
@@ -181,13 +175,11 @@ class Subject:
         return argument
 
     def integrate(self, request: Integrate) -> Items:
-        """Return what the integrator answers, step by step, as far as each is a state to go on
-        from.
-        """
+        """Call an integrator step by step, as long as it returns finite pairs."""
         method, accel = self.find(request.target), polynomial(request.force)
-        places: list[Value] = []
+        positions: list[Value] = []
         if request.places:
-            accel = noting(accel, places)
+            accel = record_positions(accel, positions)
         x, v = request.x, request.v
         answers: list[Value] = []
         for _ in range(request.steps):
@@ -196,7 +188,7 @@ class Subject:
             if not isinstance(answer, Vec) or not all(map(math.isfinite, answer)):
                 break
             x, v = map(float, answer)
-        return Items(places if request.places else answers)
+        return Items(positions if request.places else answers)
 
     def make_body(self, request: MakeBody) -> Any:
         """Return a body of the lesson's engine in one request: most checks make many."""
@@ -211,8 +203,8 @@ class Subject:
         return body
 
     def make_world(self, request: MakeWorld) -> Any:
-        known = vars(self.module_with("BonusWorld", request.module))
-        kind = "BonusWorld" if request.bonus and "BonusWorld" in known else "World"
+        names = vars(self.module_with("BonusWorld", request.module))
+        kind = "BonusWorld" if request.bonus and "BonusWorld" in names else "World"
         world = self.find(f"{request.module}:{kind}")(
             gravity=self.decode(request.gravity),
             linear_damping=request.linear_damping,
@@ -227,23 +219,22 @@ class Subject:
     # ------------------------------------------------------------ values out
 
     def ref(self, thing: Any) -> int:
-        """Return the number of an object, a new one at first sight."""
+        """Return the number of an object; a new object gets one."""
         number = self.refs.get(id(thing))
         if number is None:
             number = self.refs[id(thing)] = len(self.objects) + 1
             self.objects[number] = thing
         return number
 
-    def called(self, ref: int, thing: Any) -> Any:
-        """Return the same thing, which goes by a number that the judge has given it."""
+    def number(self, ref: int, thing: Any) -> Value:
+        """Give an object the number that the judge chose, and describe it."""
         self.objects[ref], self.refs[id(thing)] = thing, ref
-        return thing
+        return self.encode(thing)
 
     def encode(self, thing: Any) -> Value:
-        """Return what the submission returned, as a plain value; what is none of these becomes a
-        Ref.
+        """Return an object of the submission as a plain value; of an unknown type, as a Ref.
 
-        Raises ContractError where a body or contact lacks a field or has it in another type.
+        Raises ContractError if a body or contact lacks a field or has it in another type.
         """
         if thing is None or isinstance(thing, bool):
             return thing
@@ -267,7 +258,7 @@ class Subject:
         return Ref(self.ref(thing), type_name(thing))
 
     def state(self, ref: int) -> Value:
-        """Return an object as a plain value; None if it has none: the caller must check."""
+        """Return an object as a plain value; None if it cannot be described."""
         try:
             return self.encode(self.objects[ref])
         except Exception:
@@ -300,8 +291,27 @@ class Subject:
             field_number(contact, "jt"),
         )
 
+    def contact_row(self, contact: Any) -> ContactRow:
+        """Return a contact of the lesson's engine in short, with the limit of its friction."""
+        a, b = field(contact, "a"), field(contact, "b")
+        friction = field_number(a, "friction") * field_number(b, "friction")
+        point, normal = field_pair(contact, "point"), field_pair(contact, "normal")
+        jn = field_number(contact, "jn")
+        return ContactRow(
+            point.x,
+            point.y,
+            normal.x,
+            normal.y,
+            field_number(contact, "depth"),
+            jn,
+            field_number(contact, "jt"),
+            math.sqrt(max(friction, 0.0)) * jn,
+            self.ref(a),
+            self.ref(b),
+        )
+
     def space(self, space: pymunk.Space) -> SpaceValue:
-        """Return all that stands in a pymunk space, the static body first."""
+        """Return the bodies and joints of a pymunk space, the static body first."""
         return SpaceValue(
             self.ref(space),
             Vec(*space.gravity),
@@ -353,13 +363,12 @@ class Subject:
             (joint.min, joint.max) if isinstance(joint, SlideJoint) else None,
         )
 
-    # ------------------------------------------------------------ what went wrong
+    # ------------------------------------------------------------ errors
 
     def raised(self, error: BaseException) -> Raised:
-        """Return an exception as data, with the submission's own frames only; the reference's stay
-        hidden.
+        """Return an exception as data, with the frames of the submission alone.
 
-        The text is untrusted: its __str__ may fail or be long, and it may quote anything.
+        Its __str__ is the submission's: it may fail, be long, or quote anything.
         """
         root = str(self.folder)
         frames = [
@@ -385,9 +394,9 @@ class Subject:
 
 
 def set_inverses(body: Any, request: MakeBody) -> None:
-    """Give a body the inverse mass and inertia of a full disc, or of a static one with mass 0.
+    """Set the inverse mass and inertia of a full disc; both 0 for a box or mass 0.
 
-    Checks are not about the constructor. What is right by rounding stays as the submission has it.
+    Checks are not about the constructor. A value that is right but for rounding stays.
     """
     right = {"inv_mass": 0.0, "inv_inertia": 0.0}
     if request.mass and not isinstance(request.size, Vec):
@@ -395,17 +404,12 @@ def set_inverses(body: Any, request: MakeBody) -> None:
     for name, value in right.items():
         own = getattr(body, name, value)
         if isinstance(own, numbers.Real) and not math.isclose(own, value, rel_tol=1e-9):
-            with suppress(AttributeError):  # it is worked out each time
+            with suppress(AttributeError):  # a property, computed each time
                 setattr(body, name, value)
 
 
-def type_name(thing: Any) -> str:
-    """Return what a thing calls its type; a submission may have given it any name."""
-    return cut(type(thing).__name__, MAX_NAME)
-
-
 def polynomial(coefficients: list[float]) -> Callable[..., float]:
-    """accel(x) for an integrator, from its coefficients, lowest power first."""
+    """Return accel(x) for an integrator, from its coefficients, lowest power first."""
 
     def accel(x: float) -> float:
         total = 0.0
@@ -416,87 +420,20 @@ def polynomial(coefficients: list[float]) -> Callable[..., float]:
     return accel
 
 
-def noting(accel: Callable[..., float], places: list[Value]) -> Callable[..., float]:
-    """Return the same, and the first places at which it is asked are noted."""
+def record_positions(accel: Callable[..., float], positions: list[Value]) -> Callable[..., float]:
+    """Return accel(x) that also appends the first positions at which it is called."""
 
-    def noted(x: float, *others: Any) -> float:
-        if len(places) < MAX_ITEMS:
-            places.append(as_number(x, "what accel is asked about"))
+    def recorded(x: float, *others: Any) -> float:
+        if len(positions) < MAX_ITEMS:
+            positions.append(as_number(x, "what accel is asked about"))
         return accel(x, *others)
 
-    return noted
+    return recorded
 
 
 def refs_in(request: Call) -> list[int]:
-    """Return the objects that a call is given, its own among them."""
-    given = [each.id for each in (*request.args, *request.kwargs.values()) if isinstance(each, Ref)]
+    """Return the numbers of the objects among a call's arguments, and of the one it belongs to."""
+    arguments = (*request.args, *request.kwargs.values())
+    refs = [each.id for each in arguments if isinstance(each, Ref)]
     own = request.target[1:].partition(".")[0] if request.target.startswith("#") else ""
-    return [*given, *([int(own)] if own else [])]
-
-
-def shape_order(shape: pymunk.Shape) -> tuple[float, float]:
-    """Return the key that sorts shapes from left to right, then upwards."""
-    box = shape.cache_bb()
-    return box.left, box.bottom
-
-
-def field(thing: Any, name: str) -> Any:
-    """Return an attribute. Raises ContractError, so that a missing one is told in words."""
-    try:
-        return getattr(thing, name)
-    except AttributeError:
-        raise ContractError(f"{type_name(thing)} has no {name}") from None
-
-
-def field_number(thing: Any, name: str) -> float:
-    """Return an attribute as a number."""
-    value = field(thing, name)
-    if type(value) is float:  # most are, and most of what a child does is this
-        return value
-    return as_number(value, f"{type_name(thing)}.{name}")
-
-
-def field_pair(thing: Any, name: str) -> Vec:
-    """Return an attribute as a pair of numbers."""
-    value = field(thing, name)
-    pair = as_pair(value)
-    if pair is None:
-        raise ContractError(
-            f"{type_name(thing)}.{name} is {describe(value)}; expected a Vector2 or a pair"
-        )
-    return pair
-
-
-def as_number(value: Any, what: str) -> float:
-    """Return a true int or float, rebuilt from whatever number-like thing the submission made of
-    it.
-
-    `int.__int__` and `float.__float__` read the value itself: a subclass may override both.
-    Raises ContractError for anything but a number; a bool is none.
-    """
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise ContractError(f"{what} is {describe(value)}; expected a number")
-    if isinstance(value, int) and abs(int.__int__(value)) <= LARGEST_INT:
-        return int.__int__(value)
-    try:
-        return float.__float__(value) if isinstance(value, float) else float(value)
-    except OverflowError:
-        return math.inf
-
-
-def as_pair(value: Any) -> Vec | None:
-    """Return a pair of numbers from any sequence of two; None if it is not one."""
-    if type(value) is pygame.Vector2:
-        return Vec(value.x, value.y)
-    try:
-        if isinstance(value, str | bytes) or len(value) != 2:
-            return None
-        x, y = value
-        return Vec(as_number(x, "x"), as_number(y, "y"))
-    except Exception:
-        return None
-
-
-def describe(value: Any) -> str:
-    """Return what a value is, for a message; its repr() would be the submission's own code."""
-    return "None" if value is None else f"of type {type_name(value)}"
+    return [*refs, *([int(own)] if own else [])]

@@ -25,13 +25,19 @@ import msgspec
 import pygame
 import pymunk
 
-from grader.protocol import Asked, ChannelClosed, ChildSetup, InnerChannel, Ready, packed
+from grader.protocol import (
+    Answered,
+    Asked,
+    ChannelClosed,
+    ChildSetup,
+    InnerChannel,
+    Ready,
+    packed,
+)
 from grader.worker import child
-from grader.worker.imports import ALLOWED, LIBRARIES, ImportRule
-from grader.worker.output import Output
-from grader.worker.recorder import Recorder
-from grader.worker.scripted import ScriptedClock
-from grader.worker.subject import Subject
+from grader.worker.copies import compile_all, copy_submission
+from grader.worker.imports import ALLOWED, LIBRARIES
+from grader.worker.session import Session
 
 # Told how many seconds a request may take as it begins, and None as it ends. It sees to it that
 # a request that takes longer is ended by KeyboardInterrupt, again and again until it ends.
@@ -113,32 +119,27 @@ class Ended(BaseException):
 
 
 class Tenant:
-    """One child: the submission, and all that it has for itself."""
+    """One child: the submission, and the parts of the interpreter that it has for itself."""
 
     def __init__(self, setup: ChildSetup) -> None:
-        self.status: int | None = None  # with which it ended itself
+        self.status: int | None = None  # the exit status, if it ended itself
         self.modules: dict[str, ModuleType] = {}
         self.away = [name for name in sys.modules if is_away(name, setup.bans)]
         self.folder = Path(setup.scratch, Path(setup.submission).name)
         self.surroundings = Surroundings.current().copy()
-        files = child.own_copy(setup.submission, str(self.folder), setup)
+        files = copy_submission(setup, str(self.folder))
         self.surroundings.folder = str(self.folder)
         with self.at_home():
             os._exit = self.end
             os.abort = partial(self.end, -6)  # SIGABRT
             sys.dont_write_bytecode = True
             tempfile.tempdir = setup.scratch
-            self.output, self.clock = Output(), ScriptedClock()
-            self.output.install()
-            self.clock.install()
-            sys.meta_path.insert(0, ImportRule(files, setup.bans))
-            self.subject = Subject(self.folder)
-            self.recorder = Recorder(self.subject)
+            self.session = Session(self.folder, files, setup.bans)
 
-    def answer(self, asked: Asked) -> Any:
-        """Return the answer to a request, as a process of its own would give it."""
+    def answer(self, asked: Asked) -> Answered:
+        """Answer a request as a process of its own would."""
         with self.at_home():
-            return child.answer_asked(self.subject, self.clock, self.output, self.recorder, asked)
+            return child.answer(self.session, asked)
 
     def end(self, status: int) -> NoReturn:
         """Stand in for os._exit, which would end the judge as well."""
@@ -212,8 +213,7 @@ class TabChannel(InnerChannel):
     def receive(self, timeout: float | None = None) -> bytes:
         """Return the next answer; raise ChannelClosed where a process would be gone."""
         if not self.answers and self.setup.compiles:
-            folders = Path(self.setup.submission), Path(self.setup.bytecode)
-            child.compile_all(*folders, self.setup.limits)
+            compile_all(self.setup)
         if not self.answers:
             raise ChannelClosed("it has ended")
         return self.answers.pop(0)

@@ -121,11 +121,10 @@ def close_other_descriptors(descriptor: int) -> None:
 
 
 def end(pid: int, gone: bool) -> Ended:
-    """End a child and all that it started; tells how it ended.
+    """End a child and all that it started; return its exit status.
 
-    Its process group is killed first, with what it started there; end_strays finds the others.
-    With `gone` the child is ending already, and gets a moment to do so, because the report tells
-    students the exit status or the signal.
+    Its process group is killed first; end_strays finds the other processes. With `gone` the child
+    is ending already, and gets a moment to do so: students are told its exit status or signal.
     """
     if gone:
         wait_for_exit(pid)
@@ -133,16 +132,12 @@ def end(pid: int, gone: bool) -> Ended:
         os.killpg(pid, signal.SIGKILL)
     with suppress(ProcessLookupError):
         os.kill(pid, signal.SIGKILL)
-    cpu = 0.0
-    try:
+    status, cpu = 0, 0.0
+    with suppress(ChildProcessError):
         _, status, used = os.wait4(pid, 0)
         cpu = used.ru_utime + used.ru_stime
-    except ChildProcessError:
-        status = 0
-    strays = end_strays()
-    if os.WIFSIGNALED(status):
-        return Ended("signal", os.WTERMSIG(status), cpu, strays)
-    return Ended("exit", os.waitstatus_to_exitcode(status), cpu, strays)
+    end_strays()
+    return Ended(os.waitstatus_to_exitcode(status), cpu)
 
 
 def wait_for_exit(pid: int) -> None:
@@ -155,16 +150,14 @@ def wait_for_exit(pid: int) -> None:
         return
 
 
-def end_strays() -> int:
-    """Kill every process that a child started and left behind; returns how many there were."""
-    ended = set()
+def end_strays() -> None:
+    """Kill every process that a child started and left behind."""
     while has_children():
         for stray in stray_pids():
             with suppress(ProcessLookupError):
                 os.kill(stray, signal.SIGKILL)
         with suppress(ChildProcessError):
-            ended.add(os.wait()[0])
-    return len(ended)
+            os.wait()
 
 
 def stray_pids() -> list[int]:

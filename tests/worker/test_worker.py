@@ -25,7 +25,7 @@ from grader.protocol import (
     Returned,
     Vec,
 )
-from grader.worker.child import compile_all
+from grader.worker.copies import compile_all
 
 SOAK = pytest.mark.soak
 MODULE = """
@@ -315,7 +315,8 @@ def test_to_compile_runs_nothing_and_stops_when_the_folder_is_full(tmp_path: Pat
     for number in range(8):
         (tree / f"big{number}.py").write_text(f"x = {'x' * 300_000!r}\n", encoding="utf-8")
     (tree / "deep" / "late.py").write_text("x = 1\n", encoding="utf-8")
-    compile_all(tree, bytecode, Limits(cpu_seconds=10, scratch_mb=1))
+    limits = Limits(cpu_seconds=10, scratch_mb=1)
+    compile_all(ChildSetup(str(tree), "", limits, False, [], str(bytecode), True))
     made = sorted(path.name.partition(".")[0] for path in bytecode.rglob("*.pyc"))
     assert made == ["a_first", "big0", "big1", "big2", "big3"]
     assert not (tmp_path / "ran").exists()

@@ -1,0 +1,85 @@
+"""Give each child its own copy of the submission, and compile the submission once for all."""
+
+import os
+import py_compile
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+from grader.protocol import ChildSetup
+
+OLD_FILE = os.O_RDONLY | getattr(os, "O_BINARY", 0)
+NEW_FILE = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+
+
+def copy_submission(setup: ChildSetup, folder: str) -> list[str]:
+    """Copy the submission into a folder of this child; return the names of its files.
+
+    Files keep their times, by which Python knows whether compiled files are still good. Folders
+    that the child only reads become links.
+
+    It makes system calls itself, because every child copies every file. Each child reads the files
+    anew: what the warm process had read, a child of the next submission would find in its memory.
+    """
+    found: list[str] = []
+    waiting = [""]
+    while waiting:
+        inside = waiting.pop()
+        copies = not inside.startswith(tuple(f"{each}/" for each in setup.shown))
+        if copies:
+            make_folder(os.path.join(folder, inside), os.path.join(setup.bytecode, inside))
+        with os.scandir(os.path.join(setup.submission, inside)) as entries:
+            for entry in sorted(entries, key=lambda each: each.name):
+                name = inside + entry.name
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(f"{name}/")
+                    continue
+                found.append(name)
+                if copies:
+                    with suppress(OSError):  # more than a child may have: the file is missing
+                        copy_file(entry, os.path.join(folder, name))
+    for name in setup.shown:
+        os.symlink(os.path.join(setup.submission, name), os.path.join(folder, name))
+    return found
+
+
+def make_folder(target: str, compiled: str) -> None:
+    """Make a folder of the copy, with a link to its compiled files."""
+    with suppress(OSError):  # more than a child may have, or Windows may not allow links
+        os.mkdir(target)
+        if os.path.isdir(compiled):
+            os.symlink(compiled, os.path.join(target, "__pycache__"), target_is_directory=True)
+
+
+def copy_file(entry: "os.DirEntry[str]", target: str) -> None:
+    about = entry.stat(follow_symlinks=False)
+    source = os.open(entry.path, OLD_FILE)
+    try:
+        data = os.read(source, about.st_size)
+    finally:
+        os.close(source)
+    descriptor = os.open(target, NEW_FILE, 0o666)
+    try:
+        os.write(descriptor, data)
+    finally:
+        os.close(descriptor)
+    os.utime(target, ns=(about.st_mtime_ns, about.st_mtime_ns))
+
+
+def compile_all(setup: ChildSetup) -> None:
+    """Compile the submission into the folder of compiled files, which other children only read.
+
+    No line of the submission runs. A file that cannot be compiled is left out: the child that
+    imports it says why. Compiling stops when the folder is full.
+    """
+    submission, bytecode = Path(setup.submission), Path(setup.bytecode)
+    size = 0
+    sources = sorted(submission.rglob("*.py"), key=lambda path: (len(path.parts), path))
+    for source in sources[: setup.limits.scratch_files]:
+        inside = source.relative_to(submission)
+        target = bytecode / inside.parent / f"{source.stem}.{sys.implementation.cache_tag}.pyc"
+        with suppress(py_compile.PyCompileError, OSError, ValueError, MemoryError):
+            py_compile.compile(str(source), str(target), str(source), doraise=True)
+            size += target.stat().st_size
+        if size > setup.limits.scratch_mb * 1024 * 1024:
+            return
