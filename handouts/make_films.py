@@ -185,8 +185,8 @@ def engines_hash():
     folders = [KIT / "solution" / name for name in ("mini_engine", "stable_engine")]
     files = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
     files += [KIT / "solution" / f"{name}.py" for name in ("pymunk_scene", "integrators")]
-    scenes = ("engines", "scenes")
-    files += [KIT / "solution" / "experiments" / f"{name}.py" for name in scenes]
+    experiments = KIT / "solution" / "experiments"
+    files += [experiments / "scenes.py", *sorted((experiments / "engines").glob("*.py"))]
     files += [Path(__file__).with_name(f"film_{name}.py") for name in ("scenes", "tower")]
     digest.update(f"pymunk {pymunk.version}, {pymunk.chipmunk_version}\n".encode())
     for path in files:
