@@ -1,17 +1,19 @@
 """Run a submission. Of the rest of the grader, this room imports `protocol` alone.
 
-What happens, in this order:
+A child goes through these steps:
 
-1. warm (warm.py): a process loads Python, pygame and pymunk once, and waits for the judge.
-2. fork (warm.py): each check gets a child of its own, in milliseconds, and no trace of another.
-   Where there is no fork, spawned.py starts the child as a new process. Where there are no
+1. Start. warm.py loads Python, pygame and pymunk once and forks a child per check, in milliseconds.
+   Where there is no fork, spawned.py starts each child as a new process. Where there are no
    processes, tab.py keeps it in the judge's own, for one's own work alone.
-3. confine (confinement.py): the child gives up its rights, before it sees a line of the submission.
-4. serve (child.py): the child imports the submission and answers requests until the judge hangs up.
-5. answer: subject.py calls functions and turns objects into plain numbers; play.py runs whole
-   programs, on the clock of scripted.py; output.py keeps what is printed; recorder.py records
-   states for replays.
+2. Confine (confinement.py, root.py, filter.py): the child gives up its rights before it sees a line
+   of the submission.
+3. Copy (copies.py): it gets its own copy of the submission.
+4. Prepare (session.py): it replaces the clock, the output and the import rule.
+5. Answer (child.py): it imports the submission and answers requests until the judge hangs up.
+   subject.py holds its objects, values.py reads them as numbers, play.py runs whole programs,
+   recorder.py records states for replays.
+6. End: the starter of step 1 kills the child with all that it started, and returns its exit status.
 
-Once a child runs the submission, every byte it sends may be made up, for the submission can change
-all of Python around it. So nothing here decides a mark: the judge checks types and values.
+The submission can change all of Python in its child, so it may invent every byte that the child
+sends. Nothing here decides a mark: the judge checks types and values.
 """

@@ -1,11 +1,10 @@
-"""Confine a child, in layers. Each is used where the machine has it, and reports name it.
+"""Confine a child, in layers. Each layer that the machine has is used and named in reports.
 
 isolate_server runs once, in the warm process; confine runs in each child, before it imports the
-submission. Each layer is for something else, and a missing one leaves the others in force.
+submission. Each layer has its own purpose and does not depend on the others. root.py makes the root
+folder of a child, filter.py the filter on system calls.
 
-Landlock: the numbers are those of <linux/landlock.h>, the manual page landlock(7). The others are
-those of <sys/prctl.h> and <sched.h>. The root of a child's own is in root.py, the filter on system
-calls in filter.py.
+The numbers are those of <linux/landlock.h>, <sys/prctl.h> and <sched.h>; see landlock(7).
 """
 
 import ctypes
@@ -48,20 +47,21 @@ CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWUTS = 0x20000000, 0x40000000, 0x04000000
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 READ_ONLY = EXECUTE | READ_FILE | READ_DIR
 EVERY_RIGHT = (1 << 16) - 1
-# How many file rights each version of the interface knows.
-FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
-ON_FILES = EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15  # what a rule on a plain file takes
+FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}  # their number in each version of Landlock
+ON_FILES = (
+    EXECUTE | WRITE_FILE | READ_FILE | 1 << 14 | 1 << 15
+)  # the rights that a rule on a plain file may have
 TCP_BIND_AND_CONNECT = 0b11
 SCOPE_SOCKETS_AND_SIGNALS = 0b11
 
 PID_MAX_SINCE, MOST_NUMBERS = (6, 14), 512
 
-# User ids that no account has: systemd assigns them to services for a while (DynamicUser).
+# No account has these user ids: systemd assigns them to services for a while (DynamicUser).
 UNUSED_UIDS = range(61184, 65520)
 
 
 class RulesetAttr(ctypes.Structure):
-    """struct landlock_ruleset_attr: which rights are denied unless a rule allows them."""
+    """struct landlock_ruleset_attr: the rights that are denied unless a rule allows them."""
 
     _fields_ = [
         ("handled_access_fs", ctypes.c_uint64),
@@ -73,17 +73,17 @@ class RulesetAttr(ctypes.Structure):
 class PathBeneathAttr(ctypes.Structure):
     """struct landlock_path_beneath_attr: the rights on one file or folder and all below it."""
 
-    _pack_, _layout_ = 1, "ms"  # Python 3.14 asks for the second where there is the first
+    _pack_, _layout_ = 1, "ms"  # Python 3.14 demands the second beside the first
     _fields_ = [("allowed_access", ctypes.c_uint64), ("parent_fd", ctypes.c_int32)]
 
 
 def isolate_server(keep: int, without: Collection[str] = ()) -> list[str]:
-    """Leave the network and other processes behind, once for the warm process; returns the layers.
+    """Cut the warm process off from the network and other processes; return the layers.
 
-    Without this a submission could send the questions out, or signal and trace the judge. The call
-    may return in a child process: the first one of a PID namespace, with which all others in it
-    end. The process that called only waits for that one then. The descriptor `keep`, the control
-    socket, belongs to the child alone, so that the judge sees at once when it ends.
+    Otherwise a submission could send the questions out, or signal and trace the judge. The call may
+    return in a child process, the first one of a PID namespace; its end ends all others in there.
+    The calling process then only waits for it. `keep`, the control socket, belongs to that child
+    alone, so that the judge sees its end at once.
     """
     if not sys.platform.startswith("linux"):
         return []
@@ -108,10 +108,10 @@ def leave_network() -> bool:
 
 
 def shut_in_reader(source: str, folder: str, programs: Iterable[str]) -> list[str]:
-    """Shut in a process that reads one file for us; returns the layers that hold.
+    """Confine a process that reads one file for us; return the layers in force.
 
-    It reads that file, Python and its packages, writes into one folder, and runs these programs or
-    those in these folders; without any it starts no process.
+    It may read that file, Python and its packages, write into one folder, and run these programs or
+    those in these folders. Without programs it starts no process.
     """
     if not sys.platform.startswith("linux"):
         return []
@@ -123,20 +123,20 @@ def shut_in_reader(source: str, folder: str, programs: Iterable[str]) -> list[st
     ]
     allowed += [(each, READ_ONLY) for each in programs]
     allowed += [(source, READ_FILE), (folder, EVERY_RIGHT), (os.devnull, READ_FILE | WRITE_FILE)]
-    allowed += [("/proc/meminfo", READ_FILE)]  # a reader of .7z takes less where there is little
+    allowed += [("/proc/meminfo", READ_FILE)]  # a reader of .7z adapts to the free memory
     layers += restrict_to(allowed)
     return layers if programs else layers + refuse_system_calls()
 
 
 def forget_host_name() -> None:
-    """Give this process and its children another host name than the machine's, where allowed."""
+    """Hide the machine's host name from this process and its children, where allowed."""
     if libc().unshare(CLONE_NEWUTS) == 0:
         libc().sethostname(b"check", 5)
         libc().setdomainname(b"", 0)
 
 
 def wipe_variables() -> None:
-    """Overwrite the values of variables that are not the kit's, where they lie in memory."""
+    """Overwrite in memory the values of all environment variables but the kit's."""
     if not sys.platform.startswith("linux"):
         return
     places = ctypes.POINTER(ctypes.c_void_p).in_dll(libc(), "environ")
@@ -147,9 +147,9 @@ def wipe_variables() -> None:
 
 
 def bound_namespace() -> None:
-    """Limit all processes and threads in here: the limit for each user does not bind root.
+    """Limit the number of processes and threads in here: rlimits do not bind root.
 
-    A PID namespace has a limit of its own since Linux 6.14; before, it is that of the machine.
+    A PID namespace has its own limit since Linux 6.14; before, the limit is the machine's.
     """
     release = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
     if release >= PID_MAX_SINCE:
@@ -158,11 +158,11 @@ def bound_namespace() -> None:
 
 
 def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str], ChildSetup]:
-    """Give up this process's rights for good; returns the names of the layers that hold.
+    """Give up this process's rights for good; return the layers in force, and the setup.
 
-    And the setup, with the paths as they are in a root of its own, where there is one. The layers
-    in `without` are left out: `landlock-files` with all of Landlock, `user-namespace` with the
-    namespaces that it allows and the root.
+    The setup has the paths in the child's own root, if there is one. `without` names layers to
+    leave out: `landlock-files` means all of Landlock, `user-namespace` also the root and the
+    namespaces that it allows.
     """
     if not setup.confine:
         return [], setup
@@ -174,8 +174,8 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
     layers += set_resource_limits(setup.limits)
     if sys.platform.startswith("linux"):
         join_own_keyring()
-        # A user namespace of ours has one user only. So where Landlock is missing, and a user of
-        # its own is what protects files, that comes first; the namespace may then be refused.
+        # A user namespace of ours has one user only. Without Landlock, a user of its own protects
+        # files, so it comes first; then the namespace may be refused.
         landlock = "landlock-files" not in without and landlock_version() >= 1
         own_user = "own-user" not in without
         if not landlock and own_user:
@@ -188,24 +188,23 @@ def confine(setup: ChildSetup, without: Collection[str] = ()) -> tuple[list[str]
         if landlock:
             layers += restrict_with_landlock(setup)
         drop_capabilities()
-        # It ends with the process that forked it; after the change of user, which forgets it.
+        # It ends with the process that forked it. A change of user undoes this, so it comes last.
         libc().prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
     return layers, setup
 
 
 def join_own_keyring() -> None:
-    """Join a session keyring of this process alone, so that no key is left for the next check."""
+    """Join a session keyring of this process alone, so that no key remains for the next check."""
     number = KEYCTL.get(platform.machine())
     if number is not None:
         libc().syscall(number, KEYCTL_JOIN_SESSION_KEYRING, None)
 
 
 def become_own_user(setup: ChildSetup) -> list[str]:
-    """Root becomes a user who owns nothing but the scratch folder: another one for each child.
+    """Turn root into a user who owns only the scratch folder; each child gets another user.
 
-    As root a submission could write anywhere; as one user for all, children could signal and trace
-    each other. Skipped where that user could not read Python or the submission: then every check
-    would fail.
+    Root could write anywhere, and children of the same user could signal and trace each other. Does
+    nothing if that user could not read Python or the submission.
     """
     if os.geteuid() != 0:
         return []
@@ -213,8 +212,8 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     needed = [*map(str, readable_paths(tuple(setup.hidden))), setup.submission, setup.scratch]
     own = [setup.scratch] + [setup.bytecode] * setup.compiles
     reached = False
-    with suppress(OSError):  # a container may lack the right, or the number
-        os.chmod(Path(setup.submission).parent, 0o711)  # to pass through, not to list
+    with suppress(OSError):  # a container may lack the right or the user id
+        os.chmod(Path(setup.submission).parent, 0o711)  # may be passed through, not listed
         for folder in own:
             os.chown(folder, user, user)
         os.setgroups([])
@@ -231,12 +230,12 @@ def become_own_user(setup: ChildSetup) -> list[str]:
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
     libc().prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    libc().prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)  # /proc/self is its own again, for namespaces to come
+    libc().prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)  # owns /proc/self again, for the namespaces to come
     return ["own-user"]
 
 
 def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
-    """Compute once in the warm process what every forked child needs."""
+    """Compute in the warm process, once, what every forked child needs."""
     kinds_of_paths(tuple(setup.hidden))
     packed()
     if sys.platform.startswith("linux") and not {"own-root", "user-namespace"} & set(without):
@@ -244,17 +243,18 @@ def prepare(setup: ChildSetup, without: Collection[str] = ()) -> None:
 
 
 def own_root(setup: ChildSetup) -> Root | None:
-    """Return the shared part of the roots; None where this process has no right over mounts."""
+    """Return the shared part of the roots; None if this process may not mount."""
     hidden = tuple(setup.hidden)
     paths = (*readable_paths(hidden), Path(os.devnull))
     return shared_root(paths, tuple(links_to_libraries()))
 
 
 def enter_own_namespaces(setup: ChildSetup, root: bool) -> tuple[list[str], ChildSetup]:
-    """Give this child its own files, shared memory, keys and scratch folder; returns the new setup.
+    """Give this child its own files, shared memory, keys and scratch folder.
 
-    Otherwise one check could leave a message for a later one there, such as the reference's
-    answers. The scratch folder becomes a small file system in memory, which ends with the child.
+    Otherwise one check could leave a message there for a later one, such as answers of the
+    reference. The scratch folder becomes a small file system in memory, which ends with the child.
+    Returns the layers, and the setup with the new paths.
     """
     if not enter_user_namespace(CLONE_NEWIPC | CLONE_NEWNS):
         return [], setup
@@ -271,14 +271,14 @@ def enter_own_namespaces(setup: ChildSetup, root: bool) -> tuple[list[str], Chil
 
 
 def enter_user_namespace(others: int) -> bool:
-    """Enter a user namespace, which allows an ordinary user to enter `others` (CLONE_ flags) too.
+    """Enter a user namespace, and the `others` (CLONE_ flags), which it allows to any user.
 
-    Returns whether the kernel let us. User and group are mapped to themselves.
+    User and group are mapped to themselves. Returns whether the kernel allowed it.
     """
     user, group = os.getuid(), os.getgid()
     if libc().unshare(CLONE_NEWUSER | others) != 0:
         return False
-    with suppress(OSError):  # unmapped, files still belong to whom they did
+    with suppress(OSError):  # unmapped, files keep their owners
         write("/proc/self/setgroups", "deny")
         write("/proc/self/uid_map", f"{user} {user} 1")
         write("/proc/self/gid_map", f"{group} {group} 1")
@@ -286,7 +286,7 @@ def enter_user_namespace(others: int) -> bool:
 
 
 def write(path: str, text: str) -> None:
-    """Into a file of the kernel's, in one call."""
+    """Write into a file of the kernel's, in one call."""
     descriptor = os.open(path, os.O_WRONLY)
     try:
         os.write(descriptor, text.encode())
@@ -295,10 +295,10 @@ def write(path: str, text: str) -> None:
 
 
 def set_resource_limits(limits: Limits) -> list[str]:
-    """Bound processor time, memory, file sizes, open files and processes, for the machine's sake.
+    """Limit processor time, memory, file sizes, open files and processes, in units of Limits.
 
-    Units are those of Limits. At the soft limit of processor time a child gets SIGXCPU; one that
-    ignores it is killed a second later.
+    At the soft limit of processor time a child gets SIGXCPU; one that ignores it is killed a second
+    later.
     """
     try:
         import resource
@@ -322,34 +322,33 @@ def set_resource_limits(limits: Limits) -> list[str]:
 
 @cache
 def readable_paths(hidden: tuple[str, ...]) -> list[Path]:
-    """Return what Python and its packages need to read, and nothing that is hidden, such as the
-    kit.
+    """Return the paths that Python and its packages need to read, without hidden ones.
 
-    An installation may put the kit among the packages; then their folder is allowed entry by
-    entry, without it. None of the paths is a link.
+    If the kit is installed among the packages, the list has the entries beside it in place of the
+    folder. No path is a link.
     """
-    away = {Path(each).resolve() for each in hidden}
-    return sorted({each for root in libraries() for each in all_but(away, root.resolve())})
+    kept_out = {Path(each).resolve() for each in hidden}
+    return sorted({each for root in libraries() for each in all_but(kept_out, root.resolve())})
 
 
-def all_but(away: set[Path], path: Path) -> Iterator[Path]:
-    """Yield the path, or where some of `away` lie below it, what is beside them."""
-    if not any(each.is_relative_to(path) for each in away):
+def all_but(kept_out: set[Path], path: Path) -> Iterator[Path]:
+    """Yield the path, or if some of `kept_out` lie below it, the entries beside them."""
+    if not any(each.is_relative_to(path) for each in kept_out):
         yield path
-    elif path not in away:
+    elif path not in kept_out:
         for below in path.iterdir():
-            yield from all_but(away, below)
+            yield from all_but(kept_out, below)
 
 
 @cache
 def kinds_of_paths(hidden: tuple[str, ...]) -> list[tuple[str, bool]]:
-    """Return the same paths, each with whether it is a folder."""
+    """Return the readable paths, each with a flag for a folder."""
     return [(str(path), path.is_dir()) for path in readable_paths(hidden)]
 
 
 @cache
 def libraries() -> list[Path]:
-    """Return where Python looks, and the C library, by the names they go by."""
+    """Return the folders of Python, its packages and the C library, by their usual names."""
     paths = sysconfig.get_paths()
     roots = [Path(sys.base_prefix, "lib")]
     roots += [Path(paths[name]) for name in ("stdlib", "platstdlib", "purelib", "platlib")]
@@ -360,20 +359,20 @@ def libraries() -> list[Path]:
 
 @cache
 def links_to_libraries() -> list[Path]:
-    """Return the links among them, such as /lib on most machines."""
+    """Return the links among these folders, such as /lib."""
     return [each for each in libraries() if each.resolve() != each]
 
 
 def landlock_version() -> int:
-    """Return the version of the kernel's Landlock interface; less than 1 where there is none."""
+    """Return the version of the kernel's Landlock; less than 1 where there is none."""
     version: int = libc().syscall(LANDLOCK_CREATE_RULESET, None, 0, LANDLOCK_CREATE_RULESET_VERSION)
     return version
 
 
 def restrict_with_landlock(setup: ChildSetup) -> list[str]:
-    """Allow reading Python and the submission, writing the scratch folder, no TCP, no signals out.
+    """Allow reading Python and the submission and writing the scratch folder; no TCP, no signals.
 
-    This is what keeps the kit, the solution, other submissions and home folders unreadable.
+    This keeps the kit, the solution, other submissions and home folders unreadable.
     """
     allowed = [
         (path, READ_ONLY if folder else READ_ONLY & ON_FILES)
@@ -389,10 +388,9 @@ def restrict_with_landlock(setup: ChildSetup) -> list[str]:
 
 
 def restrict_to(allowed: Iterable[tuple[str, int]]) -> list[str]:
-    """Allow these rights on these paths and nothing else for good; returns the layers that hold.
+    """Allow these rights on these paths and no others, for good; return the layers in force.
 
-    Only rights that the ruleset handles are denied, so it handles all that this kernel's version
-    knows.
+    A ruleset denies only the rights that it handles, so it handles all that this kernel knows.
     """
     version = landlock_version()
     if version < 1:
@@ -420,7 +418,7 @@ def restrict_to(allowed: Iterable[tuple[str, int]]) -> list[str]:
 
 
 def allow_beneath(ruleset: int, path: str, rights: int) -> None:
-    """Add a rule: these rights on this path and all below it."""
+    """Add a rule: these rights on this path and everything below it."""
     descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
     try:
         rule = PathBeneathAttr(rights, descriptor)

@@ -1,7 +1,7 @@
 """Compare the bodies, contacts, joints, worlds and constants before and after a call.
 
-A function may change what its docstring names and nothing else. The child only tells what changed;
-what may change is the judge's to say.
+A function may change what its docstring names and nothing else. The child lists the changes; the
+judge decides which are allowed.
 """
 
 import math
@@ -15,14 +15,14 @@ from grader.protocol import Change
 from grader.worker.memory import PAIRS, PLAIN
 from grader.worker.subject import Subject
 
-LATEST = 12  # objects that are looked at beside those that a call is given
-CONSTANTS = (  # the lesson's
+LATEST = 12  # newest objects that are compared besides the arguments of a call
+CONSTANTS = (  # of the lesson
     *("WIDTH", "HEIGHT", "STEP", "MAX_STEPS", "ITERATIONS"),
     *("BETA", "SLOP", "RESTING_SPEED", "MAX_BALLS", "MAX_FRAME"),
     *("SLOW", "SLEEP_AFTER", "WAKING", "CELL"),
     *("OMEGA", "X0", "DT", "SECONDS"),
 )
-FIELDS = {  # by what marks an object as one of pymunk's or the lesson's
+FIELDS = {  # of pymunk's and the lesson's objects, by the attribute that identifies the type
     "angular_velocity": (
         *("position", "velocity", "angle", "angular_velocity"),
         *("mass", "moment", "force", "torque", "body_type"),
@@ -47,13 +47,13 @@ Numbers = tuple[Any, ...]
 
 
 class Frame:
-    """The state around a call, noted before it."""
+    """The state around a call, recorded before it."""
 
     def __init__(self, subject: Subject, refs: Iterable[int], arguments: list[Any]) -> None:
         self.subject = subject
         self.refs = list(dict.fromkeys([*refs, *list(subject.objects)[-LATEST:]]))
         self.arguments = arguments
-        self.constants = own_constants(str(subject.folder), len(sys.modules))  # those of before
+        self.constants = own_constants(str(subject.folder), len(sys.modules))
         self.before = self.state()
 
     def state(self) -> dict[tuple[int, str], Numbers]:
@@ -71,22 +71,22 @@ class Frame:
         return found
 
     def changes(self) -> list[Change]:
-        """Return the changes: ref is minus its number for an argument, and 0 for a constant."""
+        """Return what changed since then."""
         after = self.state()
-        if after == self.before:  # as nearly always
+        if after == self.before:  # the usual case
             return []
         return [
             Change(ref, name)
             for (ref, name), before in self.before.items()
-            if not alike(before, after.get((ref, name), ()))
+            if not is_close(before, after.get((ref, name), ()))
         ]
 
 
 @cache
 def own_constants(folder: str, loaded: int) -> list[tuple[str, list[dict[str, Any]]]]:
-    """Return the constants of a folder's modules, each with the names of all modules that have it.
+    """Return the constants of a folder's modules, each with the namespaces that hold it.
 
-    They are looked up anew when more is `loaded`.
+    `loaded`, the number of modules, renews the cache when a module was imported.
     """
     found = (vars(module) for module in list(sys.modules.values()) if type(module) is ModuleType)
     own = [names for names in found if str(names.get("__file__")).startswith(folder)]
@@ -95,7 +95,7 @@ def own_constants(folder: str, loaded: int) -> list[tuple[str, list[dict[str, An
 
 
 def fields_of(thing: Any) -> tuple[str, ...]:
-    """Return the fields of the lesson that an object has, by what it is."""
+    """Return the names of the fields to compare in an object; none for an unknown type."""
     for mark, fields in FIELDS.items():
         if hasattr(thing, mark):
             return fields
@@ -107,7 +107,7 @@ def size_of(shape: Any) -> Numbers:
 
 
 def numbers_in(value: Any) -> Numbers:
-    """Return a field as numbers, and objects by their identity."""
+    """Return a field as numbers; objects as their identities."""
     if type(value) in PLAIN:
         return (value,)
     if type(value) in PAIRS:
@@ -120,14 +120,14 @@ def numbers_in(value: Any) -> Numbers:
     return (id(value),)
 
 
-def alike(before: Numbers, after: Numbers) -> bool:
-    """Return whether both are equal but for rounding, as a normal kept at length 1 is."""
+def is_close(before: Numbers, after: Numbers) -> bool:
+    """Return whether both are equal but for rounding: a function may normalise a normal again."""
     return before == after or (
         len(before) == len(after)
         and all(
             isinstance(a, float)
             and isinstance(b, float)
-            and math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)  # infinity is like itself alone
+            and math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9)
             for a, b in zip(before, after, strict=True)
         )
     )

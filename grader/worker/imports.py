@@ -1,7 +1,7 @@
 """Limit what a submission may import: one rule, whatever is installed here.
 
-The standard library, the libraries of the assignment and the submission's own files. Without the
-rule, marks would hang on what an instructor happens to have beside the grader.
+It may import the standard library, the libraries of the assignment and its own files. Without the
+rule, marks would depend on the packages that an instructor has installed.
 """
 
 import sys
@@ -11,17 +11,17 @@ from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 
-LIBRARIES = {"pygame": "pygame-ce", "pymunk": "pymunk", "numpy": "numpy"}  # as installed
-BENEATH = {"cffi", "_cffi_backend", "typing_extensions"}  # what those libraries load themselves
+LIBRARIES = {"pygame": "pygame-ce", "pymunk": "pymunk", "numpy": "numpy"}  # by package
+NEEDED_BY_THEM = {"cffi", "_cffi_backend", "typing_extensions"}
 RULE = (
     "a submission may import the standard library, "
     f"{', '.join(LIBRARIES.values())} and its own files"
 )
-IN_C = "it works in machine code, and nobody could count what that does"  # of what is banned
+IN_C = "it works in machine code, and nobody could count what that does"  # of a banned module
 
 
-ALLOWED = frozenset({"__main__", *sys.stdlib_module_names, *LIBRARIES, *BENEATH})
-AWAY: dict[str, ModuleType] = {}  # kept: to free what a forked process shares costs more
+ALLOWED = frozenset({"__main__", *sys.stdlib_module_names, *LIBRARIES, *NEEDED_BY_THEM})
+HIDDEN: dict[str, ModuleType] = {}  # kept, because freeing shared memory after a fork is slow
 
 
 class NotAllowed(ModuleNotFoundError):
@@ -29,20 +29,20 @@ class NotAllowed(ModuleNotFoundError):
 
 
 class ImportRule(MetaPathFinder):
-    """Stands before all that finds modules, and lets nothing through but what is allowed."""
+    """Stands before all finders of modules and lets only allowed imports through."""
 
     def __init__(self, files: Iterable[str], bans: Iterable[str] = ()) -> None:
-        """Set the rule for a submission with these files, which may not import `bans` either."""
+        """Make the rule for a submission with these files, which may not import `bans` either."""
         self.bans = frozenset(bans)
         modules = (path.removesuffix(".py").split("/") for path in files if path.endswith(".py"))
         self.own = {part for parts in modules for part in parts}
 
     def install(self) -> None:
-        """Apply the rule from now on; what the grader has loaded is out of reach by name."""
-        put_away()
+        """Apply the rule from now on, and hide the modules that the grader has loaded."""
+        hide_modules()
         if self.bans:
             for name in [name for name in sys.modules if name.partition(".")[0] in self.bans]:
-                AWAY[name] = sys.modules.pop(name)
+                HIDDEN[name] = sys.modules.pop(name)
         sys.meta_path.insert(0, self)
 
     def allows(self, name: str) -> bool:
@@ -52,7 +52,7 @@ class ImportRule(MetaPathFinder):
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Find nothing, so that the others look; raise NotAllowed where nobody may."""
+        """Find nothing, so that other finders look; raise NotAllowed if the rule forbids it."""
         first = name.partition(".")[0]
         if first in self.bans:
             raise NotAllowed(f"{first} may not be imported here: {IN_C}", name=name)
@@ -61,23 +61,23 @@ class ImportRule(MetaPathFinder):
         return None
 
 
-def put_away() -> None:
-    """Put what only the grader may import out of reach by name.
+def hide_modules() -> None:
+    """Hide the modules that only the grader may import.
 
-    Before the fork, if there is one: to go through hundreds of modules in each child would copy the
-    memory of them all.
+    The warm process does this before it forks: in a child, it would copy the memory of hundreds of
+    modules.
     """
-    if not AWAY:
+    if not HIDDEN:
         for name in [name for name in sys.modules if name.partition(".")[0] not in ALLOWED]:
-            AWAY[name] = sys.modules.pop(name)
+            HIDDEN[name] = sys.modules.pop(name)
 
 
 @contextmanager
-def at_hand() -> Iterator[None]:
-    """Bring back what was put away, for a library of ours that looks itself up by name."""
-    sys.modules.update(AWAY)
+def unhidden_modules() -> Iterator[None]:
+    """Bring hidden modules back for a while: psutil looks itself up by name."""
+    sys.modules.update(HIDDEN)
     try:
         yield
     finally:
-        for name in AWAY:
+        for name in HIDDEN:
             sys.modules.pop(name, None)

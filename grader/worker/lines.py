@@ -1,8 +1,7 @@
-"""Counts the lines of a submission that run: work that is the same on every machine.
+"""Count the lines of a submission that run: a measure of work that is equal on every machine.
 
-What is counted runs in this process, so it can reach the count. It is noticed when it ends the
-count, leaves the work to another thread or hides a function. Who finds the number itself and writes
-another one there is not noticed.
+The submission runs in this process, so it can reach the count. We notice if it ends the count,
+works in another thread or hides a function. We do not notice if it overwrites the number.
 """
 
 import sys
@@ -15,41 +14,39 @@ from grader.worker.values import ContractError
 
 try:
     from resource import RUSAGE_SELF, RUSAGE_THREAD, getrusage
-except ImportError:  # only Linux tells the seconds of a thread
+except ImportError:  # only Linux counts the seconds of a thread
     WHOSE: tuple[int, ...] = ()
 else:
     WHOSE = (RUSAGE_SELF, RUSAGE_THREAD)
 
 Trace = Callable[[FrameType, str, object], Any]
-ENDS = {  # told by an audit hook
+ENDS = {  # events of an audit hook
     "sys.settrace",
     "sys.setprofile",
     "sys.monitoring.register_callback",
     "_thread.start_new_thread",
 }
 IMPORTING = "_frozen_importlib"
-ELSEWHERE = 0.005  # s of work in other threads, of which there are none
+ELSEWHERE = 0.005  # s of work in other threads at which we object
 
 
 class LineCounter:
-    """Counts while it is entered, in every function but the detours and Python's own importing.
+    """Counts lines inside a `with`, in every function but replacements and Python's importing.
 
-    Lines are the same work whatever function they are in: calls of a function by name would say
-    nothing about a submission that has written the same into the caller. So lines of a library
-    count too, and nobody gains by the name of a file.
+    Lines of a library count too: else a submission could hide its work in a file of that name.
     """
 
-    watched = False  # an audit hook is for good, and only for who is counted
+    has_hook = False  # an audit hook is for good, so it is added when first needed
 
     def __init__(self) -> None:
         self.counted = self.begun = self.over = 0
         self.trouble = ""
-        self.hook: Trace = self.trace  # one object, to know it again
+        self.hook: Trace = self.trace  # one object, to recognise it later
 
     def __enter__(self) -> "LineCounter":
-        if not LineCounter.watched:
+        if not LineCounter.has_hook:
             sys.addaudithook(watch)
-            LineCounter.watched = True
+            LineCounter.has_hook = True
         self.elsewhere = seconds_elsewhere()
         sys.settrace(self.hook)
         counting.append(self)
@@ -65,16 +62,15 @@ class LineCounter:
             self.trouble = self.trouble or "another thread worked"
 
     def answer(self) -> int:
-        """Return how many there were; raises ContractError where the count was interfered with."""
+        """Return the count. Raises ContractError if the submission interfered with it."""
         if self.trouble:
             raise ContractError(
-                f"while the lines that run were counted, {self.trouble}: so nobody knows how many "
-                "they are"
+                f"while the lines that run were counted, {self.trouble}: so their number is unknown"
             )
         return self.counted
 
     def trace(self, frame: FrameType, event: str, _: object) -> Trace | None:
-        """Python calls this whenever a function begins; what it returns hears of each line."""
+        """Return the function that Python calls for each line of a function that begins."""
         if frame.f_code in UNCOUNTED:
             return None
         self.begun += 1
@@ -95,7 +91,7 @@ def watch(event: str, _: tuple[Any, ...]) -> None:
 
 
 def seconds_elsewhere() -> float:
-    """Processor seconds of all threads but this one; 0 where nobody knows."""
+    """Return the processor seconds of all other threads; 0 where the system does not count."""
     if not WHOSE:
         return 0.0
     whole, own = (used.ru_utime + used.ru_stime for used in map(getrusage, WHOSE))
@@ -121,5 +117,5 @@ def codes_of(*modules: ModuleType) -> frozenset[CodeType]:
     )
 
 
-# What stands in for a function of the submission, importing, and the end of the count.
+# Replacements of functions, importing, and the end of the count.
 UNCOUNTED = codes_of(standin, sys.modules[IMPORTING]) | {LineCounter.__exit__.__code__}

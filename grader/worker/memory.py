@@ -1,8 +1,7 @@
-"""Find what a submission keeps between calls: data in its modules, functions and classes.
+"""Find data that a submission keeps between calls, in its modules, functions and classes.
 
-A global name, a function's own attribute, a default argument that is a list, an attribute of a
-class: what a call leaves there can decide on the answer to the next. Whether that is a mistake is
-not told from here.
+A call may leave data in a global name, an attribute of a function or class, or a default argument,
+and the next answer may depend on it. The judge decides whether that is a mistake.
 """
 
 import sys
@@ -14,12 +13,12 @@ import pymunk
 
 PLAIN = {float, int, bool, type(None)}
 PAIRS = {pygame.Vector2, pymunk.Vec2d}
-DEEP = 3  # lists in dicts in modules
-LONG = 40  # entries of one of them
+MAX_DEPTH = 3  # lists in dicts in modules
+MAX_ENTRIES = 40  # of one list or dict
 
 
 class Memory:
-    """The data of a folder's modules as it is now, to be compared with what it is later."""
+    """The data of a folder's modules now, to compare with their data later."""
 
     def __init__(self, folder: str) -> None:
         self.modules = {
@@ -30,45 +29,42 @@ class Memory:
         self.before = self.state()
 
     def state(self) -> dict[str, Any]:
-        """Return what each name holds; functions and classes count under the file they are written
-        in.
-        """
+        """Return the data of each name; functions and classes count for their own file."""
         found: dict[str, Any] = {}
         for module in self.modules.values():
             for name, value in vars(module).items():
                 if name.startswith("__") or type(value) is ModuleType:
                     continue
                 if getattr(value, "__module__", module.__name__) == module.__name__:
-                    found[f"{module.__name__}.{name}"] = content(value, DEEP)
+                    found[f"{module.__name__}.{name}"] = content(value, MAX_DEPTH)
         return found
 
     def changed(self) -> list[str]:
-        """Return the names that hold something else by now, or are new."""
+        """Return the names with other data than before, and new names."""
         after = self.state()
         missing = object()
         return [name for name, value in after.items() if self.before.get(name, missing) != value]
 
 
-def content(value: Any, deep: int) -> Any:
-    """Return a value as plain data: numbers and texts as they are, and what holds some by what it
-    holds.
+def content(value: Any, depth: int) -> Any:
+    """Return a value as plain data, `depth` levels deep.
 
-    Exact types alone: nothing of the submission is to run meanwhile.
+    Looks at exact types alone, so that no code of the submission runs.
     """
     kind = type(value)
     if kind in PLAIN or kind is str:
         return value
     if kind in PAIRS:
         return tuple(value)
-    if not deep:
+    if not depth:
         return kind.__name__
     if kind is FunctionType:
-        return content([value.__defaults__, value.__kwdefaults__, vars(value)], deep)
+        return content([value.__defaults__, value.__kwdefaults__, vars(value)], depth)
     if kind is dict:
         value, kind = [*value.keys(), *value.values()], list
     if kind in (list, tuple, set, frozenset):
-        return len(value), [content(each, deep - 1) for each in list(value)[:LONG]]
+        return len(value), [content(each, depth - 1) for each in list(value)[:MAX_ENTRIES]]
     if isinstance(value, type):
         own = {name: each for name, each in vars(value).items() if not name.startswith("__")}
-        return content(own, deep)
+        return content(own, depth)
     return kind.__name__

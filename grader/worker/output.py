@@ -10,18 +10,17 @@ from grader.protocol import MAX_OUTPUT
 
 
 class Output(io.RawIOBase):
-    """Takes the place of standard output and standard error alike.
+    """Replaces standard output and standard error; the real ones lead to /dev/null.
 
-    The real ones lead to /dev/null here. What is kept is text from an untrusted source: the judge
-    escapes it wherever it is shown.
+    The text is untrusted: the judge escapes it wherever it is shown.
     """
 
     def __init__(self) -> None:
-        self.kept = bytearray()
+        self.tail = bytearray()
         self.dropped = 0
 
     def install(self) -> None:
-        """Replace sys.stdout and sys.stderr; what cannot be encoded becomes a question mark."""
+        """Replace sys.stdout and sys.stderr; an unknown letter becomes a question mark."""
         self.text = io.TextIOWrapper(
             self,  # type: ignore[type-var]
             encoding="utf-8",
@@ -36,22 +35,22 @@ class Output(io.RawIOBase):
         return True
 
     def write(self, data: bytes) -> int:  # type: ignore[override]
-        """Keep the last MAX_OUTPUT bytes of all that has come since the last answer."""
-        self.kept += bytes(data[-MAX_OUTPUT:])
-        excess = max(0, len(self.kept) - MAX_OUTPUT)
-        del self.kept[:excess]
+        """Keep the last MAX_OUTPUT bytes since the last answer."""
+        self.tail += bytes(data[-MAX_OUTPUT:])
+        excess = max(0, len(self.tail) - MAX_OUTPUT)
+        del self.tail[:excess]
         self.dropped += excess + max(0, len(data) - MAX_OUTPUT)
         return len(data)
 
-    def so_far(self) -> str:
-        """Return the text that is kept, and stays so."""
-        return self.kept.decode("utf-8", "replace")
+    def peek(self) -> str:
+        """Return the text without taking it."""
+        return self.tail.decode("utf-8", "replace")
 
     def take(self) -> str:
-        """Return the text for an answer, with a note on what was dropped; begins anew."""
-        text = self.so_far()
+        """Take the text for an answer, with a note on the dropped bytes."""
+        text = self.peek()
         if self.dropped:
             text = f"{self.dropped} bytes and then …\n{text}"
-        self.kept.clear()
+        self.tail.clear()
         self.dropped = 0
         return text

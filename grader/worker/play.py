@@ -1,6 +1,6 @@
-"""Running a program for a number of frames, and stepping a world without a program.
+"""Run a program for a number of frames, or step a world without a program.
 
-A run is the same on every machine: it is counted in frames and steps, and its clock is scripted.
+A run is the same on every machine: it counts frames and steps, and its clock is scripted.
 """
 
 import inspect
@@ -22,6 +22,7 @@ from grader.protocol import (
     MAX_STEP_SIZES,
     MAX_TEXT,
     RUNAWAY,
+    BodyValue,
     ContactRow,
     Photo,
     Play,
@@ -29,12 +30,13 @@ from grader.protocol import (
     Returned,
     Simulate,
     Simulated,
+    SpaceBody,
     cut,
 )
 from grader.worker.recorder import Recorder
 from grader.worker.scripted import PlayOver
 from grader.worker.session import Session
-from grader.worker.standin import plain_function, put_in_place
+from grader.worker.standin import plain_function, replace_function
 from grader.worker.start import start
 from grader.worker.subject import Subject
 from grader.worker.values import ContractError, field, field_number, read_ends, read_state
@@ -45,11 +47,10 @@ class Runaway(BaseException):
 
 
 class StepCounter:
-    """Counts the steps of a program's worlds, and runs them if asked to.
+    """Counts the steps of a program's worlds, and runs them if `physics` is wanted.
 
-    It takes the place of `step` for all who hold it: a program may have kept it under a name of its
-    own, or step a world of a class derived from World. The checks of the game loop need the number
-    and length of steps only; without the physics, their result does not depend on the other TODOs.
+    It replaces the function `step` itself, and that of derived classes. Checks of the game loop
+    need only the number and length of steps: without physics, other TODOs do not matter.
     """
 
     def __init__(self, owner: type, physics: bool, trail_every: int):
@@ -58,14 +59,15 @@ class StepCounter:
         self.dts: list[float] = []
         self.trail: list[list[float]] = []
         self.last: Any = None
-        self.on_step: Callable[[], None] = lambda: None  # called when a step has run
+        self.on_step: Callable[[], None] = lambda: None  # called after each step
         self.inside = False  # a derived class may call the step that it overrides
         self.in_advance = False
         for function in steps_of(owner):
+            # The step of a derived class runs in any case: it may also count.
             self.watch(function, physics or function is not plain_function(owner.step))  # type: ignore[attr-defined]
 
     def watch(self, function: FunctionType, runs: bool) -> None:
-        """Count the calls of a step; that of a derived class runs in any case: it may count too."""
+        """Count the calls of a step; it runs only if `runs`."""
 
         def step(world: Any, dt: float, *rest: Any, **more: Any) -> Any:
             def run() -> Any:
@@ -73,10 +75,10 @@ class StepCounter:
 
             return run() if self.inside else self.count(world, dt, run)
 
-        real = put_in_place(function, step)
+        real = replace_function(function, step)
 
     def watch_advance(self, function: FunctionType) -> None:
-        """Know from now on which steps run inside of this function."""
+        """Count from now on which steps run outside this function."""
 
         def advance(*args: Any, **kwargs: Any) -> Any:
             outside, self.in_advance = self.in_advance, True
@@ -85,10 +87,10 @@ class StepCounter:
             finally:
                 self.in_advance = outside
 
-        real = put_in_place(function, advance)
+        real = replace_function(function, advance)
 
     def count(self, world: Any, dt: float, run: Callable[[], Any]) -> Any:
-        """Record one step of `dt` seconds; raises Runaway when a frame has had too many."""
+        """Count one step of `dt` seconds. Raises Runaway when a frame has too many."""
         self.last = world
         self.in_frame += 1
         self.total += 1
@@ -119,7 +121,7 @@ def steps_of(owner: type) -> list[FunctionType]:
 
 
 def advance_of(subject: Subject, module: str) -> FunctionType | None:
-    """Return a program's `advance`, if it takes what the lab sheet says."""
+    """Return a program's `advance`, if it has the parameters of the lab sheet."""
     try:
         function = plain_function(subject.find(f"{module}:advance"))
     except ContractError:
@@ -129,7 +131,7 @@ def advance_of(subject: Subject, module: str) -> FunctionType | None:
 
 
 def call_stepping(subject: Subject, world: Any, call: Callable[[], Any]) -> Returned:
-    """Return the answer of a call that steps a world, and the steps, counted and not run."""
+    """Return the answer of a call that steps a world, and count its steps without running them."""
     kind = type(world)
     if kind not in subject.counters:
         subject.counters[kind] = StepCounter(kind, physics=False, trail_every=0)
@@ -190,7 +192,7 @@ def play(session: Session, request: Play) -> Played:
         clock=times,
         dts=counter.dts,
         ended=ended,
-        lines=[cut(each, MAX_TEXT) for each in session.output.so_far().splitlines()[-MAX_LINES:]],
+        lines=[cut(each, MAX_TEXT) for each in session.output.peek().splitlines()[-MAX_LINES:]],
         bodies=all_bodies(subject, counter.last),
         rods=rod_lengths(counter.last),
         trail=counter.trail,
@@ -201,9 +203,9 @@ def play(session: Session, request: Play) -> Played:
 
 
 class Window:
-    """The program's window. Where its pictures are not wanted, only one pixel of it is drawn.
+    """The program's window, of which only one pixel is drawn unless pictures are wanted.
 
-    pygame.quit() takes long and the process ends soon, so meanwhile it closes the window only.
+    Here pygame.quit() closes only the window: the whole takes long, and the process ends soon.
     """
 
     def __init__(self, pictures: bool, photos: list[int]) -> None:
@@ -222,10 +224,10 @@ class Window:
         return surface
 
     def _quit(self) -> None:
-        pygame.display.quit()  # the rest ends with this process, which is much quicker
+        pygame.display.quit()
 
     def record(self, frame: int, flips: int) -> None:
-        """Note a checksum of the picture at the end of a frame, and a photo of it if wanted."""
+        """Store a checksum of the picture at the end of a frame, and a photo if wanted."""
         surface = pygame.display.get_surface() if pygame.display.get_init() else None
         if surface is None:
             return
@@ -241,17 +243,16 @@ class Window:
             self.photos.append(Photo(frame, *surface.get_size(), colours))
 
     def restore(self) -> None:
-        """Give pygame its own functions back, and close the window if it is still open."""
+        """Restore pygame's own functions, and close the window if it is still open."""
         pygame.quit, pygame.display.set_mode = self.real_quit, self.real_mode
         if pygame.display.get_init():
             self._quit()
 
 
-def all_bodies(subject: Subject, world: Any) -> list[Any]:
-    """Return every body of a world or space; none where the program never stepped one."""
+def all_bodies(subject: Subject, world: Any) -> list[BodyValue | SpaceBody]:
+    """Return every body of a world or space; none if the program never stepped one."""
     if isinstance(world, pymunk.Space):
-        value = subject.space(world)
-        return list(value.bodies)
+        return [*subject.space(world).bodies]
     return [subject.body(body) for body in getattr(world, "bodies", [])]
 
 

@@ -39,20 +39,20 @@ MAX_SHAPES, MAX_CORNERS = 40, 12  # of one body, and of one shape
 
 
 class Recorder:
-    """Records moments of the submission's bodies while a request is answered.
+    """Records moments of the submission's bodies while it answers a request.
 
-    A submission may have made anything of its objects, so a thing that cannot be described is left
-    out, and everything has an upper bound.
+    A submission may have made anything of its objects: those that cannot be described are left out,
+    and every list has an upper bound.
     """
 
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
         self.recording: Record | None = None
-        self.bodies: dict[int, Any] = {}  # the bodies by number
-        self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps those alive
-        self.hidden = 0  # so many objects belong to an earlier scene
-        self.given: list[int] = []  # the objects that the request is about
-        self.world: Any = None  # of the program that runs, if one does
+        self.bodies: dict[int, Any] = {}  # by number
+        self.numbers: dict[int, int] = {}  # by id(body); self.bodies keeps these alive
+        self.hidden = 0  # objects of earlier scenes
+        self.given: list[int] = []  # numbers of the objects that the request names
+        self.world: Any = None  # of the running program, if any
         self.owner: type | None = None
         self._reset(None)
 
@@ -76,18 +76,18 @@ class Recorder:
         self.states = 0
 
     def expect(self, states: int) -> None:
-        """Say how many states a run has, so that the moments are spread over all of it."""
+        """Set the number of states of a run, so that its moments cover all of it."""
         self.total = states
         self.every = math.ceil(states / self.recording.most) if self.recording else 1
 
     def record(self, time: float, steps: int) -> None:
-        """Note a state of a run, at `time` in s. One in so many, and the last, becomes a moment."""
+        """Record a state of a run, at `time` in s; one in so many, and the last, is a moment."""
         self.states += 1
         if self.recording and (self.states % self.every == 0 or self.states == self.total):
             self._add_moment(time, steps)
 
     def finish(self, reply: Reply) -> WithMoments:
-        """Return the reply with its moments: at least the one of how it ended."""
+        """Return the reply with its moments: at least the one at the end."""
         if not self.moments:
             self._add_moment(0.0, 0)
         answer = WithMoments(reply, self.looks, self.moments)
@@ -99,7 +99,7 @@ class Recorder:
     def watch_worlds(self, owner: type, states: int) -> None:
         """Record the latest World or Space that the program makes.
 
-        A program keeps its world in a local variable of main(), so we learn of it as it is made.
+        A program may keep its world in a local variable, so we watch the making of worlds.
         """
         self.expect(states)
         if self.recording is None:
@@ -113,7 +113,7 @@ class Recorder:
         owner.__init__ = init  # type: ignore[misc]
 
     def stop_watching(self) -> None:
-        """Give the class its own __init__ back."""
+        """Restore the class's own __init__."""
         if self.owner is not None:
             self.owner.__init__ = self.real  # type: ignore[misc]
             self.owner = None
@@ -121,7 +121,7 @@ class Recorder:
     # ------------------------------------------------------------ a moment
 
     def _add_moment(self, time: float, steps: int) -> None:
-        """Add a moment; if describing a thing fails, keep what was described before it."""
+        """Add a moment; if describing a thing fails, the moment ends there."""
         moment = Moment(float(time), steps, [], [], [])
         with suppress(Exception):
             for thing in self._visible():
@@ -129,16 +129,14 @@ class Recorder:
         self.moments.append(moment)
 
     def _visible(self) -> list[Any]:
-        """Return what to show: the running program's world, or what this scene has made and is
-        given.
-        """
+        """Return the program's world, or the objects that this scene has made or been given."""
         if self.world is not None:
             return [self.world]
         given = [self.subject.objects[ref] for ref in self.given if ref in self.subject.objects]
         return [*given, *list(self.subject.objects.values())[self.hidden :]]
 
     def _add_visible(self, thing: Any, moment: Moment) -> None:
-        """Add a world or space with all in it, or one thing alone."""
+        """Add a world or space with its contents, or one thing."""
         if isinstance(thing, pymunk.Space):
             for body in (thing.static_body, *thing.bodies):
                 self._append(moment.bodies, MAX_BODIES, self._body, body)
@@ -152,7 +150,7 @@ class Recorder:
             self._add_thing(thing, moment)
 
     def _add_thing(self, thing: Any, moment: Moment) -> None:
-        """Add a body, contact, rod or spring; which it is shows by its attributes."""
+        """Add a body, contact, rod or spring, recognised by its attributes."""
         if isinstance(thing, pymunk.Body) or hasattr(thing, "inv_mass"):
             self._append(moment.bodies, MAX_BODIES, self._body, thing)
         elif hasattr(thing, "normal"):
@@ -163,17 +161,14 @@ class Recorder:
     def _append(
         self, rows: list[Any], most: int, describe: Callable[[Any], Any], thing: Any
     ) -> None:
-        """Add a row unless there are `most` of them, it is there already, or it fails."""
+        """Add a row, unless there are `most`, it is there already, or describing it fails."""
         with suppress(Exception):
             row = describe(thing)
             if len(rows) < most and row not in rows:
                 rows.append(row)
 
     def _body(self, body: Any) -> BodyRow:
-        """Return where a body is now.
-
-        A new one gets a number, and what never changes is noted once.
-        """
+        """Return the state of a body; a new body gets a number and a look."""
         number = self.numbers.get(id(body))
         if number is None:
             number = len(self.bodies) + 1
@@ -183,7 +178,7 @@ class Recorder:
         return BodyRow(number, *read_state(body))
 
     def _look_of(self, body: Any) -> BodyLook:
-        """Return what does not change about a body: its shapes, mass (kg) and moment (kg px²)."""
+        """Return the fixed properties of a body: shapes, mass (kg) and moment (kg px²)."""
         ref = self.subject.refs.get(id(body), 0)
         if isinstance(body, pymunk.Body):
             shapes = sorted(body.shapes, key=shape_order)[:MAX_SHAPES]

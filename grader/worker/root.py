@@ -1,12 +1,12 @@
 """Make a root folder for one child: Python, its packages and the child's folder, nothing else.
 
-Landlock says what may be opened. What is not there at all cannot be looked at, changed in its mode
-or spoken to through a socket either.
+Landlock restricts opening. A file that has no name in a child's root cannot be listed, changed in
+its mode, or used as a socket either.
 
-What all children share is laid out once, by the warm process in a mount namespace of its own: a
-file system in memory, with the folders that Python needs bound into it, read-only. A child takes a
-copy of that in namespaces of its own, adds what is its own, and makes it its root. The numbers are
-those of <sys/mount.h> and <linux/capability.h>; see mount(2), pivot_root(2), capabilities(7).
+The warm process makes the shared part once, in its own mount namespace: a file system in memory, to
+which the folders that Python needs are bound, read-only. A child copies it into namespaces of its
+own, adds its own folders, and makes it its root. The numbers are those of <sys/mount.h> and
+<linux/capability.h>; see mount(2), pivot_root(2), capabilities(7).
 """
 
 import ctypes
@@ -24,20 +24,20 @@ from grader.protocol import ChildSetup, Limits
 CLONE_NEWNS = 0x00020000
 MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC = 1 << 0, 1 << 1, 1 << 2, 1 << 3
 MS_REMOUNT, MS_BIND, MS_REC, MS_SLAVE = 1 << 5, 1 << 12, 1 << 14, 1 << 19
-LOCKED = MS_NOSUID | MS_NODEV | MS_NOEXEC  # what a mount has of these, a copy may not lose
+LOCKED = MS_NOSUID | MS_NODEV | MS_NOEXEC  # a copy of a mount must have those of the mount
 MNT_DETACH = 2
-PR_CAPBSET_DROP, CAPABILITIES = 24, 64  # all that a set of two words can hold
+PR_CAPBSET_DROP, CAPABILITIES = 24, 64  # as many as a set of two words holds
 CAPABILITY_VERSION_3 = 0x20080522
 PIVOT_ROOT = {"x86_64": 155, "aarch64": 41}
 
-# Folders of a Linux that hold neither Python nor submissions: one is covered by the new root.
+# Folders without Python and submissions: the new root is mounted over one of them.
 PLACES = ("/sys", "/mnt", "/media", "/srv", "/boot")
-TOPS = ("/check", "/check-of-a-grade")  # what a child has of its own is below one of them
+TOPS = ("/check", "/check-of-a-grade")  # a child's own folders are below one of them
 
 
 @cache
 def libc() -> ctypes.CDLL:
-    """Return the C library, for calls that Python lacks; loaded once, before the fork."""
+    """Return the C library, for calls that Python lacks; load it once, before the fork."""
     return ctypes.CDLL(None, use_errno=True)
 
 
@@ -49,26 +49,26 @@ def mount(source: str | None, target: str, kind: str | None, flags: int, data: s
 
 
 def show(source: str, target: str, flags: int = MS_RDONLY) -> None:
-    """Let a file or folder be seen at `target` as well, read-only unless told otherwise."""
+    """Bind a file or folder to `target`; read-only unless other flags are given."""
     mount(source, target, None, MS_BIND | MS_REC)
     kept = os.statvfs(target).f_flag & LOCKED
     mount(None, target, None, MS_BIND | MS_REMOUNT | MS_NOSUID | flags | kept)
 
 
 def file_system_in_memory(target: str, limits: Limits) -> None:
-    """Mount a file system in memory of this size, which ends with the last process that sees it."""
+    """Mount a file system in memory, which ends with the last process that sees it."""
     size = f"size={limits.scratch_mb}m,nr_inodes={limits.scratch_files}"
     mount("tmpfs", target, "tmpfs", LOCKED, size)
 
 
 class Root:
-    """The shared part, at `place`; a child's own folders come below `top`."""
+    """The shared part, mounted at `place`; a child's own folders are below `top`."""
 
     def __init__(self, place: str, top: str) -> None:
         self.place, self.top = place, top
 
     def lay_out(self, paths: Iterable[Path], links: Iterable[Path]) -> None:
-        """Bind the paths, and make the links that lead to them: /lib is one on most machines."""
+        """Bind the paths, and make the links to them, such as /lib."""
         mount("tmpfs", self.place, "tmpfs", LOCKED, "size=1m,mode=755")
         bound: list[Path] = []
         for path in sorted(paths):
@@ -91,9 +91,9 @@ class Root:
         mount(None, self.place, None, MS_BIND | MS_REMOUNT | MS_RDONLY | LOCKED)
 
     def enter(self, setup: ChildSetup) -> ChildSetup:
-        """Make it this process's root, in a mount namespace of its own; where things are there.
+        """Make it the root of this process, in its own mount namespace; return the new paths.
 
-        Raises OSError; up to the last two calls all is as before then.
+        Raises OSError; then nothing has changed unless one of the last two calls failed.
         """
         mount(self.place, self.place, None, MS_BIND | MS_REC)  # one of this namespace's own
         own = self.place + self.top
@@ -118,10 +118,10 @@ LAID_OUT: dict[tuple[Path, ...], Root] = {}  # by the paths in it
 
 
 def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None:
-    """Lay it out in a mount namespace that this process enters; None where that is not allowed.
+    """Make the shared part in a new mount namespace; return None where that is not allowed.
 
-    What the warm process has laid out is there in its children. Where it was not allowed to, a
-    child is that has a user namespace.
+    Children inherit the part that the warm process made. If the warm process was not allowed to, a
+    child with a user namespace is.
     """
     if paths in LAID_OUT:
         return LAID_OUT[paths]
@@ -134,7 +134,7 @@ def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None
         return None
     root = Root(place, top)
     try:
-        mount(None, "/", None, MS_REC | MS_SLAVE)  # nothing of ours is seen outside
+        mount(None, "/", None, MS_REC | MS_SLAVE)  # our mounts stay invisible outside
         root.lay_out(paths, links)
     except OSError:
         return None
@@ -143,12 +143,12 @@ def shared_root(paths: tuple[Path, ...], links: tuple[Path, ...]) -> Root | None
 
 
 def free(folder: str, used: Iterable[Path]) -> bool:
-    """Return whether nothing that is needed lies in this folder."""
+    """Return whether no path that we use lies in this folder."""
     return not any(each.is_relative_to(folder) for each in used)
 
 
 def drop_capabilities() -> None:
-    """Give up what root of a namespace may do there; there is no way back."""
+    """Give up for good the rights of a namespace's root."""
     for capability in range(CAPABILITIES):
         libc().prctl(PR_CAPBSET_DROP, capability, 0, 0, 0)
     header = struct.pack("Ii", CAPABILITY_VERSION_3, 0)

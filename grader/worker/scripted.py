@@ -1,11 +1,11 @@
 """Script the clock, keyboard and mouse of a program that runs without a person.
 
-Every way of reading time agrees: `Clock.tick`, `get_ticks`, `time.*`. Time stands still unless the
-program ends a frame (`Clock.tick`, or showing the picture where no Clock ticks), sleeps, or reads
-the time over and over, as a busy wait does. A frame takes whole milliseconds, as pygame's do.
+Every way of reading time agrees: `Clock.tick`, `get_ticks`, `time.*`. Time passes only when the
+program ends a frame, sleeps, or reads the time over and over, as a busy wait does. A frame ends at
+`Clock.tick`, or when the picture is shown if no Clock ticks. Frames take whole milliseconds, as
+pygame's do.
 
-So a slow machine gives the same marks as a fast one, a check of seconds takes milliseconds, and
-every way of writing a game loop is measured alike.
+So slow and fast machines give the same marks, and a check of seconds takes milliseconds.
 """
 
 import datetime
@@ -19,9 +19,9 @@ import pygame
 
 from grader.protocol import Event
 
-START_MS = 1000.0  # time at the start: a program may not count on 0
-GRACE_FRAMES = 5  # frames a program may run on after it was told to quit
-BUSY_READS = 500  # readings of the time without a frame in between, before time moves by itself
+START_MS = 1000.0  # time at the start: a program may not rely on 0
+GRACE_FRAMES = 5  # a program may run so many frames after QUIT
+BUSY_READS = 500  # readings of the time in one frame before time moves by itself
 MODIFIERS = {
     "left shift": pygame.KMOD_LSHIFT,
     "right shift": pygame.KMOD_RSHIFT,
@@ -38,23 +38,23 @@ class PlayOver(BaseException):
 
 
 class ScriptedClock:
-    """Stands in for pygame's and Python's clocks; installed before the submission is imported.
+    """Replaces pygame's and Python's clocks; all times inside are ms.
 
-    Later would be too late: `from time import perf_counter` keeps the function it finds. All times
-    inside are ms.
+    It is installed before the submission is imported, because `from time import perf_counter` keeps
+    the function that it finds.
     """
 
     def __init__(self) -> None:
         self.now = START_MS  # ms
-        self.reads = 0  # of the time, since the last frame or sleep
-        self.clocks = 0  # that the program made, when it was imported or later
+        self.reads = 0  # readings of the time since the last frame or sleep
+        self.clocks = 0  # Clocks that the program has made
         self.held = ""  # the keys that are down
         self.start([], [], lambda: None)
 
     def start(
         self, frames: Sequence[int], events: Sequence[Event], frame_over: Callable[[], None]
     ) -> None:
-        """Script a run: `frames` in ms each; `frame_over` is called once all is done in a frame."""
+        """Script a run of `frames`, each in ms; `frame_over` is called at the end of each frame."""
         self.frames, self.events, self.frame_over = frames, events, frame_over
         self.frame = 0
         self.frame_began = self.began = self.now
@@ -62,10 +62,11 @@ class ScriptedClock:
 
     def install(self) -> None:
         """Replace every function and class that reads time, waits or shows the picture."""
+        clock = type("Clock", (FrameClock,), {"script": self})
         replacements: dict[Any, dict[str, Any]] = {
-            pygame: {"Clock": self._clock_type()},
+            pygame: {"Clock": clock},
             pygame.time: {
-                "Clock": self._clock_type(),
+                "Clock": clock,
                 "get_ticks": lambda: int(self.read()),
                 "wait": self._wait,
                 "delay": self._wait,
@@ -75,7 +76,7 @@ class ScriptedClock:
                 "flip": self._ending_frames(pygame.display.flip),
                 "update": self._ending_frames(pygame.display.update),
             },
-            datetime: {"datetime": self._datetime_type()},
+            datetime: {"datetime": type("datetime", (ScriptedDatetime,), {"script": self})},
             pygame.event: {"wait": self._wait_for_event},
             time: {"sleep": lambda seconds: self.sleep(seconds * 1000)},
         }
@@ -86,39 +87,17 @@ class ScriptedClock:
             for name, replacement in names.items():
                 setattr(module, name, replacement)
 
-    def _datetime_type(self) -> type[datetime.datetime]:
-        """Return a datetime whose now() is the scripted time."""
-        clock = self
-
-        class ScriptedDatetime(datetime.datetime):
-            """The real one, but for what it calls now."""
-
-            @classmethod
-            def now(cls, tz: datetime.tzinfo | None = None) -> "ScriptedDatetime":
-                return cls.fromtimestamp(clock.read() / 1000, tz)
-
-            @classmethod
-            def today(cls) -> "ScriptedDatetime":
-                return cls.now()
-
-            @classmethod
-            def utcnow(cls) -> "ScriptedDatetime":
-                return cls.now()
-
-        return ScriptedDatetime
-
     # ------------------------------------------------------------ time
 
     @property
     def elapsed(self) -> float:
-        """Return how long the program has been running, in ms."""
+        """Return the running time of the program, in ms."""
         return self.now - self.began
 
     def read(self) -> float:
-        """Return the time now, in ms.
+        """Return the time now, in ms; after BUSY_READS readings, each adds 0.1 ms.
 
-        After BUSY_READS readings in a row it moves by 0.1 ms with each: otherwise a busy wait would
-        never end.
+        Otherwise a busy wait would never end.
         """
         self.reads += 1
         if self.reads > BUSY_READS:
@@ -135,10 +114,10 @@ class ScriptedClock:
         self.reads = 0
 
     def end_frame(self) -> None:
-        """Let the frame take its time, or longer where the program slept longer.
+        """End a frame, which takes its scripted time, or longer if the program slept longer.
 
-        Raises PlayOver once the program has run on for GRACE_FRAMES after QUIT. One that catches
-        that as well is ended with its process, which loses it the answer.
+        Raises PlayOver when the program runs on for GRACE_FRAMES after QUIT. The process of a
+        program that catches this is ended, so the program has no answer.
         """
         self.frame_over()
         if self.frame < len(self.frames):
@@ -148,7 +127,7 @@ class ScriptedClock:
         self.frame += 1
         if self.frame >= len(self.frames) + GRACE_FRAMES:
             if self.frame >= len(self.frames) + 4 * GRACE_FRAMES:
-                os._exit(1)  # it swallowed the exception as well
+                os._exit(1)  # it caught the exception
             raise PlayOver("the program runs on after its window was closed")
         self._post_input(self.frame)
 
@@ -158,12 +137,12 @@ class ScriptedClock:
         self.end_frame()
 
     def _wait(self, milliseconds: float) -> int:
-        """Stand in for pygame.time.wait and delay."""
+        """Replace pygame.time.wait and delay."""
         self.sleep(milliseconds)
         return int(milliseconds)
 
     def _wait_for_event(self, timeout: float = 0) -> pygame.event.Event:
-        """Stand in for pygame.event.wait: let frames go by until there is an event."""
+        """Replace pygame.event.wait: end frames until there is an event."""
         began = self.now
         while not pygame.event.peek():
             if timeout and self.now - began >= timeout:
@@ -171,21 +150,11 @@ class ScriptedClock:
             self.end_frame()
         return pygame.event.poll()
 
-    def _clock_type(self) -> type:
-        """pygame's Clock, tied to this script. A class, for programs may inherit from it."""
-        script = self
-
-        class Clock(FrameClock):
-            def __init__(self) -> None:
-                super().__init__(script)
-
-        return Clock
-
     def _ending_frames(self, show: Callable[..., Any]) -> Callable[..., Any]:
-        """Let showing the picture end a frame, unless a Clock does or may be about to.
+        """Make showing the picture end a frame, unless a Clock ends it.
 
-        Which of the two ends frames shows only in the second frame of a program that has made a
-        Clock: it may tick after the first picture, or never.
+        Whether a Clock ends frames is known in the second frame only: the Clock may tick after the
+        first picture, or never.
         """
 
         def show_and_count(*args: Any) -> Any:
@@ -217,7 +186,7 @@ class ScriptedClock:
                     self._post_key(kind, event.key, event.key)
 
     def _hold_keys(self, keys: str) -> None:
-        """Hold these keys down from now on, and no others; an empty text for none."""
+        """Hold these keys down from now on and release all others."""
         if keys == self.held:
             return
         before, now = keys_in(self.held), keys_in(keys)
@@ -236,12 +205,12 @@ class ScriptedClock:
         pygame.event.post(pygame.event.Event(kind, key=key, mod=mod, unicode=unicode, scancode=0))
 
     def _pressed_keys(self, real: Callable[[], Any]) -> Callable[[], Any]:
-        """get_pressed(), with the keys that the script holds down."""
+        """Return a get_pressed() that includes the keys held by the script."""
         return lambda: Pressed(real(), self.held)
 
 
 def keys_in(held: str) -> list[str]:
-    """Return the keys that are named, as in "left shift+left ctrl"."""
+    """Return the keys in a text such as "left shift+left ctrl"."""
     return held.split("+") if held else []
 
 
@@ -256,16 +225,17 @@ class Pressed:
 
 
 class FrameClock:
-    """The clock that `pygame.time.Clock()` returns here; any frame rate asked for is ignored."""
+    """A `pygame.time.Clock` that ignores the frame rate; programs may derive from it."""
 
-    def __init__(self, script: ScriptedClock) -> None:
-        self.script = script
-        self.last = script.now
+    script: ScriptedClock  # set in the class that a program sees
+
+    def __init__(self) -> None:
+        self.last = self.script.now
         self.length = 0
-        script.clocks += 1
+        self.script.clocks += 1
 
     def tick(self, framerate: float = 0) -> int:
-        """End the frame; returns its length in whole ms."""
+        """End the frame; return its length in whole ms."""
         self.script.tick()
         self.length = int(self.script.now) - int(self.last)
         self.last = self.script.now
@@ -274,20 +244,36 @@ class FrameClock:
     tick_busy_loop = tick
 
     def get_time(self) -> int:
-        """ms between the last two ticks."""
+        """Return the ms between the last two ticks."""
         return self.length
 
-    def get_rawtime(self) -> int:
-        """Return the same as get_time(): here no frame waits."""
-        return self.length
+    get_rawtime = get_time  # no frame waits here
 
     def get_fps(self) -> float:
-        """Frames per second, going by the last frame; 0 before there was one."""
+        """Return the frames per second of the last frame; 0 before the first."""
         return 1000 / self.length if self.length else 0.0
 
 
+class ScriptedDatetime(datetime.datetime):
+    """The real datetime, but its present is the scripted time."""
+
+    script: ScriptedClock  # set in the class that a program sees
+
+    @classmethod
+    def now(cls, tz: datetime.tzinfo | None = None) -> "ScriptedDatetime":
+        return cls.fromtimestamp(cls.script.read() / 1000, tz)
+
+    @classmethod
+    def today(cls) -> "ScriptedDatetime":
+        return cls.now()
+
+    @classmethod
+    def utcnow(cls) -> "ScriptedDatetime":
+        return cls.now()
+
+
 def shift_seeds(number: int) -> None:
-    """Add a number to each whole number with which a random.Random is seeded from now on."""
+    """Add `number` to each whole seed of a random.Random from now on."""
     draw = random.Random.seed
 
     def seed(self: random.Random, a: Any = None, version: int = 2) -> None:

@@ -1,7 +1,7 @@
-"""Start a child as a new process where there is no fork: the same answers, only slower.
+"""Start a child as a new process where there is no fork: same answers, but slower.
 
-The first argument is the descriptor of its channel, the others name layers that are left out.
-The first message on its channel is the ChildSetup that a forked child gets from the warm process.
+The first argument is the descriptor of its channel; the others name layers to leave out. The first
+message on the channel is its ChildSetup.
 """
 
 import socket
@@ -15,9 +15,7 @@ from grader.worker.confinement import wipe_variables
 
 
 def connect() -> Channel:
-    """Return the channel the judge handed over: a descriptor, or on Windows a share on standard
-    input.
-    """
+    """Return the judge's channel: a descriptor, or on Windows a share on standard input."""
     if sys.platform == "win32":
         return Channel(socket.fromshare(sys.stdin.buffer.read()))
     return Channel(socket.socket(fileno=int(sys.argv[1])))

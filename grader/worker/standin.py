@@ -1,7 +1,7 @@
-"""Putting one function in the place of another, for everybody who holds the other already.
+"""Replace a function by another one, also where it is already imported or stored.
 
-A name can be bound many times over: by an import, as a default argument, in a table of functions.
-So no name is bound anew. The function itself gets other code, which calls the one that stands in.
+Imports, default arguments and tables of functions all hold a function. So no name is bound anew:
+the function object itself gets other code, which calls the replacement.
 """
 
 import inspect
@@ -15,14 +15,14 @@ Function = Callable[..., Any]
 POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 VARIABLE = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
 
-PLACEHOLDER = "what stands in"
-with warnings.catch_warnings(action="ignore"):  # nobody calls the text itself
+PLACEHOLDER = "the replacement"
+with warnings.catch_warnings(action="ignore"):  # a text is not callable
     CALL = compile(f"def call(*args, **kw): return {PLACEHOLDER!r}(*args, **kw)", "", "exec")
 DETOUR = next(each for each in CALL.co_consts if isinstance(each, CodeType))
 
 
-def put_in_place(original: FunctionType, stand_in: Function) -> FunctionType:
-    """Let every call of `original` reach `stand_in`; returns a function that is as it was."""
+def replace_function(original: FunctionType, replacement: Function) -> FunctionType:
+    """Make every call of `original` call `replacement`; return a copy of the original."""
     before = FunctionType(
         original.__code__,
         original.__globals__,
@@ -31,20 +31,18 @@ def put_in_place(original: FunctionType, stand_in: Function) -> FunctionType:
         original.__closure__,
     )
     before.__kwdefaults__ = original.__kwdefaults__
-    if isinstance(stand_in, FunctionType):  # so that an error of a call has the name it knows
-        stand_in.__qualname__ = original.__qualname__
+    if isinstance(replacement, FunctionType):  # so that an error of a call names the original
+        replacement.__qualname__ = original.__qualname__
     original.__code__ = DETOUR.replace(
         co_name=original.__name__,
-        co_freevars=original.__code__.co_freevars,  # Python wants as many as there are cells
-        co_consts=tuple(stand_in if each == PLACEHOLDER else each for each in DETOUR.co_consts),
+        co_freevars=original.__code__.co_freevars,  # Python wants one per cell
+        co_consts=tuple(replacement if each == PLACEHOLDER else each for each in DETOUR.co_consts),
     )
     return before
 
 
 def plain_function(thing: Any) -> FunctionType | None:
-    """Return the function itself, beneath decorators that say what they wrap; None where there is
-    none.
-    """
+    """Return the function beneath decorators; None if there is none."""
     if isinstance(thing, staticmethod | classmethod):
         thing = thing.__func__
     try:
@@ -54,11 +52,11 @@ def plain_function(thing: Any) -> FunctionType | None:
     return thing if isinstance(thing, FunctionType) else None
 
 
-def fitted(wanted: Function, parameters: Sequence[str], original: FunctionType) -> Function | None:
-    """Return `wanted` wrapped to take `original`'s arguments; None if they do not match.
+def adapt(wanted: Function, parameters: Sequence[str], original: FunctionType) -> Function | None:
+    """Wrap `wanted` so that it takes `original`'s arguments; return None if they do not match.
 
-    `parameters` are those of `wanted`, in order. The same ones may be named otherwise, stand in
-    another order, or have further ones with defaults behind them.
+    `parameters` are those of `wanted`, in order. The original may have other names, another order,
+    or further parameters with defaults at the end.
     """
     signature = inspect.signature(original)
     theirs = list(signature.parameters.values())

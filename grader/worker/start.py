@@ -1,8 +1,8 @@
-"""Start a program as the lab sheet says: run what Python runs of it as `__main__`.
+"""Start a program as the lab sheet says: run the code that Python runs as `__main__`.
 
-The module has been imported, with its TODOs swapped and its steps watched, and a second import
-under another name would know nothing of that. So of a package its `__main__.py` is run, and of a
-single file, in the module that is there, the statements that ask for `__name__`.
+The module is already imported, with its TODOs swapped and its steps counted; a second import under
+another name would have neither. So a package runs its `__main__.py`. A single file runs its
+statements that ask for `__name__`, inside the imported module.
 """
 
 import ast
@@ -17,10 +17,10 @@ from grader.worker.values import ContractError
 
 
 def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
-    """Start a program; if `shown` has counted no frame then, call its main().
+    """Start a program; call its main() if no frame was shown before.
 
-    The block that runs as `__main__` may be a test, without a window. Nobody presses Enter: a
-    program that waits for it after all frames has ended.
+    The block that runs as `__main__` may be a test without a window. A program that waits for
+    Enter after the last frame has ended.
     """
     failed: Exception | None = None
     try:
@@ -41,7 +41,7 @@ def start(subject: Subject, module: str, shown: Sized, frames: int) -> None:
 
 
 def run_as_main(folder: Path, module: str) -> None:
-    """Run what `python -m module` runs besides an import."""
+    """Run the code that `python -m module` runs besides an import."""
     path = folder / module / "__main__.py"
     if path.exists():
         code: CodeType | None = compile(path.read_bytes(), path, "exec")
@@ -50,13 +50,13 @@ def run_as_main(folder: Path, module: str) -> None:
     else:
         code, program = main_block(folder / f"{module}.py"), sys.modules[module]
     if code is not None:
-        with known_as_main(program):
+        with replaced_main(program):
             exec(code, vars(program))
 
 
 @contextmanager
-def known_as_main(program: ModuleType) -> Iterator[None]:
-    """Make `__main__` this module meanwhile, for profilers and tests that look there."""
+def replaced_main(program: ModuleType) -> Iterator[None]:
+    """Make this module `__main__` for a while: profilers and tests look there."""
     before = sys.modules["__main__"]
     sys.modules["__main__"] = program
     try:
@@ -66,13 +66,13 @@ def known_as_main(program: ModuleType) -> Iterator[None]:
 
 
 def main_block(path: Path) -> CodeType | None:
-    """Return what a file does only when it is started: its `if __name__ == "__main__":`."""
+    """Return the code that a file runs only when started: its `if __name__ == "__main__":`."""
     if not path.exists():
         return None
     tree = ast.parse(path.read_bytes())
     tree.body = [each for each in tree.body if isinstance(each, ast.If) and asks_name(each.test)]
     for each in tree.body:
-        Started().visit(each)
+        ReplaceName().visit(each)
     return compile(ast.fix_missing_locations(tree), path, "exec") if tree.body else None
 
 
@@ -80,8 +80,8 @@ def asks_name(test: ast.expr) -> bool:
     return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(test))
 
 
-class Started(ast.NodeTransformer):
-    """Writes what `__name__` is in a program that is started."""
+class ReplaceName(ast.NodeTransformer):
+    """Replaces `__name__` by its value in a started program."""
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         return ast.copy_location(ast.Constant("__main__"), node) if node.id == "__name__" else node

@@ -48,7 +48,7 @@ from grader.protocol import (
     cut,
 )
 from grader.worker.memory import Memory
-from grader.worker.standin import fitted, plain_function, put_in_place
+from grader.worker.standin import adapt, plain_function, replace_function
 from grader.worker.values import (
     ContractError,
     as_number,
@@ -132,11 +132,11 @@ class Subject:
             original = plain_function(self.find(piece.target))
             if original is None or self._is_asked(piece, original):
                 return
-            wanted = fitted(self._build(piece, original), piece.parameters, original)
+            wanted = adapt(self._build(piece, original), piece.parameters, original)
         except (ContractError, KeyError, ImportError):
             return
         if wanted is not None:
-            put_in_place(original, wanted)
+            replace_function(original, wanted)
 
     def _is_asked(self, piece: Piece, original: types.FunctionType) -> bool:
         """Return whether this is also the function that the check is about."""

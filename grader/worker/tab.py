@@ -1,8 +1,8 @@
 """Run children without processes: all in this interpreter, each while it answers a request.
 
-For the page in a browser tab, which has no processes, and for one's own work alone: nothing here
-keeps a submission from anything. Every child has its own modules, import rule, clock, random
-numbers, folder and output. They are in place while it answers; meanwhile the judge's are aside.
+For the page in a browser tab, which has no processes. For one's own work alone: nothing here
+confines a submission. Each child has its own modules, import rule, clock, random numbers, folder
+and output, which replace the judge's while it answers.
 """
 
 import builtins
@@ -39,17 +39,17 @@ from grader.worker.copies import compile_all, copy_submission
 from grader.worker.imports import ALLOWED, LIBRARIES
 from grader.worker.session import Session
 
-# Told how many seconds a request may take as it begins, and None as it ends. It sees to it that
-# a request that takes longer is ended by KeyboardInterrupt, again and again until it ends.
+# Gets the seconds that a request may take when it begins, and None when it ends. It raises
+# KeyboardInterrupt in a request that takes longer, again and again until that ends.
 Watch = Callable[[float | None], None]
 
-OUT_OF_TIME = -24  # the exit status of a process that used up its processor time: SIGXCPU
-LATE = 0.1  # s: later than a child's time is over, its request is interrupted
+OUT_OF_TIME = -24  # exit status of a process that used up its processor time: SIGXCPU
+LATE = 0.1  # s between the end of a child's time and the interrupt
 MISSING = object()
-now = time.process_time  # a child has another one under this name
+now = time.process_time  # the real one: a child replaces it
 step: Any = pymunk.Space.step
 
-OWN = [  # what each child has for itself, by whom it belongs to
+OWN = [  # the attributes that each child has for itself, by owner
     (sys, ("path", "argv", "meta_path", "stdout", "stderr", "dont_write_bytecode")),
     (tempfile, ("tempdir",)),
     (os, ("_exit", "abort")),
@@ -62,10 +62,10 @@ OWN = [  # what each child has for itself, by whom it belongs to
     (datetime, ("datetime",)),
     (time, ("sleep", "time", "monotonic", "perf_counter", "process_time")),
     (time, ("time_ns", "monotonic_ns", "perf_counter_ns", "process_time_ns")),
-    (pymunk.Space, ("__init__",)),  # a replay listens to it
-    (step, ("__code__", "__defaults__", "__kwdefaults__")),  # counted in place
+    (pymunk.Space, ("__init__",)),  # a replay watches it
+    (step, ("__code__", "__defaults__", "__kwdefaults__")),  # replaced to count steps
 ]
-SHARED: list[Any] = [  # what a child may change for all others, and is put back when it ends
+SHARED: list[Any] = [  # modules and classes that are restored when a child ends
     *(builtins, math, random, time, datetime),
     *(each for name, each in sys.modules.items() if name.partition(".")[0] in LIBRARIES),
     *(pymunk.Space, pymunk.Body),
@@ -79,25 +79,25 @@ class Surroundings:
 
     folder: str
     random: tuple[Any, ...]
-    deep: int  # calls, at most
+    depth: int  # of calls, at most
     values: list[tuple[Any, str, Any]]
     environment: dict[str, str]
 
     @classmethod
     def current(cls) -> "Surroundings":
         values = [(owner, n, getattr(owner, n, MISSING)) for owner, names in OWN for n in names]
-        deep, environment = sys.getrecursionlimit(), dict(os.environ)
-        return cls(os.getcwd(), random.getstate(), deep, values, environment)
+        depth, environment = sys.getrecursionlimit(), dict(os.environ)
+        return cls(os.getcwd(), random.getstate(), depth, values, environment)
 
     def copy(self) -> "Surroundings":
-        """Return the same with lists of its own."""
+        """Return a copy with lists of its own."""
         values = [
             (owner, name, list(value) if isinstance(value, list) else value)
             for owner, name, value in self.values
         ]
         return replace(self, values=values)
 
-    def put_in_place(self) -> None:
+    def install(self) -> None:
         for owner, name, value in self.values:
             if getattr(owner, name, MISSING) is value:
                 continue
@@ -107,15 +107,15 @@ class Surroundings:
                 setattr(owner, name, value)
         with suppress(OSError):  # a submission may have removed its folder
             os.chdir(self.folder)
-        if dict(os.environ) != self.environment:  # a program finds its number of frames there
+        if dict(os.environ) != self.environment:  # a program reads its number of frames there
             os.environ.clear()
             os.environ.update(self.environment)
         random.setstate(self.random)
-        sys.setrecursionlimit(self.deep)
+        sys.setrecursionlimit(self.depth)
 
 
 class Ended(BaseException):
-    """Raised where a submission ends its process, which it would not outlive."""
+    """Raised when a submission ends its process."""
 
 
 class Tenant:
@@ -129,7 +129,7 @@ class Tenant:
         self.surroundings = Surroundings.current().copy()
         files = copy_submission(setup, str(self.folder))
         self.surroundings.folder = str(self.folder)
-        with self.at_home():
+        with self.installed():
             os._exit = self.end
             os.abort = partial(self.end, -6)  # SIGABRT
             sys.dont_write_bytecode = True
@@ -138,34 +138,34 @@ class Tenant:
 
     def answer(self, asked: Asked) -> Answered:
         """Answer a request as a process of its own would."""
-        with self.at_home():
+        with self.installed():
             return child.answer(self.session, asked)
 
     def end(self, status: int) -> NoReturn:
-        """Stand in for os._exit, which would end the judge as well."""
+        """Replace os._exit, which would end the judge as well."""
         self.status = status
         raise Ended
 
     @contextmanager
-    def at_home(self) -> Iterator[None]:
-        """Put in place what the child has for itself, and the judge's back afterwards."""
+    def installed(self) -> Iterator[None]:
+        """Install the child's surroundings for a while."""
         judge = Surroundings.current()
         away = {name: sys.modules.pop(name) for name in self.away if name in sys.modules}
         shared = frozenset(sys.modules)
         sys.modules.update(self.modules)
-        self.surroundings.put_in_place()
+        self.surroundings.install()
         try:
             yield
         finally:
             self.surroundings = Surroundings.current()
-            judge.put_in_place()
+            judge.install()
             new = sys.modules.keys() - shared
-            mine = [name for name in new if name.partition(".")[0] not in LIBRARIES]
-            self.modules = {name: sys.modules.pop(name) for name in mine}
+            own = [name for name in new if name.partition(".")[0] not in LIBRARIES]
+            self.modules = {name: sys.modules.pop(name) for name in own}
             sys.modules.update(away)
 
     def forget(self) -> None:
-        """Let go of what Python keeps of a child that has ended."""
+        """Remove the folders of an ended child from Python's cache."""
         for place in [each for each in sys.path_importer_cache if self.holds(each)]:
             del sys.path_importer_cache[place]
 
@@ -174,15 +174,15 @@ class Tenant:
 
 
 def is_away(name: str, bans: Collection[str]) -> bool:
-    """Return whether a module that is loaded is not for submissions."""
+    """Return whether a loaded module must be hidden from submissions."""
     first = name.partition(".")[0]
     return first not in ALLOWED or first in bans
 
 
 class TabChannel(InnerChannel):
-    """Answers by itself what it is asked: the child is behind it, in this interpreter.
+    """A channel whose child answers in this interpreter.
 
-    `pace`: how many seconds here are worth one of a usual processor.
+    `pace`: seconds here per second of a usual processor.
     """
 
     def __init__(self, setup: ChildSetup, watch: Watch, pace: float = 1.0) -> None:
@@ -219,12 +219,12 @@ class TabChannel(InnerChannel):
         return self.answers.pop(0)
 
     def close(self) -> None:
-        """End the child, and put back what it has changed for all."""
+        """End the child, and restore what it has changed for all."""
         if self.tenant is not None:
             self.tenant.forget()
             self.tenant = None
             for owner, usual in zip(SHARED, USUAL, strict=True):
-                put_back(owner, usual)
+                restore(owner, usual)
 
     # ------------------------------------------------------------ the child's side
 
@@ -232,7 +232,7 @@ class TabChannel(InnerChannel):
         self.answers.append(packed(message)[4:])
 
     def _answer(self, asked: Asked) -> None:
-        """Answer, or do not where a process would have ended meanwhile."""
+        """Answer, unless a process would have ended meanwhile."""
         most = self.setup.limits.cpu_seconds
         began = now()
         if self.tenant is None:
@@ -251,8 +251,8 @@ class TabChannel(InnerChannel):
             child.send(self, answered)
 
 
-def put_back(owner: Any, usual: dict[str, Any]) -> None:
-    """Give a module or class what it held before, and keep modules that were loaded meanwhile."""
+def restore(owner: Any, usual: dict[str, Any]) -> None:
+    """Restore the attributes of a module or class; modules imported meanwhile stay."""
     if all(usual.get(name, MISSING) is value for name, value in vars(owner).items()):
         return
     for name, value in [*vars(owner).items()]:

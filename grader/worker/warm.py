@@ -1,8 +1,8 @@
 """Run the warm process: a fork server that has the libraries loaded and forks a child per check.
 
-It never imports the submission, so that one check cannot leave anything behind for the next. It
-is the parent of all children and ends whatever they leave running. The judge drives it through
-`control`, with Open and End; requests go to the children over sockets of their own.
+It never imports the submission, so one check leaves nothing behind for the next. It is the parent
+of all children and ends every process that they leave running. The judge sends it Open and End
+through `control`; requests go to each child over a socket of its own.
 """
 
 import ctypes
@@ -23,9 +23,9 @@ import pymunk
 from grader.protocol import Channel, ChannelClosed, ChildSetup, End, Ended, Open
 from grader.worker.child import serve, tidy_environment
 from grader.worker.confinement import isolate_server, prepare, wipe_variables, write
-from grader.worker.imports import at_hand, put_away
+from grader.worker.imports import hide_modules, unhidden_modules
 
-YOUNG = 10_000  # new objects, after which a child looks for garbage: seldom, for most end before
+YOUNG = 10_000  # new objects before a child collects garbage: most end before
 MOST_DESCRIPTORS = 4096  # more than this process ever has; some machines allow a billion
 
 decoder = msgspec.msgpack.Decoder(Open | End)
@@ -34,15 +34,15 @@ decoder = msgspec.msgpack.Decoder(Open | End)
 def main(control_fd: int, without: list[str]) -> None:
     """Serve the judge until it closes the control channel.
 
-    The first message says which layers of isolation all children are in already. Those in `without`
-    are left out, there and in the children.
+    The first message names the layers of isolation around all children. `without` names layers to
+    leave out, here and in the children.
     """
     wipe_variables()
     layers = isolate_server(control_fd, without)
     control = Channel(socket.socket(fileno=control_fd), eager=False)
     tidy_environment("")
     warm_up()
-    put_away()
+    hide_modules()
     gc.freeze()  # what is loaded stays shared with the children
     with suppress(ChannelClosed):
         control.send(layers)
@@ -58,10 +58,10 @@ def main(control_fd: int, without: list[str]) -> None:
 def warm_up() -> None:
     """Use once what every child uses, so that no child has to load it.
 
-    SDL looks for joysticks in each frame. Where it may not ask the kernel, as in a child, it loads
-    libudev for that each time anew, a tenth of a millisecond, unless it is there already.
+    SDL looks for joysticks in each frame. A child may not ask the kernel for them, so SDL would
+    load libudev in every frame (0.1 ms) unless it is loaded already.
     """
-    with suppress(OSError):  # not on every machine, and then SDL does not find it either
+    with suppress(OSError):  # not on every machine; then SDL does not find it either
         ctypes.CDLL("libudev.so.1")
     pygame.init()
     pygame.display.set_mode((1, 1))
@@ -74,16 +74,16 @@ def warm_up() -> None:
 
 
 def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
-    """Fork the child that `setup` describes; the file descriptor of its channel comes along.
+    """Fork a child; the file descriptor of its channel follows the message.
 
-    The child never returns from here: whatever happens to it, it must not run the server's loop.
+    The child never returns from here: it must not run the server's loop.
     """
     _, (descriptor,), _, _ = socket.recv_fds(control.sock, 1, 1)
     prepare(setup, without)
     for library in setup.loads:
         importlib.import_module(library)
         gc.freeze()
-    begin_numbers_anew()
+    reset_numbers()
     pid = os.fork()
     if pid:
         os.close(descriptor)
@@ -97,10 +97,10 @@ def fork(control: Channel, setup: ChildSetup, without: list[str]) -> None:
         os._exit(0)
 
 
-def begin_numbers_anew() -> None:
-    """Give the next child the lowest number that is free, in a PID namespace of ours.
+def reset_numbers() -> None:
+    """Give the next child the lowest free number in our PID namespace.
 
-    Threads are numbered too: the number of a child would tell how many the one before has started.
+    Threads are numbered too: a child's number would tell how many threads the last child started.
     """
     if os.getpid() == 1:
         with suppress(OSError):
@@ -108,10 +108,10 @@ def begin_numbers_anew() -> None:
 
 
 def close_other_descriptors(descriptor: int) -> None:
-    """Close what the child has inherited but its own channel.
+    """Close every inherited descriptor but the child's channel.
 
-    The control socket would let a submission command the server. Standard input, output and error
-    lead to /dev/null, so that the C library cannot write to the judge's terminal either.
+    A submission could command the server through the control socket. Standard input, output and
+    error lead to /dev/null, so that the C library cannot write to the judge's terminal either.
     """
     null = os.open(os.devnull, os.O_RDWR)
     for standard in (0, 1, 2):
@@ -141,7 +141,7 @@ def end(pid: int, gone: bool) -> Ended:
 
 
 def wait_for_exit(pid: int) -> None:
-    """Wait until a process has ended, for about 0.2 s at most, and leave its status to be read."""
+    """Wait about 0.2 s for a process to end; leave its status to be read."""
     for _ in range(100):
         with suppress(ChildProcessError):
             if os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None:
@@ -161,17 +161,15 @@ def end_strays() -> None:
 
 
 def stray_pids() -> list[int]:
-    """Return which processes to kill: all (-1) where the namespace holds no others, or all
-    descendants.
-    """
+    """Return the processes to kill: all (-1) in a PID namespace of ours, else all descendants."""
     if os.getpid() == 1:
         return [-1]
-    with at_hand():
+    with unhidden_modules():
         return [process.pid for process in psutil.Process().children(recursive=True)]
 
 
 def has_children() -> bool:
-    """Return whether any process is left: orphans become our children (see isolate_server)."""
+    """Return whether any process is left; orphans become our children (see isolate_server)."""
     try:
         os.waitpid(-1, os.WNOHANG)
     except ChildProcessError:
@@ -181,4 +179,4 @@ def has_children() -> bool:
 
 if __name__ == "__main__":
     main(int(sys.argv[1]), sys.argv[2:])
-    os._exit(0)  # the judge waits for the end: nothing here needs to be put away
+    os._exit(0)  # the judge waits for the end: skip Python's clean-up

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from grader.worker.standin import fitted, plain_function, put_in_place
+from grader.worker.standin import adapt, plain_function, replace_function
 
 
 def test_all_who_hold_a_function_reach_the_one_that_stands_in():
@@ -15,7 +15,7 @@ def test_all_who_hold_a_function_reach_the_one_that_stands_in():
 
     alias, part, table = double, functools.partial(double, 3), {"double": double}
     bound: Callable[..., int] = lambda x, f=double: f(x)  # noqa: E731
-    before = put_in_place(double, lambda x, times=0: -x)
+    before = replace_function(double, lambda x, times=0: -x)
     assert [alias(3), part(), table["double"](3), bound(3)] == [-3] * 4
     assert before(3) == 6 and before(3, times=5) == 15
 
@@ -35,9 +35,9 @@ def test_a_closure_and_a_method_keep_what_they_know():
             return __class__, dt  # type: ignore[name-defined]
 
     more, step = counter(), World().step
-    before = put_in_place(more, lambda: 0)
+    before = replace_function(more, lambda: 0)
     assert (more(), before(), before()) == (0, 1, 2)
-    kept = put_in_place(World.step, lambda self, dt: -dt)
+    kept = replace_function(World.step, lambda self, dt: -dt)
     assert step(2) == -2 and kept(World(), 2) == (World, 2)
 
 
@@ -78,7 +78,7 @@ def positional(a: Any, b: Any, /) -> None: ...
     ],
 )
 def test_a_function_that_is_called_alike_fits(original: Any, args: Any, kwargs: Any):
-    stand_in = fitted(lambda a, b: (a, b), ["a", "b"], original)
+    stand_in = adapt(lambda a, b: (a, b), ["a", "b"], original)
     assert stand_in is not None and stand_in(*args, **kwargs) == (1, 2)
 
 
@@ -88,4 +88,4 @@ def too_many(x: Any, y: Any, z: Any) -> None: ...
 
 @pytest.mark.parametrize("original", [too_few, too_many])
 def test_one_that_is_called_otherwise_is_left_alone(original: Any):
-    assert fitted(lambda a, b: (a, b), ["a", "b"], original) is None
+    assert adapt(lambda a, b: (a, b), ["a", "b"], original) is None
