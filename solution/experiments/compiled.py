@@ -11,6 +11,7 @@ A wheel that pip installed is used as well, if it is of the same source.
 
 import argparse
 import importlib
+import re
 import shutil
 import subprocess
 import sys
@@ -28,6 +29,8 @@ INSTALLED = Path(sysconfig.get_path("platlib"))
 FOLDERS = (TREE / OUT, TREE.parent / OUT, INSTALLED)  # where it is; the second is the kit's own
 NAME = "stable_compiled"
 LEFT_PLAIN = ("reading.py", "validate.py")  # their classes come from others that are not compiled
+CONSTANT = re.compile(r"^([A-Z][A-Z_]*) = ", re.MULTILINE)
+FUTURE = "from __future__ import annotations\n"
 EFFECT = "\nclass Effect:"
 KEPT_OPEN = """
 from mypy_extensions import mypyc_attr
@@ -45,11 +48,23 @@ setup(ext_modules=mypycify({modules!r}))
 def sources():
     """Return the files of the engine by name, as they are compiled.
 
-    In the compiled copy alone, Effect says that classes of plain Python may inherit from it.
+    In the compiled copy alone, Effect says that classes of plain Python may inherit from it, and
+    constants are Final, so that mypyc need not look them up.
     """
-    found = {p.name: p.read_text("utf-8") for p in sorted((TREE / "stable_engine").glob("*.py"))}
+    paths = sorted((TREE / "stable_engine").glob("*.py"))
+    found = {path.name: with_final_constants(path.read_text("utf-8")) for path in paths}
     found["effect.py"] = found["effect.py"].replace(EFFECT, KEPT_OPEN + EFFECT)
     return found
+
+
+def with_final_constants(text):
+    """Return a module's text with its constants declared Final, below its docstring."""
+    text, count = CONSTANT.subn(r"\1: Final = ", text)
+    if not count:
+        return text
+    docstring, quotes, rest = text[3:].partition('"""\n')
+    future, rest = (FUTURE, rest.replace(FUTURE, "", 1)) if FUTURE in rest else ("", rest)
+    return f'"""{docstring}{quotes}{future}from typing import Final\n{rest}'
 
 
 def write_sources(folder):
