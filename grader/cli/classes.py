@@ -286,17 +286,17 @@ def questions_command(
     """
     require_checkout("class questions")
     known, out = open_folder(folder), folder / "questions"
-    from grader.cli.questions import TALLY, make_sheets, mark_class
+    from grader.cli.questions import make_sheets, mark_class
 
     if mark is not None:
         if practice:
             raise Stop("--practice would be ignored with --mark, which makes no sheets")
-        mark_class(mark, out, TALLY, lambda marked: write_sheet_marks(known, marked, out))
+        mark_class(mark, out, lambda marked: write_sheet_marks(known, marked, out))
     results, submissions = known.find_results(), known.find_submissions()
     from grader.questions.making import Making
 
     options = Options(shipped_reference(), isolation, course=known.course)
-    making = Making(out, options, None, practice, results, TALLY)
+    making = Making(out, options, None, practice, results)
     make_sheets(making, submissions, known.list_people())
 
 

@@ -14,12 +14,11 @@ from grader.cli.shared import (
     print_notes,
     refuse_ignored,
     require_checkout,
-    require_file_target,
     require_folder_target,
 )
 from grader.errors import Stop
 from grader.judge.course import read_course
-from grader.judge.grade import KIT, Options, shipped_reference
+from grader.judge.grade import Options, shipped_reference
 from grader.judge.outer import WHOLE
 from grader.text import plural
 
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
     from grader.intake.roster import ClassList
     from grader.questions.making import Making
     from grader.questions.marking import Marking
-
-TALLY = KIT / "build" / "questions" / "tally.json"
 
 app = typer.Typer()
 
@@ -55,9 +52,6 @@ def questions_command(
     mark: Annotated[
         Path | None, typer.Option(help="Answers on paper, as CSV: student, question, answer.")
     ] = None,
-    tally: Annotated[
-        Path, typer.Option(help="Where the answers of all classes are counted.")
-    ] = TALLY,
     results: Annotated[
         Path | None, typer.Option(help="The results of grading them: nothing is graded again.")
     ] = None,
@@ -74,13 +68,12 @@ def questions_command(
     if mark is not None:
         refuse_when_marking(context, path)
         go_on(context)
-        mark_class(mark, out, tally)
+        mark_class(mark, out)
     if path is None:
         raise Stop("name a submission, or a class of them with --class")
     if not class_:
         go_on(context)
     require_folder_target(out, "--out")
-    require_file_target(tally, "--tally")
     if results is not None and not results.is_dir():
         raise Stop(f"there is no folder of results at {results}: leave out --results")
     ignored, when = (("student",), "with") if class_ else (("roster",), "without")
@@ -90,7 +83,7 @@ def questions_command(
     from grader.questions.making import Making
 
     options = Options(shipped_reference(), isolation, course=read_course(course))
-    making = Making(out, options, seed, practice, results, tally)
+    making = Making(out, options, seed, practice, results)
     people = read_class_list(path, roster) if class_ else None
     make_sheets(making, path, people, student)
 
@@ -130,20 +123,16 @@ def refuse_when_marking(context: typer.Context, path: Path | None) -> None:
 def mark_class(
     answers: Path,
     out: Path,
-    tally: Path,
     write_gradebook: "Callable[[Marking], list[str]]" = lambda _: [],
 ) -> NoReturn:
-    """Mark a table of answers, and count them with those of other classes.
+    """Mark a table of answers.
 
     `write_gradebook` returns what to tell of the gradebook that it made.
     """
-    from grader.questions.marking import mark_answers, read_keys, write_points
-    from grader.questions.tally import add_class, write_bank
+    from grader.questions.marking import mark_answers, write_points
 
     marked = mark_answers(answers, out / "keys")
     tables = write_points(marked, out)
-    sheets = read_keys(out / "keys")
-    write_bank(out / "bank.html", sheets, add_class(tally, sheets, marked.marks))
     waiting = [each for each in marked.marks if each.points is None]
     open_answers = [f"{each.student}, question {each.number}: {each.note}" for each in waiting]
     print_notes([*marked.notes, *open_answers])

@@ -29,7 +29,7 @@ ANYWHERE = timezone(timedelta(hours=-12), "anywhere on Earth")  # where a day en
 
 
 Read = TypeVar("Read", bound=Struct)
-Kind = Literal["number", "film", "line", "why"]
+Kind = Literal["number", "film", "why"]
 Count = Annotated[int, Meta(ge=0)]
 Share = Annotated[str, Meta(pattern=r"^(100|\d{1,2})%$")]
 Worth = Annotated[int, Meta(ge=1, le=1000)]  # points
@@ -85,7 +85,6 @@ class Asked(Struct, frozen=True, forbid_unknown_fields=True):
 
     number: Annotated[int, Meta(ge=0, le=10)] = 3
     film: Annotated[int, Meta(ge=0, le=10)] = 1
-    line: Annotated[int, Meta(ge=0, le=10)] = 1
     why: Annotated[int, Meta(ge=0, le=10)] = 2
     points: dict[Kind, Annotated[int, Meta(ge=1, le=100)]] = {}  # of one question; see WORTH
 
@@ -96,16 +95,11 @@ class Asked(Struct, frozen=True, forbid_unknown_fields=True):
     @property
     def most_points(self) -> int:
         """Return the points of a sheet with every question that may be on it."""
-        counts: dict[Kind, int] = {
-            "number": self.number,
-            "film": self.film,
-            "line": self.line,
-            "why": self.why,
-        }
+        counts: dict[Kind, int] = {"number": self.number, "film": self.film, "why": self.why}
         return sum(count * self.worth(kind) for kind, count in counts.items())
 
 
-WORTH: dict[Kind, int] = {"number": 2, "film": 4, "line": 3, "why": 3}
+WORTH: dict[Kind, int] = {"number": 2, "film": 4, "why": 3}
 
 
 class Course(Struct, frozen=True, forbid_unknown_fields=True):
@@ -288,7 +282,7 @@ MUST = {
     "late.*": "must be a whole number, 0 or more",
     "questions": "must be a table: write [questions] and number = 3 below it",
     "questions.points": "must be as in points = { number = 2, why = 3 }",
-    "questions.points.*": "must be a whole number from 1 to 100, of number, film, line or why",
+    "questions.points.*": "must be a whole number from 1 to 100, of number, film or why",
     "questions.*": "must be a whole number from 0 to 10",
 }
 

@@ -4,7 +4,7 @@ import math
 
 from grader.checks import exact
 from grader.judge.lab import STEP
-from grader.questions.numbers import Case, Draw, Unsuited, maker
+from grader.questions.numbers import Case, Draw, maker
 from grader.questions.program import CannotAsk, Program
 from grader.questions.scene import BOB, SEEDS, Scene
 from grader.text import digits
@@ -83,37 +83,6 @@ def friction(program: Program, draw: Draw) -> Case:
     )
 
 
-@maker(1, "1", dx=range(3, 15), dy=range(3, 15), radius=range(16, 23))
-def depth(program: Program, draw: Draw) -> Case:
-    """Predict the depth at which a circle touches the corner of the ledge."""
-    dx, dy, radius = (float(draw[name]) for name in ("dx", "dy", "radius"))
-    place = (350.0 + dx, LEDGE_TOP - dy)
-    touch = exact.circle_box(exact.Disc(*place, radius), exact.Rect(*LEDGE, 150.0, 10.0))[0]
-    if touch is None or touch.depth < 1:
-        raise Unsuited
-    with program.own.lab("mini_engine") as lab:
-        circle, box = lab.circle(place, radius), lab.box(LEDGE, (150.0, 10.0))
-        contact = lab.contact_or_none(lab.call("circle_box", circle, box))
-    if contact is None:
-        raise CannotAsk("their circle_box finds no contact")
-    return Case(
-        f"The ledge of your lab scene ends on the right at x = 350, and its top is at y = 250. A "
-        f"circle with a radius of {radius:g} px has its centre at ({place[0]:g}, {place[1]:g}).\n"
-        "Which depth has the contact that your `circle_box` returns?",
-        touch.depth,
-        contact.depth,
-        "px",
-        f"The closest point is the corner, {digits(math.hypot(dx, dy))} px from the centre: "
-        "the radius less the distance.",
-        [
-            (radius - dy, "measured straight down, as if the ledge went on to the right"),
-            (radius - dx, "measured sideways, as if the ledge went on upwards"),
-            (math.hypot(dx, dy), "gave the distance: the depth is what is missing to the radius"),
-            (radius - dx - dy, "added the two distances: they are the sides of a triangle"),
-        ],
-    )
-
-
 @maker(1, "3", scene=SEEDS, tenths=range(6, 60))
 def rod(program: Program, draw: Draw) -> Case:
     """Predict the speed that one pass gives the bob where its rod is too long."""
@@ -178,4 +147,4 @@ def sliding(program: Program, draw: Draw) -> Case:
     )
 
 
-MAKERS = (impulse, depth, rod, friction, sliding)
+MAKERS = (impulse, rod, friction, sliding)

@@ -1,8 +1,7 @@
-"""Cases of time: the accumulator, frames, and damping of a speed."""
+"""Cases of time: the steps that frames pay for, and the damping of a speed."""
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 from grader.checks import exact
@@ -14,124 +13,66 @@ from grader.text import digits
 
 CAP = Fraction(200, 3)  # ms, the most that a frame adds
 STEP_MS = Fraction(25, 3)  # of a step
-FORGOT_THE_CAP = "forgot that a frame adds 8 steps at most"
-
-
-def count_paid(start: int, frames: Sequence[int], cap: Fraction | None = CAP) -> Fraction:
-    """Return all that frames (ms) add to the accumulator, in steps."""
-    total = sum((Fraction(each) if cap is None else min(Fraction(each), cap)) for each in frames)
-    return (start + total) / STEP_MS
-
-
-@dataclass(frozen=True)
-class Purse:
-    """Some frames, one of them long, and the accumulator before them."""
-
-    start: int  # ms
-    count: int
-    length: int
-    long: int
-
-    @property
-    def frames(self) -> list[int]:
-        return [self.length] * self.count + [self.long]
-
-    @property
-    def owed(self) -> Fraction:
-        """Return the time in steps; raises Unsuited where rounding could decide the last one."""
-        sums = [
-            count_paid(self.start, self.frames[: count + 1]) for count in range(len(self.frames))
-        ]
-        if any(not Fraction(1, 10) < each - math.floor(each) < Fraction(9, 10) for each in sums):
-            raise Unsuited
-        return sums[-1]
-
-    @property
-    def words(self) -> str:
-        return (
-            f"The accumulator holds {self.start} ms. Then {self.count} frames of {self.length} ms "
-            f"each go by, and a long one of {self.long} ms. Steps last 1/120 s, and a frame may "
-            "add 8 of them at most."
-        )
-
-    def run(self, lab: Lab, world: Thing) -> tuple[int, float]:
-        """Return the steps that a program's own `advance` runs, and what it leaves, in ms."""
-        rest, steps = self.start / 1000, 0
-        for each in self.frames:
-            advance = lab.advance(world, rest, each / 1000)
-            rest, steps = advance.rest, steps + advance.steps
-        return steps, rest * 1000
-
-
-PURSE = {
-    "start": range(0, 8),
-    "count": range(4, 9),
-    "length": range(9, 60),
-    "long": range(110, 400),
+FRAMES = {
+    "start": range(0, 8),  # ms in the accumulator
+    "count": range(4, 9),  # of short frames
+    "short": range(9, 60),  # ms
+    "long": range(110, 400),  # ms, of the last one
 }
 
 
-def make_steps_case(purse: Purse, owed: Fraction, where: str, measured: int) -> Case:
-    steps, step = math.floor(owed), STEP_MS
-    each_alone = sum(math.floor(min(Fraction(each), CAP) / step) for each in purse.frames)
+def run_frames(lab: Lab, world: Thing, start: int, frames: Sequence[int]) -> int:
+    """Return the steps that a program's own `advance` runs in frames (ms)."""
+    rest, steps = start / 1000, 0
+    for each in frames:
+        advance = lab.advance(world, rest, each / 1000)
+        rest, steps = advance.rest, steps + advance.steps
+    return steps
+
+
+def make_steps_case(draw: Draw, where: str, lab: Lab, world: Thing) -> Case:
+    start, count, short, long = (draw[name] for name in FRAMES)
+    frames = [short] * count + [long]
+    paid = [min(Fraction(each), CAP) for each in frames]
+    sums = [(start + sum(paid[:number])) / STEP_MS for number in range(1, len(paid) + 1)]
+    if any(not Fraction(1, 10) < each % 1 < Fraction(9, 10) for each in sums):
+        raise Unsuited  # rounding could decide a step
+    owed = sums[-1]
     return Case(
-        f"{purse.words}\nHow many steps has `advance`{where} run in all?",
-        steps,
-        measured,
+        f"The accumulator holds {start} ms. Then {count} frames of {short} ms each go by, and a "
+        f"long one of {long} ms. Steps last 1/120 s, and a frame may add 8 of them at most.\n"
+        f"How many steps has `advance` of your {where} run in all?",
+        math.floor(owed),
+        run_frames(lab, world, start, frames),
         "steps",
-        f"{purse.start} + {purse.count} · {purse.length} + 66.67 ms are "
-        f"{digits(float(owed))} steps; the part that is no whole step stays for later.",
+        f"{start} + {count} · {short} + 66.67 ms are {digits(float(owed))} steps; the part that is "
+        "no whole step stays for later.",
         [
-            (math.floor(count_paid(purse.start, purse.frames, None)), FORGOT_THE_CAP),
-            (each_alone, "dropped what is left after each frame instead of keeping it"),
+            (
+                math.floor((start + sum(frames)) / STEP_MS),
+                "forgot that a frame adds 8 steps at most",
+            ),
+            (
+                sum(math.floor(each / STEP_MS) for each in paid),
+                "dropped what is left after each frame instead of keeping it",
+            ),
             (math.ceil(owed), "ran a step that is not fully paid for"),
-            (purse.count + 1, "ran one step per frame"),
+            (len(frames), "ran one step per frame"),
         ],
         whole=True,
     )
 
 
-@maker(3, "6", **PURSE)
+@maker(3, "6", **FRAMES)
 def steps(program: Program, draw: Draw) -> Case:
-    case = Purse(**draw)
-    owed = case.owed
     with program.own.lab("mini_engine") as lab:
-        measured, _ = case.run(lab, lab.world())
-    return make_steps_case(case, owed, " of your engine", measured)
+        return make_steps_case(draw, "engine", lab, lab.world())
 
 
-@maker(3, "7d", **PURSE)
+@maker(3, "7d", **FRAMES)
 def pymunk_steps(program: Program, draw: Draw) -> Case:
-    case = Purse(**draw)
-    owed = case.owed
     with program.own.lab("pymunk_scene") as lab:
-        measured, _ = case.run(lab, lab.thing(lab.call("empty_space")))
-    return make_steps_case(case, owed, " of your pymunk scene", measured)
-
-
-@maker(4, "6", **PURSE)
-def purse(program: Program, draw: Draw) -> Case:
-    """Predict what is left in the accumulator."""
-    case = Purse(**draw)
-    owed = case.owed
-    with program.own.lab("mini_engine") as lab:
-        _, measured = case.run(lab, lab.world())
-    left = float((owed - math.floor(owed)) * STEP_MS)
-    uncapped = count_paid(case.start, case.frames, None)
-    return Case(
-        f"{case.words}\nHow many ms are left in the accumulator of your engine then?",
-        left,
-        measured,
-        "ms",
-        f"{digits(float(owed))} steps are owed, {math.floor(owed)} of them run; the rest of one "
-        "step, of 8.333 ms, is left.",
-        [
-            (float((uncapped - math.floor(uncapped)) * STEP_MS), FORGOT_THE_CAP),
-            (0.0, "emptied the accumulator with each frame"),
-            (float(left - STEP_MS), "ran a step that is not fully paid for"),
-        ],
-        share=0.05,
-    )
+        return make_steps_case(draw, "pymunk scene", lab, lab.thing(lab.call("empty_space")))
 
 
 @maker(4, "5", rate=range(2, 10), halves=range(1, 6), speed=range(150, 900))
@@ -162,4 +103,4 @@ def damping(program: Program, draw: Draw) -> Case:
     )
 
 
-MAKERS = (steps, pymunk_steps, purse, damping)
+MAKERS = (steps, pymunk_steps, damping)

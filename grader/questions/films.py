@@ -16,7 +16,6 @@ import math
 import random
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 from grader.judge.decode import Thing
@@ -229,12 +228,6 @@ def compare_with_reference(right: Mapping[str, Film], films: Mapping[str, Film])
         nearest = min(right, key=lambda other: measure_difference(film, right[other]))
         if nearest != name:
             raise CannotAsk(f"its film of {name} is not that of the reference")
-
-
-@lru_cache(maxsize=8)
-def film_unchanged(tree: Tree, seed: int) -> Film:
-    """Record the lab scene of a tree, once for all questions."""
-    return make_film(tree, {}, seed)
 
 
 def make_film(

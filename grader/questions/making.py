@@ -24,12 +24,10 @@ from grader.judge.workplace import work_folder
 from grader.questions.cases import MAKERS
 from grader.questions.marking import read_keys
 from grader.questions.moodle import write_moodle
-from grader.questions.notebook import write_notebook
 from grader.questions.page import make_page
 from grader.questions.program import open_program
 from grader.questions.question import Sheet
 from grader.questions.sheet import make_sheet
-from grader.questions.tally import read_tally, write_bank
 from grader.report.files import read_result, write_whole
 from grader.report.progress import Counter
 from grader.text import plural, printable
@@ -57,7 +55,6 @@ class Making:
     secret: int | None = None
     practice: bool = False
     results: Path | None = None
-    tally: Path | None = None
 
     @cached_property
     def seed(self) -> str:
@@ -109,19 +106,14 @@ class Making:
         write_whole(make_page(sheet, title, "sheet").encode(), self.out / "sheets" / f"{name}.html")
         write_whole(make_page(sheet, title, "key").encode(), self.out / "keys" / f"{name}.html")
         write_whole(write_moodle([sheet], title), self.out / "moodle" / f"{name}.xml")
-        place = self.out / "nbgrader" / "source" / f"questions-{name.replace('+', '-')}"
-        write_whole(write_notebook(sheet, title), place / "questions.ipynb")
         key = msgspec.json.format(msgspec.json.encode(sheet))
         write_whole(key + b"\n", self.out / "keys" / f"{name}.json")
 
     def finish(self) -> None:
-        """Write the instructor's page of all sheets, and all of them in one file for Moodle."""
+        """Write all sheets into one file for Moodle."""
         if not self.practice:
-            tally = read_tally(self.tally) if self.tally else {}
             sheets = read_keys(self.out / "keys")
-            write_bank(self.out / "bank.html", sheets, tally)
-            everybody = write_moodle(sheets, self.options.course.title)
-            write_whole(everybody, self.out / "moodle.xml")
+            write_whole(write_moodle(sheets, self.options.course.title), self.out / "moodle.xml")
 
 
 def make_one(making: Making, path: Path, student: str) -> SheetResult:

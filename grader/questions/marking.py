@@ -48,14 +48,6 @@ class Mark:
     answer: str
     points: int | None
     note: str = ""
-    by_machine: int = 0  # of the points
-
-    @property
-    def right(self) -> bool:
-        """Return whether all is right that a machine marks, or else a person."""
-        if self.question.by_machine:
-            return self.by_machine == self.question.by_machine
-        return self.points == self.question.points
 
 
 class Total(NamedTuple):
@@ -173,26 +165,23 @@ def mark_question(student: str, number: int, question: Question, given: GivenAns
     """Mark one question; an empty answer has no points, and a note."""
     if given is None or not (given.answer or given.by_hand):
         return Mark(student, number, question, "", 0, "no answer")
-    notes = []
-    machine = person = 0
-    waits = False
-    if question.by_machine:
-        try:
-            machine = grade_answer(question, given.answer)
-        except Unreadable as error:
-            return Mark(student, number, question, given.answer, None, f"not read: {error}")
-        if why := find_misunderstanding(question, given.answer):
-            notes.append(why)
-    if question.by_hand:
-        if given.by_hand.isdecimal() and int(given.by_hand) <= question.by_hand:
-            person = int(given.by_hand)
-        else:
-            waits = True
-            if question.by_machine:
-                notes.append(f"{machine} of {question.by_machine} so far")
-            notes.append(f"waits for a person: 0 to {question.by_hand} in the column {BY_HAND}")
-    worth = None if waits else machine + person
-    return Mark(student, number, question, given.answer, worth, "; ".join(notes), machine)
+    mark = mark_by_hand if question.by_hand else mark_answer
+    points, note = mark(question, given)
+    return Mark(student, number, question, given.answer, points, note)
+
+
+def mark_by_hand(question: Question, given: GivenAnswer) -> tuple[int | None, str]:
+    if given.by_hand.isdecimal() and int(given.by_hand) <= question.points:
+        return int(given.by_hand), ""
+    return None, f"waits for a person: 0 to {question.points} in the column {BY_HAND}"
+
+
+def mark_answer(question: Question, given: GivenAnswer) -> tuple[int | None, str]:
+    try:
+        points = grade_answer(question, given.answer)
+    except Unreadable as error:
+        return None, f"not read: {error}"
+    return points, find_misunderstanding(question, given.answer)
 
 
 def write_points(marked: Marking, out: Path) -> tuple[Path, Path]:

@@ -5,11 +5,10 @@ from typing import Literal
 
 from msgspec import Struct
 
-Kind = Literal["number", "film", "line", "why"]
+Kind = Literal["number", "film", "why"]
 KINDS: dict[Kind, str] = {
     "number": "predict a number",
     "film": "predict a film",
-    "line": "find the line",
     "why": "say why",
 }
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?", re.IGNORECASE)
@@ -33,9 +32,8 @@ class Picture(Struct, frozen=True):
 class Question(Struct, frozen=True):
     """One question with its key.
 
-    `text` has a paragraph a line, and code between backticks. `answer` is a number, the number of a
-    line, or for films the letters of the choices in the order of the films; empty where a person
-    marks all of it. `by_hand` of the `points` are such.
+    `text` has a paragraph a line, and code between backticks. `answer` is a number, or for films
+    the letters of the choices in the order of the films. A person marks a `why`, by its rubric.
     """
 
     name: str  # of what made it, such as "impulse"
@@ -48,15 +46,14 @@ class Question(Struct, frozen=True):
     unit: str = ""
     wrong: tuple[Wrong, ...] = ()
     why: str = ""  # how the answer comes about, for the key
-    code: tuple[str, ...] = ()  # numbered lines
+    code: str = ""  # a line of the student's own
     choices: tuple[str, ...] = ()  # of films: what was changed, called a, b, c and so on
     pictures: tuple[Picture, ...] = ()
-    rubric: tuple[str, ...] = ()  # a point each, for who marks by hand
-    by_hand: int = 0
+    rubric: tuple[str, ...] = ()  # a point each, for whoever marks by hand
 
     @property
-    def by_machine(self) -> int:
-        return self.points - self.by_hand
+    def by_hand(self) -> bool:
+        return self.kind == "why"
 
 
 class Sheet(Struct, frozen=True):
@@ -88,18 +85,13 @@ def grade_answer(question: Question, answer: str) -> int:
     match question.kind:
         case "number":
             right = abs(parse_number(text, question.unit) - float(question.answer))
-            return question.by_machine * (right <= question.tolerance)
-        case "line":
-            found = re.fullmatch(r"(?:line\s*)?(\d{1,3})", text, re.IGNORECASE)
-            if found is None:
-                raise Unreadable(f"“{text[:40]}” is no number of a line, such as 4")
-            return question.by_machine * (found[1] == question.answer)
+            return question.points * (right <= question.tolerance)
         case "film":
             letters, count = re.sub(r"[\s,;/-]", "", text).lower(), len(question.answer)
             if not re.fullmatch(rf"[a-z]{{{count}}}", letters):
                 raise Unreadable(f"“{text[:40]}” is not {count} letters, one for each film in turn")
             right = sum(map(str.__eq__, letters, question.answer))
-            return question.by_machine * right // count
+            return question.points * right // count
         case "why":
             return 0
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from grader.questions.program import FUNCTIONS, CannotAsk, Program
+from grader.questions.program import FUNCTIONS, Program
 from grader.questions.question import Question
 from grader.source.regions import parsed
 from grader.text import printable
@@ -21,13 +21,9 @@ MOST_CODE_TO_SEARCH = 8000  # characters of a function that is looked through
 MOST_QUOTED = 160  # characters of a line
 
 
-class Reason(Struct, frozen=True, forbid_unknown_fields=True):
-    """A question about a statement of a certain form; see reasons.toml."""
+class Form(Struct, frozen=True, forbid_unknown_fields=True):
+    """A form of a statement; without any field, every statement has it."""
 
-    name: str
-    todo: str
-    text: str
-    rubric: tuple[str, ...]  # a point each
     calls: set[str] = set()
     operators: set[str] = set()
     is_a: set[str] = set()
@@ -43,6 +39,15 @@ class Reason(Struct, frozen=True, forbid_unknown_fields=True):
         return not self.calls or not names.isdisjoint(self.calls)
 
 
+class Reason(Struct, frozen=True, forbid_unknown_fields=True):
+    """A question about the first statement that has one of some forms; see reasons.toml."""
+
+    name: str
+    text: str
+    rubric: tuple[str, ...]  # a point each
+    forms: tuple[Form, ...] = (Form(),)  # the usual one first
+
+
 def walk_statement(node: ast.stmt) -> Iterator[ast.AST]:
     """Walk a statement without the statements in it: of an `if`, its condition alone."""
     waiting: list[ast.AST] = [node]
@@ -54,51 +59,45 @@ def walk_statement(node: ast.stmt) -> Iterator[ast.AST]:
 
 
 @cache
-def load_reasons() -> list[Reason]:
+def load_reasons() -> dict[str, Reason]:
+    """Load the question about each TODO, in the order in which they are asked."""
     text = Path(__file__).with_name("reasons.toml").read_bytes()
-    return msgspec.toml.decode(text, type=dict[str, list[Reason]])["reason"]
+    return msgspec.toml.decode(text, type=dict[str, Reason])
 
 
-def find_reasons(program: Program) -> list[Reason]:
-    """Return the questions about TODOs that are right, one for each, in a fixed order."""
-    found: dict[str, Reason] = {}
-    for each in load_reasons():
-        if each.todo in program.right and each.todo not in found and quote_line(program, each):
-            found[each.todo] = each
-    return list(found.values())
+def list_reason_todos(program: Program) -> list[str]:
+    """List the TODOs that are right and can be asked about."""
+    return [todo for todo in load_reasons() if todo in program.right and quote_line(program, todo)]
 
 
-def ask_reason(each: Reason, program: Program, points: int) -> Question:
-    line = quote_line(program, each)
-    if not line:
-        raise CannotAsk("no line of theirs has this form")
-    name = FUNCTIONS[each.todo].partition(":")[2]
+def ask_reason(todo: str, program: Program, points: int) -> Question:
+    reason, name = load_reasons()[todo], FUNCTIONS[todo].partition(":")[2]
     return Question(
-        f"why-{each.name}",
+        f"why-{reason.name}",
         "why",
-        (each.todo,),
-        f"The line below is of your `{name}`.\n{each.text}",
+        (todo,),
+        f"The line below is of your `{name}`.\n{reason.text}",
         points,
-        code=(line,),
-        rubric=each.rubric,
-        by_hand=points,
+        code=quote_line(program, todo),
+        rubric=reason.rubric,
     )
 
 
-def quote_line(program: Program, each: Reason) -> str:
-    """Return the first line of the student's function that has the form, as they wrote it."""
-    text = program.own.find_function(FUNCTIONS[each.todo])
+def quote_line(program: Program, todo: str) -> str:
+    """Return the line of the student's function to ask about, as they wrote it; or nothing."""
+    text = program.own.find_function(FUNCTIONS[todo])
     module = parsed(text.source, MOST_CODE_TO_SEARCH) if text else None
     if text is None or module is None or not module.body:
         return ""
     function = module.body[0]
-    found = (
+    statements = [
         node
         for node in ast.walk(function)
         if isinstance(node, ast.stmt) and node is not function and not is_docstring(node)
-    )
+    ]
+    forms = load_reasons()[todo].forms
     try:
-        node = next(filter(each.fits, found), None)
+        node = next((each for form in forms for each in statements if form.fits(each)), None)
     except RecursionError:  # nested deeper than anybody writes
         return ""
     if node is None:

@@ -7,10 +7,9 @@ from typing import Protocol
 from grader.judge.course import Asked
 from grader.judge.failures import Broke, NotYet
 from grader.questions.films import ask_films
-from grader.questions.lines import ask_line, list_line_todos
 from grader.questions.program import CannotAsk, Program
 from grader.questions.question import Question, Sheet
-from grader.questions.reasons import ask_reason, find_reasons
+from grader.questions.reasons import ask_reason, list_reason_todos
 from grader.text import clean
 
 SLOTS = (1, 3, 5, 2, 4, 6)  # contacts, time, integrators: a sheet begins with one of each
@@ -44,17 +43,15 @@ def make_sheet(
         ("films", partial(ask_films, program, f"{own}/{number}", asked.worth("film")))
         for number in range(asked.film)
     )
-    changed = (
-        (f"line of TODO {todo}", partial(ask_line, todo, program, own, asked.worth("line")))
-        for todo in list_line_todos(program)
+    reasons = (
+        (f"why of TODO {todo}", partial(ask_reason, todo, program, asked.worth("why")))
+        for todo in list_reason_todos(program)
     )
     found += ask_some(numbers, asked.number, dropped)
     found += ask_some(shown, asked.film, dropped)
-    found += ask_some(changed, asked.line, dropped)
-    missing = asked.number + asked.film + asked.line - len(found)
+    missing = asked.number + asked.film - len(found)
     found += ask_some(numbers, missing, dropped)  # where there is no film to ask about, a number
-    lines = {todo for each in found if each.kind == "line" for todo in each.todos}
-    found += ask_some(reasons_to_ask(program, asked, lines), asked.why, dropped)
+    found += ask_some(reasons, asked.why, dropped)
     return Sheet(student, seed, tuple(found), tuple(dropped))
 
 
@@ -80,12 +77,6 @@ def why_not(error: Exception) -> str:
         case ArithmeticError() | ValueError() | IndexError() | RecursionError():
             return f"it could not be worked out ({type(error).__name__})"
     raise error
-
-
-def reasons_to_ask(program: Program, asked: Asked, lines: set[str]) -> Iterator[Ask]:
-    """Yield reasons; those about a function whose lines the sheet shows already come last."""
-    for each in sorted(find_reasons(program), key=lambda each: each.todo in lines):
-        yield each.name, partial(ask_reason, each, program, asked.worth("why"))
 
 
 def take_turns(makers: Iterable[Asks], program: Program) -> Iterator[Asks]:

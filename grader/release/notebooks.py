@@ -15,17 +15,11 @@ from typing import Any
 from grader.judge.course import Course
 from grader.judge.grade import KIT
 from grader.judge.rubric import Rubric
-from grader.questions.notebook import (
-    PLAIN,
-    TASK,
-    Cell,
-    encode_notebook,
-    make_cell,
-    make_marked,
-    make_notebook,
-)
 from grader.text import plural
 
+Cell = dict[str, Any]
+PLAIN = {"grade": False, "solution": False, "locked": True, "task": False}  # nbgrader's flags
+TASK = PLAIN | {"task": True}
 ENGINE, QUIZ = "engine.ipynb", "quiz.ipynb"
 SOLVED = KIT / "solution" / "notebooks"
 GIVEN = "# Given in this course.\n"
@@ -43,6 +37,32 @@ notebook. To see where you stand:
 
 With the feedback you get the reasons for missing points in the same places.\
 """
+
+
+def make_marked(
+    id: str, kind: str, text: str, flags: dict[str, bool], points: int | None = None
+) -> Cell:
+    """Make a cell with the flags of nbgrader."""
+    marks = {**flags, "grade_id": id, "schema_version": 3}
+    if points is not None:
+        marks["points"] = points
+    return make_cell(id, kind, text, {"nbgrader": dict(sorted(marks.items()))})
+
+
+def make_cell(id: str, kind: str, text: str, metadata: Cell) -> Cell:
+    lines = text.splitlines(keepends=True)
+    found: Cell = {"cell_type": kind, "id": id, "metadata": metadata, "source": lines}
+    return found | ({"execution_count": None, "outputs": []} if kind == "code" else {})
+
+
+def make_notebook(cells: list[Cell]) -> Cell:
+    python = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    metadata = {"kernelspec": python, "language_info": {"name": "python"}}
+    return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
+
+
+def encode_notebook(notebook: Cell) -> str:
+    return json.dumps(notebook, indent=1, ensure_ascii=False) + "\n"
 
 
 def make_engine_notebook(rubric: Rubric) -> Cell:

@@ -40,9 +40,8 @@ NOT_FOR_STUDENTS = (
     *("bank", "bench", "classroom", "intake", "release", "__pycache__"),
     *("checks/*/mistakes.py", "checks/expected_runs.json"),
     *("cli/classroom.py", "cli/dev.py", "cli/questions.py"),
-    *(f"questions/{name}.py" for name in ("cases*", "making", "marking", "numbers", "tally")),
-    *(f"questions/{name}.py" for name in ("moodle", "notebook")),
-    *("questions/templates/bank.html", "questions/templates/moodle.xml"),
+    *(f"questions/{name}.py" for name in ("cases*", "making", "marking", "moodle", "numbers")),
+    "questions/templates/moodle.xml",
 )  # below the package
 PACKAGE = "grader.checks"
 PLUGIN = "pytest_plugin.py"  # for authors of checks; no check leads to it

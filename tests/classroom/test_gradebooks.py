@@ -118,7 +118,7 @@ def test_sheets_of_questions_have_a_column_of_their_own(tmp_path, text, key, col
     file = make_marks(roster, roster.choose_key(), score_sheets(totals, Course(title=TITLE), 1))
     rows = list(csv.DictReader(io.StringIO(file.text.lstrip("\ufeff")), delimiter=roster.delimiter))
     marks = [row[column] for row in rows if "Possible" not in str(row)]
-    assert marks[-5:] == ["14.5", "", "19.0", "", ""]
+    assert marks[-5:] == ["12.2", "", "16.0", "", ""]
     assert "Maximum Grade" not in rows[0] and not any("counts to" in each for each in file.notes)
 
 

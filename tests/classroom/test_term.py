@@ -10,7 +10,6 @@ import pytest
 import typer
 from command_line import run_grader
 
-from grader.cli import questions
 from grader.cli.main import make_app
 from grader.judge.grade import KIT
 
@@ -69,7 +68,6 @@ def test_every_command_line_of_the_guide_of_a_term_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(questions, "TALLY", tmp_path / "tally.json")
     make_files()
     for words in list_commands(PAGE):
         more = ["--help"] if words[1] in WAITS else []

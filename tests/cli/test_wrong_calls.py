@@ -120,7 +120,6 @@ questions nosuch
 questions --class nosuch
 questions class/ann --roster list.csv
 questions class/ann --results nosuch
-questions class/ann --tally class
 questions class/ann --out list.csv
 questions --class class --id x
 questions --mark nosuch.csv

@@ -312,7 +312,7 @@ def test_students_can_practise_questions_about_their_own_program(
     assert not done.returncode, done.stdout + done.stderr
     page = (own / "build" / "questions.html").read_text(encoding="utf-8")
     assert page.count("<details><summary>The answer") == page.count('class="question"') >= 4
-    assert all(f". {kind} <" in page for kind in ("Predict a number", "Find the line", "Say why"))
+    assert all(f". {kind} <" in page for kind in ("Predict a number", "Say why"))
     assert not asked("--seed", "3", "--out", "again.html").returncode
     assert (own / "again.html").read_text(encoding="utf-8") == page
     assert not asked("--seed", "4", "--out", "other.html").returncode
@@ -337,7 +337,7 @@ def test_hidden_checks_mistakes_and_closed_forms_are_not_in_the_wheel(released: 
     assert not [name for name in names if name.startswith(("mistakes", "cases"))]
     questions = {path.stem for path in released.installed.glob("grader/questions/*.py")}
     assert questions == {
-        *("__init__", "films", "lines", "page", "pictures", "practice"),
+        *("__init__", "films", "page", "pictures", "practice"),
         *("program", "question", "reasons", "scene", "sheet"),
     }
     texts = [path.read_text(encoding="utf-8") for path in released.installed.rglob("*.py")]
