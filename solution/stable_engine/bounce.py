@@ -1,15 +1,19 @@
 """Restitution: bodies that hit each other bounce off."""
 
-from math import sqrt
+from math import hypot, sqrt
 
 from .contact import Contact
 from .contacts import RESTING_SPEED, Contacts
 from .effect import Effect, WorldState
 from .impacts import Impacts
+from .rods import Rods
+
+RESTING_STEPS = 3.7  # an impact no faster than gravity makes a ball in so many does not bounce
+LEAST_SPEED = 0.001  # 1/s, in units of the world: the same without gravity
 
 
 class Bounce(Effect):
-    """Newton's law: bodies that collide faster than RESTING_SPEED separate at e times that speed.
+    """Newton's law: bodies that collide fast enough separate at e times that speed.
 
     e is the smaller restitution of the two. Impacts are resolved before any force of the step acts,
     see Impacts. Slower contacts stay with the solver, or a resting ball would hop.
@@ -20,9 +24,9 @@ class Bounce(Effect):
     def attach(self, world: WorldState) -> None:
         super().attach(world)
         self.contacts: Contacts = world.need("Contacts", self)
-        self.resting_speed = RESTING_SPEED * world.unit
         self.contacts.lets_none_pass = True
-        self.after_impact_hooks = world.hooks("after_impact")
+        rods = world.effects.get("Rods")
+        self.rods = rods if isinstance(rods, Rods) else None
 
     def is_used(self) -> bool:
         return any(body.e > 0 for body in self.world.bodies)
@@ -31,37 +35,50 @@ class Bounce(Effect):
         c.e = min(c.a.e, c.b.e)
 
     def impact(self, h: float) -> None:
-        touching = self.contacts.touching
+        self.slow = self.slow_speed(h * self.world.substep_count)
+        touching, slow = self.contacts.touching, self.slow
         fastest = max([abs(c.closing_speed()) for c in touching], default=0)
-        if fastest <= self.resting_speed and not self.contacts.begun:
+        if fastest <= slow and not self.contacts.begun:
             return
         self.h = h
-        impacts = Impacts(self.contacts, self.resting_speed)
+        impacts = Impacts(self.contacts, self.rods, slow)
         impacts.find()
         if impacts.due:
-            impacts.resolve_all(self.parting_speed, self.after_impact_hooks)
+            impacts.resolve_all(self.law)
         self.contacts.changed = True
         for c in touching:
             if c.gap < 0 and self.is_separating(c):
                 c.gap = 0.0
 
-    def parting_speed(self, c: Contact, closing: float) -> float:
+    def slow_speed(self, dt: float) -> float:
+        """Return the speed (px/s) up to which contacts do not bounce.
+
+        Gravity gives that much in a few steps; without gravity all but the slowest bounce.
+        """
+        unit, g = self.world.unit, hypot(*self.world.g)
+        return min(RESTING_SPEED * unit, RESTING_STEPS * g * dt + LEAST_SPEED * unit)
+
+    def law(self, c: Contact, closing: float) -> tuple[float, float]:
         """Return the speed (px/s) at which a pair separates that closes in at this speed.
 
         A ball leaves a static body as exactly for any step size: a contact is found after the ball
         has crossed the surface and has gained speed below it. So e is applied to the speed at the
         surface, which follows from conservation of energy. With semi-implicit Euler velocities lag
         half a substep behind positions.
+
+        Return as well the share of the impulse that does not go into the speed gained.
         """
         gx, gy = self.world.g
         g = gx * c.nx + gy * c.ny  # px/s², into the surface; negative at a ceiling
         if g == 0 or not c.b.is_static:
-            return c.e * closing
+            return c.e * closing, 1.0
         lag = g * self.h / 2
         fallen = -2 * g * c.gap  # px²/s², what the fall from the surface to here adds to speed²
         speed = max(closing + lag, 0.0)
-        crossing = max(speed * speed - fallen, 0.0)
-        return sqrt(max(c.e * c.e * crossing + fallen, 0.0)) + lag
+        crossing = sqrt(max(speed * speed - fallen, 0.0))
+        parting = sqrt(max(c.e * c.e * crossing * crossing + fallen, 0.0)) + lag
+        whole = parting + closing
+        return parting, min((1 + c.e) * crossing / whole, 1.0) if whole > 0 else 1.0
 
     def is_separating(self, c: Contact) -> bool:
         """Return whether a pair has bounced off. Pushed out as well, it would rise higher.
@@ -69,4 +86,4 @@ class Bounce(Effect):
         So it counts as just touching. It stays a contact: without one, a rod or a heavy ball that
         still moves towards the wall would press the ball into it.
         """
-        return c.closing_speed() < -self.resting_speed
+        return c.closing_speed() < -self.slow

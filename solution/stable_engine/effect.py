@@ -127,12 +127,6 @@ class Effect:
     def forget(self, body: Body) -> None:
         """Drop all that refers to a body, which leaves the world."""
 
-    def after_impact(self, group: list[Contact], impulses: list[float]) -> None:
-        """Respond to impacts at one moment, with their impulses (kg px/s) along the normals.
-
-        Friction acts at that instant.
-        """
-
     def links(self) -> list[tuple[Body, Body]]:
         """Return the pairs of bodies it connects, the edges of islands: they sleep and wake
         together.

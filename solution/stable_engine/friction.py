@@ -5,7 +5,6 @@ from math import sqrt
 from .contact import Contact
 from .contacts import Contacts, Group
 from .effect import Effect, WorldState
-from .impacts import CONVERGED, passes_for
 
 CALM = 1e-7  # share of the limit; a smaller change is not worth its work
 
@@ -35,24 +34,6 @@ class Friction(Effect):
         c.mu = sqrt(a.mu * b.mu)
         if c.mu == 0:
             c.jt = 0.0
-
-    def after_impact(self, group: list[Contact], impulses: list[float]) -> None:
-        if len(group) == 1:
-            c, limit = group[0], group[0].mu * impulses[0]
-            if limit:
-                drag(c, max(-limit, min(limit, -c.mt * slip(c))))
-            return
-        given = [0.0] * len(group)
-        for _ in range(passes_for(len(group))):
-            largest = 0.0
-            for i, c in enumerate(group):
-                limit = c.mu * impulses[i]
-                jt = max(-limit, min(limit, given[i] - c.mt * slip(c)))
-                change, given[i] = jt - given[i], jt
-                drag(c, change)
-                largest = max(largest, abs(change) - CONVERGED * limit)
-            if largest <= 0:
-                break
 
     def prepare(self, h: float) -> None:
         if not self.contacts.changed:
@@ -122,21 +103,3 @@ class Friction(Effect):
                         b.vx += c.tbx * jt
                         b.vy += c.tby * jt
                         b.w -= c.bw * jt
-
-
-def slip(c: Contact) -> float:
-    """Return how fast (px/s) the rim of B moves along the tangent, seen from that of A."""
-    a, b = c.a, c.b
-    rims = b.w * b.r + a.w * a.r
-    return (b.vy - a.vy) * c.nx - (b.vx - a.vx) * c.ny - rims
-
-
-def drag(c: Contact, jt: float) -> None:
-    """Apply an impulse jt (kg px/s) along the tangent, at the rims."""
-    a, b, tx, ty = c.a, c.b, -c.ny, c.nx
-    a.vx -= tx * jt * a.inv_mass
-    a.vy -= ty * jt * a.inv_mass
-    a.w -= a.r * jt * a.inv_inertia
-    b.vx += tx * jt * b.inv_mass
-    b.vy += ty * jt * b.inv_mass
-    b.w -= b.r * jt * b.inv_inertia

@@ -2,20 +2,26 @@
 
 from collections.abc import Callable
 from math import hypot
-from typing import Any
 
 from .body import Body
 from .contact import Contact, collide
 from .contacts import Contacts
+from .rods import Frame, Rods
 from .sweep import first_hit, moment_of_touch
 
 ROUNDS = 20  # per contact: how often impacts are passed on within one step
 SETTLINGS = 3  # each may make impacts due once more
+TURNS = 5  # of normal impulses and friction, where bodies stay together
 PASSES = 200  # of the solver for impacts at one moment
 WORK = 4000  # contacts, over all passes of the solver for one large group
 SAME = 1e-9  # share by which times and speeds of one moment may differ
 BEFORE = 0.01  # radii, how far from a wall a bullet is left: the next step finds what it meets
+FIXED = 1e-6  # share of an impulse that reaches a ball which rods hold still
 CONVERGED = 1e-14  # share of an impulse by which the last pass changed it
+
+# How fast (px/s) a contact is to separate that closes in at a speed (px/s), and which share of the
+# impulse that takes counts as the limit of friction.
+Law = Callable[[Contact, float], tuple[float, float]]
 
 
 class Impact:
@@ -37,10 +43,11 @@ class Impacts:
 
     A contact is found after the touch. Impulses go along the normal at the touch, and free balls
     are put where they would be had they bounced then. This keeps angular momentum. A ball on a
-    joint or at a static body stays where it is, and so does a bullet that was stopped at one.
+    rod or at a static body stays where it is, and so does a bullet that was stopped at one. Rods
+    pass an impact on at once: a ball weighs as much as what hangs on it along the normal.
     """
 
-    def __init__(self, contacts: Contacts, slow: float) -> None:
+    def __init__(self, contacts: Contacts, rods: Rods | None, slow: float) -> None:
         self.touching = contacts.touching
         self.begun, self.flown = set(contacts.begun), contacts.flown
         self.contacts = contacts
@@ -48,6 +55,10 @@ class Impacts:
         self.touching_gap = contacts.touching_gap
         self.slow = slow  # px/s, slower ones are not due
         self.due: dict[Contact, Impact] = {}
+        self.frame_of: dict[Body, Frame] = {}
+        if rods:
+            rods.find_frames()
+            self.frame_of = rods.frame_of
 
     def find(self) -> None:
         """Find what is due. A contact that has just begun counts as it was when it touched."""
@@ -71,11 +82,8 @@ class Impacts:
             self.due[c] = Impact(ago, speed)
 
     def turn_back(self, c: Contact) -> float:
-        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago.
-
-        A ball on a joint has not flown straight: its normal stays.
-        """
-        if self.last_dt <= 0 or c.a.joint_count or c.b.joint_count:
+        """Turn a contact's normal to where it was when the two touched. Return how long (s) ago."""
+        if self.last_dt <= 0:
             return 0.0
         ago, nx, ny = moment_of_touch(c.a, c.b, self.flown.get(c.a, self.last_dt))
         if ago > 0 and (nx, ny) != (c.nx, c.ny):
@@ -83,40 +91,33 @@ class Impacts:
             c.gap = -c.closing_speed() * ago
         return ago
 
-    def resolve_all(
-        self,
-        parting_speed: Callable[[Contact, float], float],
-        after_impact_hooks: list[Callable[..., Any]],
-    ) -> None:
-        """Resolve the impacts that are due, and those they lead to.
-
-        parting_speed says how fast (px/s) a contact separates that closes in at a speed.
-        """
-        self.after_impact_hooks = after_impact_hooks
+    def resolve_all(self, law: Law) -> None:
+        """Resolve the impacts that are due, and those they lead to."""
         self.link()
         rounds = ROUNDS * len(self.touching)
         for _ in range(SETTLINGS):
             reached: dict[Body, float] = {}
             while self.due and rounds > 0:
-                self.resolve_first(parting_speed, reached)
+                self.resolve_first(law, reached)
                 rounds -= 1
             while reached:
                 self.settle(*reached.popitem(), reached)
             if not self.due:
                 break
 
-    def resolve_first(
-        self, parting_speed: Callable[[Contact, float], float], reached: dict[Body, float]
-    ) -> None:
+    def resolve_first(self, law: Law, reached: dict[Body, float]) -> None:
         """Resolve the first impacts that are due, and enter whom they reached, and how long ago."""
         group, ago = self.take_first()
         hit = balls_of(group)
         if ago > 0 and not self.free.issuperset(hit):
             ago = 0.0
-        wanted = [parting_speed(c, c.closing_speed()) for c in group]
+        frames = self.frames_of(group)
+        for frame in frames:
+            hit += [ball for ball in frame.balls if ball in self.beside and ball not in hit]
+        hold(frames)
         if ago > 0:
             self.fly_on(hit, -ago)
-        self.resolve(group, wanted)
+        self.resolve(group, law, frames)
         if ago > 0:
             self.fly_on(hit, ago)
         for body in hit:
@@ -152,7 +153,7 @@ class Impacts:
                     self.beside.setdefault(body, []).append(c)
         held = {c.a for c in self.touching if c.b.is_static}
         stopped = self.contacts.was_stopped
-        held |= {body for body in self.beside if body.joint_count or stopped(body)}
+        held |= {body for body in self.beside if body in self.frame_of or stopped(body)}
         self.free = self.beside.keys() - held
 
     def take_first(self) -> tuple[list[Contact], float]:
@@ -178,7 +179,7 @@ class Impacts:
         self.fly_on(hit, -ago)
         for c in slow:
             c.nx, c.ny, c.gap = collide(c.a, c.b)
-        self.resolve(slow, [0.0] * len(slow))
+        self.resolve(slow, settle, [], TURNS)
         self.fly_on(hit, ago)
         self.look_around(hit, True)
 
@@ -197,31 +198,104 @@ class Impacts:
                         reached.pop(other, None)
         return list(found)
 
-    def resolve(self, group: list[Contact], wanted: list[float]) -> None:
+    def frames_of(self, group: list[Contact]) -> list[Frame]:
+        """Return the frames of rods that the balls of contacts belong to, each once."""
+        found: dict[Frame, None] = {}
+        for c in group if self.frame_of else []:
+            for body in (c.a, c.b):
+                frame = self.frame_of.get(body)
+                if frame:
+                    found[frame] = None
+        return list(found)
+
+    def resolve(self, group: list[Contact], law: Law, frames: list[Frame], turns: int = 1) -> None:
         """Bring contacts to the speeds (px/s) at which they are to separate, or to higher ones.
 
         Normal impulses come first, then friction with them as its limits: so no energy is created.
+        In further turns, normal impulses stop what friction has set in motion.
         """
-        impulses = [0.0] * len(group)
-        if len(group) == 1:
-            impulses[0] = max(group[0].mn * (wanted[0] + group[0].closing_speed()), 0.0)
-            group[0].push_apart(impulses[0])
-        for _ in range(passes_for(len(group))):
-            largest = 0.0
-            for i, c in enumerate(group):
-                j = max(impulses[i] + c.mn * (wanted[i] + c.closing_speed()), 0.0)
-                change, impulses[i] = j - impulses[i], j
-                c.push_apart(change)
-                largest = max(largest, abs(change) - CONVERGED * j)
-            if largest <= 0:
+        hits = [Hit(c, *law(c, c.closing_speed())) for c in group]
+        for hit in hits if frames else []:
+            hit.feel(frames)
+        passes = passes_for(len(hits), frames)
+        for turn in range(turns):
+            if not press(hits, frames) and turn:
                 break
-        for after_impact in self.after_impact_hooks:
-            after_impact(group, impulses)
+            for _ in range(passes - 1):
+                if not press(hits, frames):
+                    break
+            for _ in range(passes):
+                if not rub(hits, frames):
+                    break
 
 
-def passes_for(count: int) -> int:
-    """Return how many passes over so many contacts may be made: none over one, which is simple."""
-    return 0 if count == 1 else min(PASSES, WORK // count)
+class Hit:
+    """A contact while its impact is resolved, together with those at the same moment."""
+
+    __slots__ = ("c", "mass", "mu", "pressed", "rubbed", "wanted")
+
+    def __init__(self, c: Contact, wanted: float, share: float) -> None:
+        self.c = c
+        self.wanted = wanted  # px/s, at which it is to separate
+        self.mu = c.mu * share
+        self.mass = c.mn  # kg, effective mass along the normal
+        self.pressed = self.rubbed = 0.0  # kg px/s, impulses along normal and tangent
+
+    def feel(self, frames: list[Frame]) -> None:
+        """Find out the effective mass, with all that hangs on the two bodies by rods."""
+        c, before = self.c, self.c.closing_speed()
+        for j in (c.mn, -c.mn):
+            c.push_apart(j)
+            hold(frames)
+            if j > 0:
+                share = before - c.closing_speed()
+        if share > FIXED:
+            self.mass = c.mn / share
+
+
+def press(hits: list[Hit], frames: list[Frame]) -> bool:
+    """Push each contact apart once. Return whether any impulse has changed."""
+    changed = False
+    for hit in hits:
+        c = hit.c
+        j = max(hit.pressed + hit.mass * (hit.wanted + c.closing_speed()), 0.0)
+        change, hit.pressed = j - hit.pressed, j
+        c.push_apart(change)
+        hold(frames)
+        changed = changed or abs(change) > CONVERGED * j
+    return changed
+
+
+def rub(hits: list[Hit], frames: list[Frame]) -> bool:
+    """Slow the slip of each contact once. Return whether any impulse has changed."""
+    changed = False
+    for hit in hits:
+        c, limit = hit.c, hit.mu * hit.pressed
+        if limit or hit.rubbed:
+            jt = max(-limit, min(limit, hit.rubbed - c.mt * c.slip()))
+            change, hit.rubbed = jt - hit.rubbed, jt
+            c.drag(change)
+            hold(frames)
+            changed = changed or abs(change) > CONVERGED * limit
+    return changed
+
+
+def hold(frames: list[Frame]) -> None:
+    """Have rods pass on what has been done to their balls."""
+    for frame in frames:
+        frame.hold()
+
+
+def settle(c: Contact, closing: float) -> tuple[float, float]:
+    """Return the law of contacts that stay together: see Bounce.law."""
+    return 0.0, 1.0
+
+
+def passes_for(count: int, frames: list[Frame]) -> int:
+    """Return how many passes over so many contacts may be made: one over one that is free."""
+    if count == 1 and not frames:
+        return 1
+    return max(min(PASSES, WORK // (count * (1 + sum([len(frame.rods) for frame in frames])))), 1)
 
 
 def balls_of(group: list[Contact]) -> list[Body]:

@@ -64,6 +64,7 @@ class Rods(Joints[Rod]):
         super().__init__()
         self.pace = Pace(STIFFENING)
         self.frames: list[Frame] = []
+        self.frame_of: dict[Body, Frame] = {}
         self.is_stale = False
 
     def add(self, rod: Rod) -> None:
@@ -99,9 +100,14 @@ class Rods(Joints[Rod]):
 
     def prepare(self, h: float) -> None:
         self.spring = softness(FREQUENCY / self.pace.follow(h), DAMPING_RATIO, h)
+        self.find_frames()
+
+    def find_frames(self) -> None:
+        """Find the rods that balls connect, if there are others than before."""
         if self.is_stale:
             self.is_stale = False
             self.frames = [Frame(network) for network in connect(self.awake)]
+            self.frame_of = {ball: frame for frame in self.frames for ball in frame.balls}
 
     def warm_start(self, h: float) -> None:
         for rod in self.awake:
@@ -183,6 +189,13 @@ class Frame:
         self.network.solve()
         for rod in self.rods:
             rod.apply_impulse(rod.rhs)
+
+    def hold(self) -> None:
+        """Pass an impact on: take from the balls all speed along the rods."""
+        for rod in self.rods:
+            rod.measure()
+            rod.pivot, rod.rhs = FIRM / rod.m, -rod.speed()
+        self.apply()
 
     def take_back_stretching(self) -> None:
         """Take from the balls all speed along the rods, where these are now (RATTLE)."""

@@ -5,13 +5,15 @@ No threshold comes from what the engine gives. Angles are in degrees, speeds in 
 
 import math
 import random
+from dataclasses import replace
 
 import pytest
 from samples import sample
 from worlds_for_tests import balls, build
 
 from experiments.measures import run, watch
-from experiments.scenes import BOUNCE, DT, Ball, Block, Scene, floor
+from experiments.rows.hits import gas
+from experiments.scenes import BOUNCE, DT, Ball, Block, G, Scene, floor
 
 IDEAL = {"restitution": 1.0, "friction": 0.0}
 SMOOTH = ("Contacts", "Bounce")
@@ -75,22 +77,26 @@ def test_a_ball_on_two_touching_balls_parts_them_evenly(friction):
         assert right.vy == pytest.approx(6 * 300 / 10, rel=0.05)
 
 
-@pytest.mark.parametrize("restitution", [1.0, 0.95, 0.9])
-def test_a_mirrored_break_stays_mirrored(restitution):
-    surface = {"restitution": restitution, "friction": 0.0}
-    way = math.sqrt(3) * 10
+@pytest.mark.parametrize("friction", [0.0, 0.05, 0.6])
+@pytest.mark.parametrize(("restitution", "gap"), [(1.0, 0), (0.95, 0), (0.9, 0.01), (0.5, 0)])
+def test_a_mirrored_break_stays_mirrored(restitution, gap, friction):
+    surface = {"restitution": restitution, "friction": friction}
+    width = 20 + gap
+    way = math.sqrt(3) * width / 2
     rack = [
-        Ball((20 * (i - row / 2), way * row), **surface) for row in range(5) for i in range(row + 1)
+        Ball((width * (i - row / 2), way * row), **surface)
+        for row in range(5)
+        for i in range(row + 1)
     ]
-    cue = Ball((0, -150), vel=(0, -1500.0 * -1), **surface)
-    world = build(Scene([*rack, cue], gravity=(0, 0)), *SMOOTH)
+    cue = Ball((0, -150), vel=(0, 1500.0), **surface)
+    world = build(Scene([*rack, cue], gravity=(0, 0)), *BOUNCE)
     run(world, 0.5)
     moved = balls(world)[:-1]
     for row in range(5):
         first = row * (row + 1) // 2
         for i in range(row + 1):
             one, other = moved[first + i], moved[first + row - i]
-            assert (one.x, one.y) == pytest.approx((-other.x, other.y), abs=1e-6)
+            assert (one.vx, one.vy) == pytest.approx((-other.vx, other.vy), abs=1500 * ROUNDING)
 
 
 def test_a_mirrored_drop_stays_mirrored():
@@ -177,7 +183,71 @@ def test_a_ring_of_rods_keeps_its_angular_momentum(effects):
     assert max(abs(now / before - 1) for now in seen) < 1e-6
 
 
+@pytest.mark.parametrize("fast", [300.0, 1500.0])
+@pytest.mark.parametrize("degrees", [0, 30, 60])
+@pytest.mark.parametrize("turn", sample([0, 30, 100], 2))
+@pytest.mark.parametrize("mass", [1.0, 1000.0])
+def test_a_ball_that_hits_the_end_of_a_rod_finds_the_other_end_behind_it(fast, degrees, turn, mass):
+    """Along the rod the end weighs as much as both, across it as much as itself."""
+    scene = oblique(degrees, fast, 60)
+    a = math.radians(turn)
+    scene.bodies.append(Ball((60 * math.cos(a), 60 * math.sin(a)), 10, mass, **IDEAL))
+    world = build(replace(scene, rods=[(0, 2)]), *SMOOTH, "Rods")
+    run(world, 100 / fast)
+    nx, ny = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    along = nx * math.cos(a) + ny * math.sin(a)
+    impulse = 2 * fast * nx / (1 + along**2 / (1 + mass) + 1 - along**2)
+    ball = balls(world)[1]
+    exact = fast - impulse * nx, -impulse * ny
+    assert (ball.vx, ball.vy) == pytest.approx(exact, abs=1e-6 * fast)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("masses", [(1.0, 1.0), (1.0, 100.0)])
+def test_a_rough_hit_of_two_dumbbells_keeps_momentum_and_creates_no_energy(masses, restitution):
+    surface = {"restitution": restitution, "friction": 0.6}
+    for at in range(-15, 16, 5):
+        ends = [
+            Ball((side * 25, 0), 10, m, **surface) for side, m in zip((-1, 1), masses, strict=True)
+        ]
+        flying = [Ball((30 + at, y), 10, vel=(-40.0, 400.0), **surface) for y in (-60, -110)]
+        world = build(
+            Scene([*ends, *flying], gravity=(0, 0), rods=[(0, 1), (2, 3)]), *BOUNCE, "Rods"
+        )
+        most = kinetic(world)
+        for _ in range(120):
+            world.step(DT)
+            assert kinetic(world) < most * (1 + 1e-6)
+        moved = [
+            sum(b.mass * v for b, v in zip(balls(world), way, strict=True))
+            for way in ([b.vx for b in balls(world)], [b.vy for b in balls(world)])
+        ]
+        assert moved == pytest.approx([-80, 800], abs=1e-6 * 800)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.6])
+@pytest.mark.parametrize("restitution", [0.3, 0.9])
+def test_friction_takes_mu_times_the_impulse_of_an_impact_and_no_more(mu, restitution):
+    """However far below the surface the impact is found. The last substep's gravity is open."""
+    surface = {"restitution": restitution, "friction": mu}
+    for height in range(290, 298):
+        ball = Ball((0, -10 - height), 10, vel=(3000.0, 0.0), **surface)
+        world = build(Scene([floor(**surface), ball]), *BOUNCE)
+        run(world, 0.9)
+        taken = 3000 - balls(world)[0].vx
+        exact = mu * (1 + restitution) * math.sqrt(2 * G * height)
+        assert taken == pytest.approx(exact, abs=mu * (1 + restitution) * G * DT / 4)
+
+
 # ---------------------------------------------------------------- rows of balls
+
+
+def test_a_gas_of_unequal_masses_keeps_its_energy():
+    """Even where balls meet slowly: without gravity, nothing rests."""
+    run_gas = build(gas(20, (1.0, 100.0)))
+    before = kinetic(run_gas)
+    run(run_gas, 10)
+    assert kinetic(run_gas) == pytest.approx(before, rel=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 5])
